@@ -1,0 +1,44 @@
+/* Error values and progress reports shared by every glint library. */
+#ifndef GLINT_COMMON_H
+#define GLINT_COMMON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum glint_code {
+    GLINT_OK = 0,
+    GLINT_ERROR_USAGE,       /* the caller asked for something that does not exist or is out of range */
+    GLINT_ERROR_IO,          /* the operating system refused: missing file, full disk */
+    GLINT_ERROR_FORMAT,      /* the file breaks a rule of FORMAT.md */
+    GLINT_ERROR_LIMIT,       /* within the format, but past a limit of this reader */
+    GLINT_ERROR_UNSUPPORTED, /* valid, but this build or device cannot do it */
+    GLINT_ERROR_MEMORY,
+    GLINT_ERROR_DEVICE,     /* a Vulkan call failed */
+    GLINT_ERROR_INTERRUPTED /* a progress callback asked to stop */
+};
+
+/* Zero-initialise. The message is one line without a newline, UTF-8, and names what was expected and found. */
+struct glint_error {
+    enum glint_code code;
+    char message[1024];
+};
+
+/* Sets *err unless err is NULL; always returns false, so that `return glint_fail(…)` reads well. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+bool glint_fail(struct glint_error *err, enum glint_code code, const char *format, ...);
+
+/* Called now and then by long work, from the thread that called glint. `done` is in [0, 1]; `what` is valid during
+   the call only. Returning false asks the work to stop: it then leaves complete files only and fails with
+   GLINT_ERROR_INTERRUPTED. */
+typedef bool (*glint_progress)(void *user, const char *what, double done);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,75 @@
+/* Multi-part scanline OpenEXR files through OpenEXRCore, chunks (de)compressed on all cores. The capture reader and
+   writer stand on this, and so does everything else in glint that reads or writes an EXR file.
+   The reader trusts nothing: sizes, counts and offsets are checked against limits before memory is taken. */
+#ifndef GLINT_EXR_H
+#define GLINT_EXR_H
+
+#include "glint/capture.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum glint_exr_attribute_type {
+    GLINT_EXR_STRING, GLINT_EXR_INT, GLINT_EXR_FLOAT, GLINT_EXR_DOUBLE, GLINT_EXR_V3D, GLINT_EXR_V3F,
+    GLINT_EXR_M44D, GLINT_EXR_FLOATS, GLINT_EXR_STRINGS, GLINT_EXR_OPAQUE /* any other type, passed on as bytes */
+};
+
+struct glint_exr_attribute {
+    const char *name;
+    enum glint_exr_attribute_type type;
+    const char *type_name;      /* EXR's own word for it */
+    const char *string;
+    const char *const *strings; /* `count` of them */
+    const double *numbers;      /* int, float, double: 1; v3: 3; m44d: 16, row-major; floats: `count` */
+    const void *bytes;          /* opaque: `count` bytes */
+    size_t count;
+};
+
+struct glint_exr_channel {
+    const char *name;
+    enum glint_stored stored;
+    const void *data; /* of the stored type; native byte order */
+    size_t x_stride_bytes, y_stride_bytes; /* 0: tight */
+};
+
+struct glint_exr_part {
+    const char *name;
+    uint32_t width, height;
+    const struct glint_exr_channel *channels; /* any order; the file sorts them */
+    size_t channel_count;
+    const struct glint_exr_attribute *attributes;
+    size_t attribute_count;
+    enum glint_compression compression;
+};
+
+/* Writes path.tmp-PID beside `path`, then renames. The memory is read during the call only. threads 0: all cores. */
+bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                     struct glint_error *err);
+
+struct glint_exr;
+struct glint_exr_part_info {
+    const char *name; /* "" for a single-part file without a name */
+    uint32_t width, height;
+    const struct glint_channel_info *channels;
+    size_t channel_count;
+    const struct glint_exr_attribute *attributes; /* without those that OpenEXR itself requires */
+    size_t attribute_count;
+};
+
+/* Single- or multi-part scanline files; tiled and deep parts are listed but reading them fails as unsupported. */
+struct glint_exr *glint_exr_open(const char *path, const struct glint_limits *limits, struct glint_error *err);
+void glint_exr_close(struct glint_exr **exr);
+size_t glint_exr_part_count(const struct glint_exr *exr);
+const struct glint_exr_part_info *glint_exr_part(const struct glint_exr *exr, size_t i);
+const struct glint_exr_attribute *glint_exr_attribute(const struct glint_exr_part_info *part, const char *name);
+/* out[(y·width + x)·count + i] is channels[i], as `type` (GLINT_F16, GLINT_F32, GLINT_U8, GLINT_U16, GLINT_U32); float
+   to integer conversions and the other way are refused, a value that does not fit an integer type is an error, half
+   and float convert. Half to half and float to float keep every bit. NULL for a channel yields 0. */
+bool glint_exr_read(struct glint_exr *exr, size_t part, const char *const *channels, size_t count,
+                    enum glint_type type, void *out, uint32_t threads, struct glint_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,11 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("G-buffer at the pipeline's resolution, normals jittered by the NDF")
+READ(texture2D, depth_full)
+READ(texture2D, normal_full)
+WRITE(image2D, depth_half, R32F, "m", HALF, "Z", INFINITY, "view-linear depth of the picked pixel; +inf where sky")
+WRITE(image2D, normal_jittered, RGBA16F, "1", HALF, "X Y Z roughness", 0, "normal drawn from the NDF around normal_half, world axes; w: roughness")
+WRITE(image2D, normal_half, RGBA16F, "1", HALF, "X Y Z roughness", 0, "unit normal as it was, world axes; w: roughness")
+WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was taken: x + 2y; 4: the block's centre")
+DISPATCH(depth_half)
+NEEDS(reflecting)

@@ -1,0 +1,111 @@
+/* What the passes declare, as the host sees it. Built from passes/SLOT/VARIANT.pass.h; nothing is written here twice. */
+#ifndef GLINT_PASSES_H
+#define GLINT_PASSES_H
+
+#include <stdint.h>
+
+#include "glint/capture.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum glint_row_kind {
+    GLINT_ROW_PASS,       /* title, source */
+    GLINT_ROW_SLOT,       /* title of the slot */
+    GLINT_ROW_READ,       /* an image that another pass or the capture makes */
+    GLINT_ROW_WRITE,      /* an image that this pass makes */
+    GLINT_ROW_DIAGNOSTIC, /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
+    GLINT_ROW_CAPTURE,    /* an image that comes from the capture (passes/capture_images.h) */
+    GLINT_ROW_SPEC,       /* a specialization constant */
+    GLINT_ROW_CHOICE,     /* a specialization constant with named values */
+    GLINT_ROW_PUSH,       /* a push constant */
+    GLINT_ROW_DISPATCH,   /* one invocation for each pixel of an image */
+    GLINT_ROW_NEEDS       /* a fact the capture must show for the pass to be needed */
+};
+
+enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
+
+/* Relative to the pipeline's resolution, to the cube maps, or a table that a host pass fills. */
+enum glint_size_class {
+    GLINT_SIZE_FULL,     /* the capture's resolution */
+    GLINT_SIZE_HALF,     /* half of it, rounded up; full under downsample/none */
+    GLINT_SIZE_CUBEMAPS, /* cube-map array: one cube of the capture's face size for each active cube map */
+    GLINT_SIZE_SKY,      /* the sky's cube map */
+    GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
+    GLINT_SIZE_CHAIN     /* 2D, chain length × active cube maps */
+};
+
+enum glint_format {
+    GLINT_FORMAT_R8UI, GLINT_FORMAT_R32UI, GLINT_FORMAT_R16F, GLINT_FORMAT_RG16F, GLINT_FORMAT_RGBA16F,
+    GLINT_FORMAT_R32F, GLINT_FORMAT_RG32F, GLINT_FORMAT_RGBA32F
+};
+
+struct glint_row {
+    enum glint_row_kind kind;
+    uint32_t id; /* binding or constant id: the row's line number */
+    const char *name;
+    /* images */
+    const char *glsl;     /* texture2D, image2D, … */
+    enum glint_format format;
+    enum glint_size_class size;
+    const char *unit;     /* images and parameters */
+    const char *channels; /* "R G B A", "Z", "X Y Z roughness" */
+    double nothing;       /* what a reader gets when the pass that makes it has nothing to do */
+    const char *role;     /* CAPTURE: the role, and in `source` its channels; "-" for a component left 0 */
+    bool required;        /* CAPTURE: false: `nothing` when absent */
+    /* parameters */
+    enum glint_value_type type;
+    double initial, lowest, highest;
+    const char *const *choices; /* CHOICE: names of 0, 1, …, NULL at the end */
+    /* all */
+    const char *source; /* which source document and section it comes from */
+    const char *help;   /* meaning or help */
+};
+
+struct glint_host_context;
+/* A pass that runs on the host: fills its small images (tables) from the capture's attributes. */
+typedef bool (*glint_host_pass)(struct glint_host_context *context, struct glint_error *err);
+
+struct glint_pass {
+    const char *slot, *variant;
+    const char *title, *source;
+    const struct glint_row *rows; /* slot.h's rows first or wherever it includes them */
+    size_t row_count;
+    const uint32_t *spirv; /* NULL for a host pass */
+    size_t spirv_bytes;
+    glint_host_pass host; /* NULL for a shader */
+};
+
+/* All passes, ordered by slot and variant name. */
+const struct glint_pass *glint_passes(size_t *count);
+const struct glint_pass *glint_pass_find(const char *slot, const char *variant);
+/* The rows of capture images. */
+const struct glint_row *glint_capture_images(size_t *count);
+/* The text of every file under passes/ that shaders include, for compiling a user's shader in-process. NULL: unknown. */
+const char *glint_pass_text(const char *path);
+
+/* ---- For host passes ---- */
+
+/* A table that the host fills: components is 1 or 4, uint32_t for uint formats and float otherwise. */
+struct glint_table {
+    const char *name;
+    uint32_t width, height, components;
+    union { float *f; uint32_t *u; } texels;
+};
+struct glint_host_context {
+    const struct glint_frame *frame;
+    double eye[3];                         /* world position of the camera, engine units */
+    const struct glint_cubemap *cubemaps;  /* the capture's, in order of their numbers */
+    size_t cubemap_count;
+    double (*value)(const struct glint_host_context *context, const char *parameter);
+    /* Makes the table of a WRITE row with the given size; NULL on failure. */
+    struct glint_table *(*table)(struct glint_host_context *context, const char *image, uint32_t width,
+                                 uint32_t height, struct glint_error *err);
+    void *user;
+};
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,17 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Colour at the rays' ends")
+READ(texture2D, depth_half)
+READ(texture2D, normal_jittered)
+READ(utexture2D, pick)
+READ(utexture2D, screen_finished)
+READ(texture2D, travelled)
+READ(utexture2D, cubemap_index)
+READ(texture2D, active_center)
+READ(texture2D, depth_full)
+READ(texture2D, lit)
+READ(textureCubeArray, cubemap_color)
+READ(textureCube, sky)
+WRITE(image2D, reflection_half, RGBA16F, "radiance", HALF, "R G B A", 0, "rgb: radiance that arrives along the ray; a: 1 where a source was found")
+DISPATCH(reflection_half)
+NEEDS(reflecting)

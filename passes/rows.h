@@ -1,0 +1,37 @@
+/* The host's reading of declaration rows: each becomes one struct glint_row. Included by the generated pass table. */
+#define ROW_IMAGE(row, glsl_kind, image, fmt, image_unit, image_size, image_channels, none, text)            \
+    {.kind = row, .id = __LINE__, .name = #image, .glsl = #glsl_kind, .format = GLINT_FORMAT_##fmt,          \
+     .size = GLINT_SIZE_##image_size, .unit = image_unit, .channels = image_channels, .nothing = (double)(none), .help = text},
+#define ROW_VALUE(row, cast, parameter, first, low, high, value_unit, from, text)                            \
+    {.kind = row, .id = __LINE__, .name = #parameter, .type = VALUE_##cast, .initial = (double)(first),      \
+     .lowest = (double)(low), .highest = (double)(high), .unit = value_unit, .source = from, .help = text},
+#define ROW_CHOICE(parameter, first, last, from, text, ...)                                                  \
+    {.kind = GLINT_ROW_CHOICE, .id = __LINE__, .name = #parameter, .type = GLINT_VALUE_INT, .initial = -1,   \
+     .lowest = 0, .highest = last, .unit = #first, .source = from, .help = text,                             \
+     .choices = (const char *const[]){__VA_ARGS__, NULL}},
+#define VALUE_int GLINT_VALUE_INT
+#define VALUE_uint GLINT_VALUE_UINT
+#define VALUE_float GLINT_VALUE_FLOAT
+#define VALUE_bool GLINT_VALUE_BOOL
+
+#define PASS(title, from) {.kind = GLINT_ROW_PASS, .id = __LINE__, .name = title, .source = from},
+#define SLOT(title) {.kind = GLINT_ROW_SLOT, .id = __LINE__, .name = title},
+#define READ(kind_, image) {.kind = GLINT_ROW_READ, .id = __LINE__, .name = #image, .glsl = #kind_},
+#define WRITE(kind_, image, fmt, unit_, size_, channels_, none, text) \
+    ROW_IMAGE(GLINT_ROW_WRITE, kind_, image, fmt, unit_, size_, channels_, none, text)
+#define DIAGNOSTIC(kind_, image, fmt, unit_, size_, channels_, none, text) \
+    ROW_IMAGE(GLINT_ROW_DIAGNOSTIC, kind_, image, fmt, unit_, size_, channels_, none, text)
+#define CAPTURE(image, fmt, unit_, size_, role_, from, must, none, text)                                     \
+    {.kind = GLINT_ROW_CAPTURE, .id = __LINE__, .name = #image, .format = GLINT_FORMAT_##fmt,                \
+     .size = GLINT_SIZE_##size_, .unit = unit_, .role = role_, .source = from, .required = must,             \
+     .nothing = (double)(none), .help = text},
+#define SPEC(type_, parameter, first, low, high, unit_, from, text) \
+    ROW_VALUE(GLINT_ROW_SPEC, type_, parameter, first, low, high, unit_, from, text)
+#define PUSH(type_, parameter, first, low, high, unit_, from, text) \
+    ROW_VALUE(GLINT_ROW_PUSH, type_, parameter, first, low, high, unit_, from, text)
+/* The default's place among the choices is looked up when the table is first used: `unit` holds its name. */
+#define CHOICE2(parameter, first, a, b, from, text) ROW_CHOICE(parameter, first, 1, from, text, #a, #b)
+#define CHOICE3(parameter, first, a, b, c, from, text) ROW_CHOICE(parameter, first, 2, from, text, #a, #b, #c)
+#define CHOICE4(parameter, first, a, b, c, d, from, text) ROW_CHOICE(parameter, first, 3, from, text, #a, #b, #c, #d)
+#define DISPATCH(image) {.kind = GLINT_ROW_DISPATCH, .id = __LINE__, .name = #image},
+#define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},

@@ -1,0 +1,12 @@
+/* Why a ray ended, read by C and GLSL. Rows: name, text. The place in the list is the value. */
+REASON(not_traced,      "no ray: sky, or a surface that reflects nothing")
+REASON(hit,             "hit a surface")
+REASON(left_screen,     "left the screen")
+REASON(steps_exhausted, "all steps used")
+REASON(behind,          "went behind a thin object")
+REASON(faced_viewer,    "ran towards the viewer")
+REASON(back_face,       "came at a surface from behind")
+REASON(sky,             "ended in the sky")
+REASON(shadow_region,   "entered a shadow region of every cube map of the chain")
+REASON(fallback,        "ended by the fallback")
+REASON(no_cubemap,      "no cube map to trace")

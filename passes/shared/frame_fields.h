@@ -1,0 +1,15 @@
+/* The uniform block that every pass sees (set 1, binding 0), read by C and GLSL. Rows: type, name, meaning.
+   "Camera-relative world" is the world's axes, metres, with the camera at the origin. */
+FIELD(mat4,  view_from_world,          "camera-relative world to view: a rotation")
+FIELD(mat4,  world_from_view,          "its inverse")
+FIELD(mat4,  previous_view_from_world, "camera-relative world of this frame to the previous camera's view")
+FIELD(vec4,  view_from_uv,             "view.xy at depth 1 = uv * xy + zw")
+FIELD(vec4,  uv_from_view,             "uv = view.xy / depth * xy + zw")
+FIELD(vec4,  previous_uv_from_view,    "the same for the previous camera")
+FIELD(vec4,  depth_range,              "x: near plane in m; y: far plane in m, +inf when there is none; z: sign of view z in front; w: previous z sign")
+FIELD(vec4,  fog_color,                "rgb: radiance; w: extinction per m at the base, 0 without fog")
+FIELD(vec4,  fog_height,               "x: camera's height over the base in m; y: scale height in m, 0 when uniform; zw: 0")
+FIELD(vec4,  up,                       "xyz: unit up axis; w: 0")
+FIELD(uvec4, size,                     "xy: full resolution; zw: pipeline's half resolution")
+FIELD(uvec4, counts,                   "x: active cube maps; y: frame number; z: cube face size; w: sky face size, 0 without a sky")
+FIELD(uvec4, flags,                    "x: 1 when there is a previous frame; y: 1 after a cut; z: chain length; w: 0")

@@ -1,0 +1,20 @@
+// Next include of a declaration: its PUSH rows become the push-constant block; close it with "};".
+// A block must not be empty, so it opens with a member of our own.
+#undef READ
+#undef WRITE
+#undef DIAGNOSTIC
+#undef SPEC
+#undef CHOICE2
+#undef CHOICE3
+#undef CHOICE4
+#undef PUSH
+#define READ(kind, name)
+#define WRITE(kind, name, format, unit, size, channels, nothing, meaning)
+#define DIAGNOSTIC(kind, name, format, unit, size, channels, nothing, meaning)
+#define SPEC(type, name, initial, lowest, highest, unit, source, help)
+#define CHOICE2(name, initial, a, b, source, help)
+#define CHOICE3(name, initial, a, b, c, source, help)
+#define CHOICE4(name, initial, a, b, c, d, source, help)
+#define PUSH(type, name, initial, lowest, highest, unit, source, help) type name;
+layout(push_constant, std430) uniform Parameters {
+    uint dispatch_index;

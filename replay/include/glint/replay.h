@@ -1,0 +1,141 @@
+/* Replays captures on Vulkan: devices, pipelines, plans, runs. Knows no pass by name. */
+#ifndef GLINT_REPLAY_H
+#define GLINT_REPLAY_H
+
+#include "glint/capture.h"
+#include "glint/passes.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Devices ---- */
+
+struct glint_device_info {
+    char name[256], driver[256], driver_version[256];
+    const char *type; /* "discrete", "integrated", "virtual", "cpu", "other" */
+    bool is_cpu, usable;
+    char reason[256]; /* why not usable */
+    uint32_t api_version;
+    uint64_t memory_bytes;
+};
+/* Fills up to `capacity` entries, best first, and returns how many devices there are; 0 with an error when Vulkan
+   itself cannot start. */
+size_t glint_devices(struct glint_device_info *devices, size_t capacity, struct glint_error *err);
+
+struct glint_device;
+struct glint_device_options {
+    const char *select; /* index or a part of the name, case ignored; NULL: $GLINT_DEVICE, else the best usable one */
+    bool validation;    /* the Khronos validation layer with synchronisation validation; $GLINT_VALIDATION=1 also */
+};
+struct glint_device *glint_device_create(const struct glint_device_options *options, struct glint_error *err);
+void glint_device_destroy(struct glint_device **device);
+const struct glint_device_info *glint_device_get_info(const struct glint_device *device);
+/* How many validation messages there were so far (warnings and errors); the last one's text, "" when none. */
+uint32_t glint_device_messages(const struct glint_device *device, const char **last);
+
+/* ---- Pipelines: which variant of each slot, with which parameter values ---- */
+
+struct glint_pipeline;
+/* `preset`: a name in the preset folders ($GLINT_PRESETS, the installed one) or a path to a JSON file. */
+struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err);
+void glint_pipeline_destroy(struct glint_pipeline **pipeline);
+const char *glint_pipeline_name(const struct glint_pipeline *pipeline);
+/* "slot=variant"; "none" leaves the slot out. */
+bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
+/* "slot.parameter=value"; out of range is an error that names the range. */
+bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
+/* "slot=file.comp": the slot's shader is compiled from this file instead. */
+bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
+size_t glint_pipeline_pass_count(const struct glint_pipeline *pipeline);
+const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeline, size_t i);
+double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct glint_pass *pass,
+                            const struct glint_row *parameter);
+
+/* ---- Replay ---- */
+
+struct glint_replay_options {
+    const char *const *passes; /* slots to run, NULL-terminated; NULL: all that the plan keeps */
+    const char *const *outputs; /* images wanted, NULL-terminated; NULL: all */
+    const char *inputs;        /* a run folder to read missing images from, or NULL */
+    const char *const *skip, *const *force; /* slots, NULL-terminated */
+    bool all;                  /* no pass is dropped for having nothing to do */
+    bool diagnostics;          /* end reasons, steps, fetches; changes no bit of the other images */
+    bool float_precision;      /* every half image as float */
+    uint32_t repeat;           /* timed rounds; 0: 1 */
+    uint32_t warmup;           /* rounds before them; 0: 1 */
+    bool no_cache;             /* run every pass although nothing changed */
+};
+
+struct glint_plan_entry {
+    const struct glint_pass *pass;
+    bool runs;
+    char reason[192]; /* why it runs or not, with the figure */
+};
+struct glint_time { uint32_t n; uint64_t min_ns, median_ns, max_ns; };
+struct glint_pass_result {
+    const struct glint_pass *pass;
+    bool ran, cached; /* cached: unchanged since the last run in this process */
+    char reason[192];
+    struct glint_time time; /* n = 0 when not timed */
+};
+struct glint_image {
+    const char *name;
+    const struct glint_row *row;
+    const struct glint_pass *pass; /* the one that makes it; NULL for a capture image */
+    enum glint_format format;      /* as it is, --precision included */
+    uint32_t width, height;        /* cubes: face size × 6 · layers faces below each other */
+    uint32_t components;
+};
+
+struct glint_replay;
+struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err);
+void glint_replay_destroy(struct glint_replay **replay);
+/* The capture stays the caller's and must outlive its use here; NULL unloads. */
+bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err);
+/* What would run. Reads what the survey needs from the capture. *entries is valid until the next call on `replay`. */
+bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                       const struct glint_replay_options *options, const struct glint_plan_entry **entries,
+                       size_t *count, struct glint_error *err);
+bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                      const struct glint_replay_options *options, glint_progress progress, void *user,
+                      struct glint_error *err);
+/* Results of the last run, in execution order; valid until the next run. */
+const struct glint_pass_result *glint_replay_results(const struct glint_replay *replay, size_t *count);
+/* Images made by the last run (or read from inputs). */
+size_t glint_replay_image_count(const struct glint_replay *replay);
+const struct glint_image *glint_replay_image(const struct glint_replay *replay, size_t i);
+const struct glint_image *glint_replay_find_image(const struct glint_replay *replay, const char *name);
+/* Copies an image to `out`: width·height·components values of GLINT_F32 (float formats), GLINT_U32 (uint formats) or
+   the image's own format (GLINT_F16, GLINT_U8). */
+bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
+                             void *out, struct glint_error *err);
+/* Writes `folder`/run.json and one EXR a pass; each file appears complete or not at all, run.json last. */
+bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
+                        struct glint_error *err);
+/* Seconds spent since the last load, by phase ("read", "upload", "passes", "readback", "write"). */
+double glint_replay_seconds(const struct glint_replay *replay, const char *phase);
+
+/* ---- Run folders, read back ---- */
+
+struct glint_run;
+struct glint_run_image {
+    const char *slot, *variant, *name, *unit, *meaning, *channels; /* channels as in the row: "R G B A" */
+    uint32_t width, height, components;
+    bool integer;
+};
+struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
+void glint_run_close(struct glint_run **run);
+/* The whole of run.json, as text. */
+const char *glint_run_json(const struct glint_run *run);
+size_t glint_run_image_count(const struct glint_run *run);
+const struct glint_run_image *glint_run_image(const struct glint_run *run, size_t i);
+const struct glint_run_image *glint_run_find(const struct glint_run *run, const char *name);
+/* GLINT_F32, GLINT_U32 or the stored type; bits are kept when the types agree. */
+bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, enum glint_type type, void *out,
+                    struct glint_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,49 @@
+/* The stand-in engine: sample scenes made by code, rendered with Embree and dumped through the public writer alone. */
+#ifndef GLINT_SAMPLES_H
+#define GLINT_SAMPLES_H
+
+#include "glint/capture.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum glint_probes {
+    GLINT_PROBES_IMPERFECT, /* as games have them: static objects only, simplified meshes, metals as diffuse */
+    GLINT_PROBES_PERFECT,   /* the very scene; for tests that need closed forms */
+    GLINT_PROBES_AUTO       /* placed by the sampler (glTF files) */
+};
+
+struct glint_sample_options {
+    uint32_t width, height; /* 0: 1280 × 720 */
+    uint32_t cube_size;     /* 0: 256 */
+    uint32_t frames;        /* 0: 1; more make a shot OUT.0001.exr … that shares its cube maps */
+    uint32_t first_frame;   /* number of the first frame */
+    bool probes_given;      /* false: the scene's default */
+    enum glint_probes probes;
+    struct glint_encodings encodings;
+    uint32_t truth_samples; /* rays a pixel for truth.*; 0: none of these parts */
+    uint32_t light_samples; /* rays a point for indirect light; 0: the scene's default */
+    double fov_y_rad;       /* 0: the scene's */
+    bool camera_given;      /* position, then a point looked at, in world units */
+    double eye[3], target[3];
+    double offset[3];       /* added to every position in double before it is stored (the scene is not rendered again) */
+    enum glint_compression compression;
+    uint32_t threads;
+};
+
+struct glint_sample {
+    const char *name, *summary; /* "street", "wet road with puddles, …" */
+};
+/* All built-in scenes; *count receives how many. */
+const struct glint_sample *glint_samples(size_t *count);
+
+/* Renders a built-in scene or a glTF file and writes `out` (a shot: out with .NNNN before the suffix). The same options
+   give the same bytes. */
+bool glint_sample_write(const char *scene, const char *out, const struct glint_sample_options *options,
+                        glint_progress progress, void *user, struct glint_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
