@@ -21,11 +21,11 @@ extern "C" {
 /* ---- Encodings: how an engine stored what a role means. 0 is the canonical one, which the reader decodes to. ---- */
 
 enum glint_depth_encoding {
-    GLINT_DEPTH_VIEW_LINEAR,       /* distance along the view axis in units; +inf under sky */
-    GLINT_DEPTH_DEVICE,            /* NDC z of view_to_clip in [0, 1]; 1 is sky */
-    GLINT_DEPTH_REVERSED,          /* the same with near at 1; 0 is sky */
-    GLINT_DEPTH_REVERSED_INFINITE, /* near at 1, 0 is infinity and sky */
-    GLINT_DEPTH_LOGARITHMIC,       /* log(z/near)/log(far/near); 1 is sky */
+    GLINT_DEPTH_VIEW_LINEAR,         /* distance along the view axis in units; +inf under sky */
+    GLINT_DEPTH_DEVICE,              /* NDC z of view_to_clip in [0, 1]; 1 is sky */
+    GLINT_DEPTH_REVERSED,            /* the same with near at 1; 0 is sky */
+    GLINT_DEPTH_REVERSED_INFINITE,   /* near at 1, 0 is infinity and sky */
+    GLINT_DEPTH_LOGARITHMIC,         /* log(z/near)/log(far/near); 1 is sky */
     GLINT_DEPTH_LOGARITHMIC_REVERSED /* one minus that; 0 is sky */
 };
 enum glint_normal_encoding {
@@ -90,14 +90,14 @@ struct glint_frame {
     struct glint_camera camera;
     struct glint_camera previous; /* the camera one frame earlier */
     bool has_previous;
-    bool cut;                 /* nothing of the previous frame is of use */
-    bool has_player;          /* false: cube maps are selected around the camera */
-    double player[3];         /* world position */
-    double jitter_px[2];      /* sub-pixel offset contained in view_to_clip; +x right, +y down */
-    double exposure;          /* factor from scene-referred to display; 0: 1 */
-    double pre_exposure;      /* factor contained in pre-exposed colour; 0: 1 */
-    double metres_per_unit;   /* 0: 1 */
-    double depth_near;        /* for logarithmic depth */
+    bool cut;               /* nothing of the previous frame is of use */
+    bool has_player;        /* false: cube maps are selected around the camera */
+    double player[3];       /* world position */
+    double jitter_px[2];    /* sub-pixel offset contained in view_to_clip; +x right, +y down */
+    double exposure;        /* factor from scene-referred to display; 0: 1 */
+    double pre_exposure;    /* factor contained in pre-exposed colour; 0: 1 */
+    double metres_per_unit; /* 0: 1 */
+    double depth_near;      /* for logarithmic depth */
     double depth_far;
     double motion_range;      /* for packed motion: the uv offset of the largest value; 0: 1 */
     uint32_t number;          /* frame number; seeds what changes from frame to frame */
@@ -137,7 +137,15 @@ struct glint_planar {
 
 /* How the caller's memory holds a channel. The file stores half, float or uint, whichever is exact. */
 enum glint_type {
-    GLINT_F16, GLINT_F32, GLINT_U8, GLINT_U16, GLINT_U32, GLINT_UNORM8, GLINT_UNORM16, GLINT_SNORM8, GLINT_SNORM16
+    GLINT_F16,
+    GLINT_F32,
+    GLINT_U8,
+    GLINT_U16,
+    GLINT_U32,
+    GLINT_UNORM8,
+    GLINT_UNORM16,
+    GLINT_SNORM8,
+    GLINT_SNORM16
 };
 
 struct glint_channel {
@@ -165,7 +173,8 @@ struct glint_part {
     struct glint_encodings encodings;
     const struct glint_cubemap *cubemap; /* required for cubemap.NNN */
     const struct glint_planar *planar;   /* required for planar.NNN */
-    const char *sibling; /* cubemap.NNN only: a file in the same folder that holds a part of this name; no channels then */
+    const char
+        *sibling; /* cubemap.NNN only: a file in the same folder that holds a part of this name; no channels then */
     const struct glint_attribute *attributes;
     size_t attribute_count;
 };
@@ -173,7 +182,12 @@ struct glint_part {
 /* ---- Writer ---- */
 
 enum glint_compression {
-    GLINT_ZIP, GLINT_NONE, GLINT_ZIPS, GLINT_PIZ, GLINT_PXR24 /* loses 8 bits of float */, GLINT_RLE
+    GLINT_ZIP,
+    GLINT_NONE,
+    GLINT_ZIPS,
+    GLINT_PIZ,
+    GLINT_PXR24 /* loses 8 bits of float */,
+    GLINT_RLE
 };
 
 struct glint_writer_options {
@@ -229,7 +243,7 @@ struct glint_part_info {
     bool has_cubemap, has_planar;
     struct glint_cubemap cubemap;
     struct glint_planar planar;
-    char sibling[256];                    /* "" or the file that holds the pixels; sizes and channels are that file's */
+    char sibling[256]; /* "" or the file that holds the pixels; sizes and channels are that file's */
     const struct glint_attribute *attributes; /* those that glint does not know (string, double, int, float) */
     size_t attribute_count;
 };

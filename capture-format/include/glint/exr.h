@@ -11,14 +11,22 @@ extern "C" {
 #endif
 
 enum glint_exr_attribute_type {
-    GLINT_EXR_STRING, GLINT_EXR_INT, GLINT_EXR_FLOAT, GLINT_EXR_DOUBLE, GLINT_EXR_V3D, GLINT_EXR_V3F,
-    GLINT_EXR_M44D, GLINT_EXR_FLOATS, GLINT_EXR_STRINGS, GLINT_EXR_OPAQUE /* any other type, passed on as bytes */
+    GLINT_EXR_STRING,
+    GLINT_EXR_INT,
+    GLINT_EXR_FLOAT,
+    GLINT_EXR_DOUBLE,
+    GLINT_EXR_V3D,
+    GLINT_EXR_V3F,
+    GLINT_EXR_M44D,
+    GLINT_EXR_FLOATS,
+    GLINT_EXR_STRINGS,
+    GLINT_EXR_OPAQUE /* any other type, passed on as bytes */
 };
 
 struct glint_exr_attribute {
     const char *name;
     enum glint_exr_attribute_type type;
-    const char *type_name;      /* EXR's own word for it */
+    const char *type_name; /* EXR's own word for it */
     const char *string;
     const char *const *strings; /* `count` of them */
     const double *numbers;      /* int, float, double: 1; v3: 3; m44d: 16, row-major; floats: `count` */
@@ -29,7 +37,7 @@ struct glint_exr_attribute {
 struct glint_exr_channel {
     const char *name;
     enum glint_stored stored;
-    const void *data; /* of the stored type; native byte order */
+    const void *data;                      /* of the stored type; native byte order */
     size_t x_stride_bytes, y_stride_bytes; /* 0: tight */
 };
 
@@ -66,8 +74,8 @@ const struct glint_exr_attribute *glint_exr_attribute(const struct glint_exr_par
 /* out[(y·width + x)·count + i] is channels[i], as `type` (GLINT_F16, GLINT_F32, GLINT_U8, GLINT_U16, GLINT_U32); float
    to integer conversions and the other way are refused, a value that does not fit an integer type is an error, half
    and float convert. Half to half and float to float keep every bit. NULL for a channel yields 0. */
-bool glint_exr_read(struct glint_exr *exr, size_t part, const char *const *channels, size_t count,
-                    enum glint_type type, void *out, uint32_t threads, struct glint_error *err);
+bool glint_exr_read(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, enum glint_type type,
+                    void *out, uint32_t threads, struct glint_error *err);
 
 #ifdef __cplusplus
 }

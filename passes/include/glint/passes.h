@@ -37,8 +37,14 @@ enum glint_size_class {
 };
 
 enum glint_format {
-    GLINT_FORMAT_R8UI, GLINT_FORMAT_R32UI, GLINT_FORMAT_R16F, GLINT_FORMAT_RG16F, GLINT_FORMAT_RGBA16F,
-    GLINT_FORMAT_R32F, GLINT_FORMAT_RG32F, GLINT_FORMAT_RGBA32F
+    GLINT_FORMAT_R8UI,
+    GLINT_FORMAT_R32UI,
+    GLINT_FORMAT_R16F,
+    GLINT_FORMAT_RG16F,
+    GLINT_FORMAT_RGBA16F,
+    GLINT_FORMAT_R32F,
+    GLINT_FORMAT_RG32F,
+    GLINT_FORMAT_RGBA32F
 };
 
 struct glint_row {
@@ -46,7 +52,7 @@ struct glint_row {
     uint32_t id; /* binding or constant id: the row's line number */
     const char *name;
     /* images */
-    const char *glsl;     /* texture2D, image2D, … */
+    const char *glsl; /* texture2D, image2D, … */
     enum glint_format format;
     enum glint_size_class size;
     const char *unit;     /* images and parameters */
@@ -91,17 +97,20 @@ const char *glint_pass_text(const char *path);
 struct glint_table {
     const char *name;
     uint32_t width, height, components;
-    union { float *f; uint32_t *u; } texels;
+    union {
+        float *f;
+        uint32_t *u;
+    } texels;
 };
 struct glint_host_context {
     const struct glint_frame *frame;
-    double eye[3];                         /* world position of the camera, engine units */
-    const struct glint_cubemap *cubemaps;  /* the capture's, in order of their numbers */
+    double eye[3];                        /* world position of the camera, engine units */
+    const struct glint_cubemap *cubemaps; /* the capture's, in order of their numbers */
     size_t cubemap_count;
     double (*value)(const struct glint_host_context *context, const char *parameter);
     /* Makes the table of a WRITE row with the given size; NULL on failure. */
-    struct glint_table *(*table)(struct glint_host_context *context, const char *image, uint32_t width,
-                                 uint32_t height, struct glint_error *err);
+    struct glint_table *(*table)(struct glint_host_context *context, const char *image, uint32_t width, uint32_t height,
+                                 struct glint_error *err);
     void *user;
 };
 

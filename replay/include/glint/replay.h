@@ -55,16 +55,16 @@ double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct 
 /* ---- Replay ---- */
 
 struct glint_replay_options {
-    const char *const *passes; /* slots to run, NULL-terminated; NULL: all that the plan keeps */
-    const char *const *outputs; /* images wanted, NULL-terminated; NULL: all */
-    const char *inputs;        /* a run folder to read missing images from, or NULL */
+    const char *const *passes;              /* slots to run, NULL-terminated; NULL: all that the plan keeps */
+    const char *const *outputs;             /* images wanted, NULL-terminated; NULL: all */
+    const char *inputs;                     /* a run folder to read missing images from, or NULL */
     const char *const *skip, *const *force; /* slots, NULL-terminated */
-    bool all;                  /* no pass is dropped for having nothing to do */
-    bool diagnostics;          /* end reasons, steps, fetches; changes no bit of the other images */
-    bool float_precision;      /* every half image as float */
-    uint32_t repeat;           /* timed rounds; 0: 1 */
-    uint32_t warmup;           /* rounds before them; 0: 1 */
-    bool no_cache;             /* run every pass although nothing changed */
+    bool all;                               /* no pass is dropped for having nothing to do */
+    bool diagnostics;                       /* end reasons, steps, fetches; changes no bit of the other images */
+    bool float_precision;                   /* every half image as float */
+    uint32_t repeat;                        /* timed rounds; 0: 1 */
+    uint32_t warmup;                        /* rounds before them; 0: 1 */
+    bool no_cache;                          /* run every pass although nothing changed */
 };
 
 struct glint_plan_entry {
@@ -72,7 +72,10 @@ struct glint_plan_entry {
     bool runs;
     char reason[192]; /* why it runs or not, with the figure */
 };
-struct glint_time { uint32_t n; uint64_t min_ns, median_ns, max_ns; };
+struct glint_time {
+    uint32_t n;
+    uint64_t min_ns, median_ns, max_ns;
+};
 struct glint_pass_result {
     const struct glint_pass *pass;
     bool ran, cached; /* cached: unchanged since the last run in this process */

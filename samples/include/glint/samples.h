@@ -27,7 +27,7 @@ struct glint_sample_options {
     double fov_y_rad;       /* 0: the scene's */
     bool camera_given;      /* position, then a point looked at, in world units */
     double eye[3], target[3];
-    double offset[3];       /* added to every position in double before it is stored (the scene is not rendered again) */
+    double offset[3]; /* added to every position in double before it is stored (the scene is not rendered again) */
     enum glint_compression compression;
     uint32_t threads;
 };

@@ -1,0 +1,34 @@
+"""Checks what clang-format cannot: file lengths, headers that compile alone in C and C++, C++ only in shims."""
+import os
+import subprocess
+import sys
+import tempfile
+
+LONGEST = 500
+files = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True,
+                       text=True, check=True).stdout.split("\n")
+faults = []
+for f in files:
+    if not f.endswith((".c", ".h", ".cc", ".glsl", ".comp", ".py")) or not os.path.exists(f):
+        continue
+    with open(f, encoding="utf-8") as text:
+        lines = text.read().split("\n")
+    if len(lines) > LONGEST:
+        faults.append(f"{f}: {len(lines)} lines, at most {LONGEST}")
+    if lines and lines[0].strip() == "":
+        faults.append(f"{f}: does not open with its responsibility")
+    for n, line in enumerate(lines, 1):
+        if line.rstrip() != line:
+            faults.append(f"{f}:{n}: trailing space")
+includes = [a for d in ("capture-format", "passes", "replay", "samples") for a in ("-I", f"{d}/include")]
+for h in (f for f in files if "/include/glint/" in f):
+    for command in (["gcc", "-std=c11"], ["g++", "-std=c++17", "-x", "c++"]):
+        with tempfile.NamedTemporaryFile("w", suffix=".c") as unit:
+            unit.write(f'#include "{os.path.abspath(h)}"\n')
+            unit.flush()
+            run = subprocess.run([*command, "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Werror", *includes,
+                                  unit.name], capture_output=True, text=True)
+        if run.returncode:
+            faults.append(f"{h}: does not compile alone with {command[0]}:\n{run.stderr}")
+print("\n".join(faults), file=sys.stderr)
+sys.exit(1 if faults else 0)
