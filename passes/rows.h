@@ -1,4 +1,17 @@
-/* The host's reading of declaration rows: each becomes one struct glint_row. Included by the generated pass table. */
+/* The host's second reading of declarations: each row becomes one struct glint_row. Included by the generated pass
+   table after names.h, whose names it uses. */
+#undef PASS
+#undef SLOT
+#undef READ
+#undef WRITE
+#undef DIAGNOSTIC
+#undef SPEC
+#undef PUSH
+#undef CHOICE2
+#undef CHOICE3
+#undef CHOICE4
+#undef DISPATCH
+#undef NEEDS
 #define ROW_IMAGE(row, glsl_kind, image, fmt, image_unit, image_size, image_channels, none, text)            \
     {.kind = row, .id = __LINE__, .name = #image, .glsl = #glsl_kind, .format = GLINT_FORMAT_##fmt,          \
      .size = GLINT_SIZE_##image_size, .unit = image_unit, .channels = image_channels, .nothing = (double)(none), .help = text},
@@ -6,13 +19,13 @@
     {.kind = row, .id = __LINE__, .name = #parameter, .type = VALUE_##cast, .initial = (double)(first),      \
      .lowest = (double)(low), .highest = (double)(high), .unit = value_unit, .source = from, .help = text},
 #define ROW_CHOICE(parameter, first, last, from, text, ...)                                                  \
-    {.kind = GLINT_ROW_CHOICE, .id = __LINE__, .name = #parameter, .type = GLINT_VALUE_INT, .initial = -1,   \
-     .lowest = 0, .highest = last, .unit = #first, .source = from, .help = text,                             \
+    {.kind = GLINT_ROW_CHOICE, .id = __LINE__, .name = #parameter, .type = GLINT_VALUE_INT,                  \
+     .initial = PLACE(parameter, first), .lowest = 0, .highest = last, .unit = "1", .source = from, .help = text,                             \
      .choices = (const char *const[]){__VA_ARGS__, NULL}},
 #define VALUE_int GLINT_VALUE_INT
 #define VALUE_uint GLINT_VALUE_UINT
 #define VALUE_float GLINT_VALUE_FLOAT
-#define VALUE_bool GLINT_VALUE_BOOL
+#define VALUE__Bool GLINT_VALUE_BOOL /* <stdbool.h> makes bool a macro */
 
 #define PASS(title, from) {.kind = GLINT_ROW_PASS, .id = __LINE__, .name = title, .source = from},
 #define SLOT(title) {.kind = GLINT_ROW_SLOT, .id = __LINE__, .name = title},
@@ -29,7 +42,6 @@
     ROW_VALUE(GLINT_ROW_SPEC, type_, parameter, first, low, high, unit_, from, text)
 #define PUSH(type_, parameter, first, low, high, unit_, from, text) \
     ROW_VALUE(GLINT_ROW_PUSH, type_, parameter, first, low, high, unit_, from, text)
-/* The default's place among the choices is looked up when the table is first used: `unit` holds its name. */
 #define CHOICE2(parameter, first, a, b, from, text) ROW_CHOICE(parameter, first, 1, from, text, #a, #b)
 #define CHOICE3(parameter, first, a, b, c, from, text) ROW_CHOICE(parameter, first, 2, from, text, #a, #b, #c)
 #define CHOICE4(parameter, first, a, b, c, d, from, text) ROW_CHOICE(parameter, first, 3, from, text, #a, #b, #c, #d)

@@ -1,0 +1,22 @@
+/* The host's first reading of declarations: names the title and numbers the choices, so that the second can use both as
+   constants. Included by the generated pass table, which defines PASS_ID around each declaration. */
+#define PASTE2_(a, b) a##_##b
+#define PASTE2(a, b) PASTE2_(a, b)
+#define PASTE4_(a, b, c, d) a##_##b##_##c##_##d
+#define PASTE4(a, b, c, d) PASTE4_(a, b, c, d)
+#define PLACE(parameter, choice) PASTE4(place, PASS_ID, parameter, choice)
+
+#define PASS(text, from) static const char PASTE2(title, PASS_ID)[] = text, PASTE2(source, PASS_ID)[] = from;
+#define SLOT(title)
+#define READ(kind, image)
+#define WRITE(kind, image, format, unit, size, channels, nothing, text)
+#define DIAGNOSTIC(kind, image, format, unit, size, channels, nothing, text)
+#define SPEC(type, parameter, initial, lowest, highest, unit, source, text)
+#define PUSH(type, parameter, initial, lowest, highest, unit, source, text)
+#define CHOICE2(parameter, initial, a, b, source, text) enum { PLACE(parameter, a), PLACE(parameter, b) };
+#define CHOICE3(parameter, initial, a, b, c, source, text) \
+    enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c) };
+#define CHOICE4(parameter, initial, a, b, c, d, source, text) \
+    enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c), PLACE(parameter, d) };
+#define DISPATCH(image)
+#define NEEDS(fact)

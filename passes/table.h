@@ -1,0 +1,22 @@
+/* The functions over the generated tables; included at the end of the generated file. */
+const struct glint_pass *glint_passes(size_t *count) {
+    *count = sizeof pass_table / sizeof pass_table[0];
+    return pass_table;
+}
+
+const struct glint_pass *glint_pass_find(const char *slot, const char *variant) {
+    for (size_t i = 0; i < sizeof pass_table / sizeof pass_table[0]; i++)
+        if (strcmp(pass_table[i].slot, slot) == 0 && strcmp(pass_table[i].variant, variant) == 0) return &pass_table[i];
+    return NULL;
+}
+
+const struct glint_row *glint_capture_images(size_t *count) {
+    *count = sizeof capture_rows / sizeof capture_rows[0];
+    return capture_rows;
+}
+
+const char *glint_pass_text(const char *path) {
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        if (strcmp(texts[i].path, path) == 0) return texts[i].text;
+    return NULL;
+}
