@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "bindings.glsl"
+#include "brdf.pass.h"
+#include "push_begin.glsl"
+#include "brdf.pass.h"
+};
+#include "brdf.glsl"
+#include "camera.glsl"
+
+// How much of the reflection the surface sends to the viewer.
+vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
+    vec4 base = texelFetch(albedo_full, pixel, 0);
+    float specular = texelFetch(specular_full, pixel, 0).x;
+    vec3 f0 = reflectance_at_normal(base.rgb, base.a, specular);
+    if (!fresnel) return f0;
+    vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
+    vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
+    float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);
+    return environment_reflectance(f0, clamp(surface.w, 0.0, 1.0), cosine);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(composed)))) return;
+    vec3 color = texelFetch(lit, pixel, 0).rgb;
+    float depth_m = texelFetch(depth_full, pixel, 0).x;
+    vec4 surface = texelFetch(normal_full, pixel, 0);
+    if (reflects(depth_m, surface.xyz))
+        color += intensity * weight(pixel, depth_m, surface) * texelFetch(reflection, pixel, 0).rgb;
+    imageStore(composed, pixel, vec4(color, 1.0));
+}

@@ -1,0 +1,38 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "bindings.glsl"
+#include "nearest.pass.h"
+#include "push_begin.glsl"
+#include "nearest.pass.h"
+};
+#include "camera.glsl"
+
+uint nearest_place(vec3 position) {
+    uint best = 255u;
+    float best_distance2 = INFINITE;
+    for (uint i = 0u; i < frame.counts.x; ++i) {
+        vec3 offset = position - texelFetch(active_center, ivec2(i, 0), 0).xyz;
+        float distance2 = dot(offset, offset);
+        if (distance2 < best_distance2) {
+            best_distance2 = distance2;
+            best = i;
+        }
+    }
+    return best;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;
+    float depth_m = texelFetch(depth_half, pixel, 0).x;
+    vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
+    uint best = 255u;
+    if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal)) {
+        vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
+        vec3 position = mat3(frame.world_from_view) *
+                        view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        best = nearest_place(position + mirror_direction(position, normal) * texelFetch(screen_travelled, pixel, 0).x);
+    }
+    imageStore(cubemap_best, pixel, uvec4(best));
+}

@@ -1,0 +1,8 @@
+// Constants that several passes need; each stands here once.
+#ifndef GLINT_CONSTANTS
+#define GLINT_CONSTANTS
+const float PI = 3.14159265358979324;
+const float HALF_PI = 1.57079632679489662;
+const float INFINITE = 1.0 / 0.0;
+const float LARGEST = 3.0e38;      // anything above is treated as infinite
+#endif

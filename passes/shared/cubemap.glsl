@@ -1,0 +1,31 @@
+// Cube-map geometry in Vulkan's orientation (specification, Cube Map Face Selection).
+#ifndef GLINT_CUBEMAP
+#define GLINT_CUBEMAP
+
+// xy: place on the face in [0, 1]² from its top left corner; z: face 0 … 5 for +X -X +Y -Y +Z -Z.
+vec3 face_from_direction(vec3 d) {
+    vec3 a = abs(d);
+    if (a.z >= a.x && a.z >= a.y)
+        return vec3(0.5 + 0.5 * vec2(d.z < 0.0 ? -d.x : d.x, -d.y) / a.z, d.z < 0.0 ? 5.0 : 4.0);
+    if (a.y >= a.x) return vec3(0.5 + 0.5 * vec2(d.x, d.y < 0.0 ? -d.z : d.z) / a.y, d.y < 0.0 ? 3.0 : 2.0);
+    return vec3(0.5 + 0.5 * vec2(d.x < 0.0 ? d.z : -d.z, -d.y) / a.x, d.x < 0.0 ? 1.0 : 0.0);
+}
+
+// The inverse; the largest component is ±1.
+vec3 direction_from_face(vec3 face) {
+    vec2 p = 2.0 * face.xy - 1.0;
+    int f = int(face.z);
+    if (f == 0) return vec3(1.0, -p.y, -p.x);
+    if (f == 1) return vec3(-1.0, -p.y, p.x);
+    if (f == 2) return vec3(p.x, 1.0, p.y);
+    if (f == 3) return vec3(p.x, -1.0, -p.y);
+    if (f == 4) return vec3(p.x, -p.y, 1.0);
+    return vec3(-p.x, -p.y, -1.0);
+}
+
+// Width in radians that one texel spans across the direction d: 2/size at distance 1, seen from |d| / largest component.
+float texel_angle(vec3 d, float face_size) {
+    vec3 a = abs(d);
+    return 2.0 / face_size * max(a.x, max(a.y, a.z)) * inversesqrt(dot(d, d));
+}
+#endif

@@ -1,0 +1,21 @@
+// Fog along a ray.
+#ifndef GLINT_FOG
+#define GLINT_FOG
+#include "constants.glsl"
+#include "stable.glsl"
+
+// Integral of density · exp(-height/scale) over a ray of length_m that starts `height` over the base and climbs `slope`
+// metres per metre; scale 0: the same density everywhere. Exponents stay below 80, where fog is opaque anyway.
+float fog_optical_depth(float density, float height, float slope, float scale_m, float length_m) {
+    if (density <= 0.0 || length_m <= 0.0) return 0.0;
+    if (scale_m <= 0.0) return density * length_m;
+    float start = exp(min(-height / scale_m, 80.0));
+    float climb = slope / scale_m; // the exponent falls by this in each metre
+    if (length_m >= LARGEST) return climb > 0.0 ? density * start / climb : LARGEST;
+    float fall = climb * length_m;
+    if (abs(fall) < 1e-6) return density * start * length_m;
+    if (fall < -80.0) return LARGEST;
+    return density * start * -expm1(-fall) / climb;
+}
+float fog_factor(float optical_depth) { return -expm1(-optical_depth); }
+#endif

@@ -1,0 +1,27 @@
+// Random numbers from a hash: no state, the same bits on every device.
+#ifndef GLINT_RANDOM
+#define GLINT_RANDOM
+
+// What a number is used for; numbers of different dimensions are independent.
+const uint RANDOM_SCREEN_START = 1u;
+const uint RANDOM_STEP_SCALE = 2u;
+const uint RANDOM_NDF = 16u; // and those after it: one for each try
+
+// Four hashed words. M. Jarzynski, M. Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020: pcg4d.
+uvec4 hash4(uvec4 v) {
+    v = v * 1664525u + 1013904223u;
+    for (int round = 0; round < 2; ++round) {
+        v.x += v.y * v.w;
+        v.y += v.z * v.x;
+        v.z += v.x * v.y;
+        v.w += v.y * v.z;
+        if (round == 0) v ^= v >> 16u;
+    }
+    return v;
+}
+
+// Uniform in the open interval (0, 1). The words stay integers up to here; 23 bits and a half are exact in a float.
+vec4 random4(uvec2 pixel, uint frame_number, uint dimension) {
+    return (vec4(hash4(uvec4(pixel, frame_number, dimension)) >> 9u) + 0.5) * 1.1920928955078125e-7;
+}
+#endif

@@ -1,0 +1,81 @@
+// Distributions of microfacet normals, in a frame whose z is the surface normal. Roughness is perceptual in [0, 1];
+// 0 gives the normal itself, exactly, and nothing in between loses precision as lobes become narrow.
+#ifndef GLINT_SAMPLING
+#define GLINT_SAMPLING
+#include "constants.glsl"
+#include "stable.glsl"
+
+// Blinn-Phong power n = 2/r⁴ - 2 of a roughness (000, Combining importance sampling with pre-filtering: 0.5 is 30).
+float power_from_roughness(float roughness) {
+    float r2 = roughness * roughness;
+    return 2.0 / (r2 * r2) - 2.0;
+}
+
+// The angle at which cosⁿ falls to `threshold`: acos(threshold^(1/n)), same slide. From the roughness, because 1/n and
+// 1/(n+1) stay finite where n does not: 1/n = r⁴/(2 - 2r⁴).
+float lobe_angle(float roughness, float threshold) {
+    float r2 = roughness * roughness, r4 = r2 * r2;
+    if (r4 >= 1.0) return HALF_PI;
+    return angle_from_versine(-expm1(log(threshold) * r4 / (2.0 - 2.0 * r4)));
+}
+
+// Half-vector with density ∝ cosⁿ per solid angle, cut at share · lobe_angle (000, Modified NDF):
+// θ = acos(u^(1/(n+1))) with u scaled into [minRnd, 1), minRnd = cos(share · angle)^(n+1). share = 1 cuts nothing.
+// Deviation: 1 - cos θ is computed instead of cos θ, so that θ is right for any power.
+vec3 sample_blinn_phong(vec2 u, float roughness, float share, float threshold) {
+    float r2 = roughness * roughness, r4 = r2 * r2;
+    float inverse = r4 / (2.0 - r4); // 1/(n+1)
+    if (inverse == 0.0) return vec3(0.0, 0.0, 1.0);
+    float lowest = 0.0;
+    if (share < 1.0) {
+        float s = sin(0.5 * share * lobe_angle(roughness, threshold));
+        lowest = exp(log1p(-2.0 * s * s) / inverse);
+    }
+    float versine = -expm1(log(mix(lowest, 1.0, u.x)) * inverse); // 1 - cos θ
+    float sine = sqrt(max(versine * (2.0 - versine), 0.0));
+    float phi = 2.0 * PI * u.y;
+    return vec3(sine * cos(phi), sine * sin(phi), 1.0 - versine);
+}
+
+// GGX visible normal, alpha = r². J. Dupuy, A. Benyoub, Sampling Visible GGX Normals with Spherical Caps, CGF 42(8),
+// 2023: the view direction stretched, a point of the cap it sees, the half-vector unstretched. view: from the surface.
+vec3 sample_ggx_visible(vec2 u, vec3 view, float alpha) {
+    vec3 stretched = normalize(vec3(alpha * view.xy, max(view.z, 1e-6)));
+    float z = (1.0 - u.x) * (1.0 + stretched.z) - stretched.z;
+    float sine = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+    float phi = 2.0 * PI * u.y;
+    vec3 h = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+    return normalize(vec3(alpha * h.xy, max(h.z, 1e-20)));
+}
+
+// tan² of share · the angle at which GGX's density falls to `threshold` of its peak:
+// D(θ)/D(0) = 1/(cos²θ + sin²θ/α²)², so sin²θ = (threshold^(-1/2) - 1) / (1/α² - 1).
+float ggx_cut_tangent2(float alpha, float share, float threshold) {
+    float a2 = alpha * alpha;
+    float sine2 = min((inversesqrt(threshold) - 1.0) * a2 / max(1.0 - a2, 1e-6), 1.0);
+    float t = tan(min(share * asin(sqrt(sine2)), HALF_PI - 1e-4));
+    return t * t;
+}
+
+// GGX normal with density ∝ D cosθ cut there: tan²θ = α² u/(1 - u), u scaled into [0, u(cut)). The slides' cut carried over
+// to GGX. Deviation from sample_ggx_visible: masking is left out, because the visible distribution has no such inverse.
+vec3 sample_ggx_cut(vec2 u, float alpha, float share, float threshold) {
+    float a2 = alpha * alpha;
+    float cut = ggx_cut_tangent2(alpha, share, threshold);
+    float x = u.x * (a2 > 0.0 ? cut / (a2 + cut) : 0.0);
+    float tangent2 = a2 * x / (1.0 - x);
+    float cosine = inversesqrt(1.0 + tangent2);
+    float sine = sqrt(tangent2) * cosine;
+    float phi = 2.0 * PI * u.y;
+    return vec3(sine * cos(phi), sine * sin(phi), cosine);
+}
+
+// Two unit vectors that make a right-handed frame with unit n. T. Duff et al., Building an Orthonormal Basis, Revisited,
+// JCGT 6(1), 2017, equation 3 with the sign of z carried along.
+void tangent_frame(vec3 n, out vec3 tangent, out vec3 bitangent) {
+    float side = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (side + n.z), b = n.x * n.y * a;
+    tangent = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+    bitangent = vec3(b, side + n.y * n.y * a, -n.y);
+}
+#endif
