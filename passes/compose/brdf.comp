@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "bindings.glsl"
+#include "shared/bindings.glsl"
 #include "brdf.pass.h"
-#include "push_begin.glsl"
+#include "shared/push_begin.glsl"
 #include "brdf.pass.h"
 };
-#include "brdf.glsl"
-#include "camera.glsl"
+#include "shared/brdf.glsl"
+#include "shared/camera.glsl"
 
 // How much of the reflection the surface sends to the viewer.
 vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {

@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "bindings.glsl"
+#include "shared/bindings.glsl"
 #include "nearest.pass.h"
-#include "push_begin.glsl"
+#include "shared/push_begin.glsl"
 #include "nearest.pass.h"
 };
-#include "camera.glsl"
+#include "shared/camera.glsl"
 
 uint nearest_place(vec3 position) {
     uint best = 255u;

@@ -1,15 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "bindings.glsl"
+#include "shared/bindings.glsl"
 #include "march.pass.h"
-#include "push_begin.glsl"
+#include "shared/push_begin.glsl"
 #include "march.pass.h"
 };
-#include "camera.glsl"
-#include "end_reasons.glsl"
-#include "random.glsl"
-#include "steps.glsl"
+#include "shared/camera.glsl"
+#include "shared/end_reasons.glsl"
+#include "shared/random.glsl"
+#include "shared/steps.glsl"
 
 const uint NO_PLACE = 255u;
 

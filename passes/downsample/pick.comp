@@ -1,14 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "bindings.glsl"
+#include "shared/bindings.glsl"
 #include "pick.pass.h"
-#include "push_begin.glsl"
+#include "shared/push_begin.glsl"
 #include "pick.pass.h"
 };
-#include "camera.glsl"
-#include "random.glsl"
-#include "sampling.glsl"
+#include "shared/camera.glsl"
+#include "shared/random.glsl"
+#include "shared/sampling.glsl"
 
 // Which pixel of the block a frame prefers; a diagonal first, so that two frames already cover both rows and columns.
 const uint PREFERRED[4] = uint[](0u, 3u, 1u, 2u);

@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "bindings.glsl"
+#include "shared/bindings.glsl"
 #include "hit.pass.h"
-#include "push_begin.glsl"
+#include "shared/push_begin.glsl"
 #include "hit.pass.h"
 };
-#include "camera.glsl"
-#include "fog.glsl"
+#include "shared/camera.glsl"
+#include "shared/fog.glsl"
 
 vec3 sky_color(vec3 direction) { return textureLod(samplerCube(sky, linear_clamp), direction, 0.0).rgb; }
 

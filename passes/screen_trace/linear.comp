@@ -1,14 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "bindings.glsl"
+#include "shared/bindings.glsl"
 #include "linear.pass.h"
-#include "push_begin.glsl"
+#include "shared/push_begin.glsl"
 #include "linear.pass.h"
 };
-#include "camera.glsl"
-#include "end_reasons.glsl"
-#include "random.glsl"
+#include "shared/camera.glsl"
+#include "shared/end_reasons.glsl"
+#include "shared/random.glsl"
 
 // A ray in the picture. At parameter s its place is start + s · across (full-resolution pixels) and its inverse depth
 // is inverse + s · inverse_rate: with w for depth and P, D for projected origin and direction, the ray parameter is

@@ -3,7 +3,7 @@
 // (frame.depth_range.z). See frame_fields.h.
 #ifndef GLINT_CAMERA
 #define GLINT_CAMERA
-#include "constants.glsl"
+#include "shared/constants.glsl"
 
 vec3 view_position(vec2 uv, float depth_m, vec4 view_from_uv, float front) {
     return depth_m * vec3(uv * view_from_uv.xy + view_from_uv.zw, front);

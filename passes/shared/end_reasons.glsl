@@ -2,6 +2,6 @@
 #ifndef GLINT_END_REASONS
 #define GLINT_END_REASONS
 #define REASON(name, text) const uint END_##name = __LINE__ - 2;
-#include "end_reasons.h"
+#include "shared/end_reasons.h"
 #undef REASON
 #endif

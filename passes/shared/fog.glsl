@@ -1,8 +1,8 @@
 // Fog along a ray.
 #ifndef GLINT_FOG
 #define GLINT_FOG
-#include "constants.glsl"
-#include "stable.glsl"
+#include "shared/constants.glsl"
+#include "shared/stable.glsl"
 
 // Integral of density · exp(-height/scale) over a ray of length_m that starts `height` over the base and climbs `slope`
 // metres per metre; scale 0: the same density everywhere. Exponents stay below 80, where fog is opaque anyway.

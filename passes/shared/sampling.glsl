@@ -2,8 +2,8 @@
 // 0 gives the normal itself, exactly, and nothing in between loses precision as lobes become narrow.
 #ifndef GLINT_SAMPLING
 #define GLINT_SAMPLING
-#include "constants.glsl"
-#include "stable.glsl"
+#include "shared/constants.glsl"
+#include "shared/stable.glsl"
 
 // Blinn-Phong power n = 2/r⁴ - 2 of a roughness (000, Combining importance sampling with pre-filtering: 0.5 is 30).
 float power_from_roughness(float roughness) {

@@ -1,7 +1,7 @@
 // Geometric step series: step, step·k, step·k², …
 #ifndef GLINT_STEPS
 #define GLINT_STEPS
-#include "stable.glsl"
+#include "shared/stable.glsl"
 
 // First of `count` steps with ratio k that sum to `total` (000, ComputeInitialStep): total (k - 1)/(k^count - 1).
 float geometric_first_step(float total, float ratio, int count) {

@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "bindings.glsl"
+#include "shared/bindings.glsl"
 #include "bilinear.pass.h"
-#include "push_begin.glsl"
+#include "shared/push_begin.glsl"
 #include "bilinear.pass.h"
 };
-#include "camera.glsl"
+#include "shared/camera.glsl"
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
