@@ -47,9 +47,9 @@ def main():
               f'     .rows = rows_{symbol}, .row_count = sizeof rows_{symbol} / sizeof rows_{symbol}[0]}},']
     c += ['};', '']
     for i, path in enumerate(texts):
-        c += [f'static const char text_{i}[] = {{', '    ' + byte_array(path.read_bytes() + b'\0'), '};']
+        c += [f'static const unsigned char text_{i}[] = {{', '    ' + byte_array(path.read_bytes() + b'\0'), '};']
     c += ['static const struct { const char *path, *text; } texts[] = {']
-    c += [f'    {{"{path.relative_to(root).as_posix()}", text_{i}}},' for i, path in enumerate(texts)]
+    c += [f'    {{"{path.relative_to(root).as_posix()}", (const char *)text_{i}}},' for i, path in enumerate(texts)]
     c += ['};', '', '#include "table.h"', '']
     pathlib.Path(out).write_text('\n'.join(c))
     watched = texts + sorted({p.parent for p in texts} | {root})
