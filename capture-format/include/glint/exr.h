@@ -15,6 +15,7 @@ enum glint_exr_attribute_type {
     GLINT_EXR_INT,
     GLINT_EXR_FLOAT,
     GLINT_EXR_DOUBLE,
+    GLINT_EXR_V2D,
     GLINT_EXR_V3D,
     GLINT_EXR_V3F,
     GLINT_EXR_M44D,
@@ -29,7 +30,7 @@ struct glint_exr_attribute {
     const char *type_name; /* EXR's own word for it */
     const char *string;
     const char *const *strings; /* `count` of them */
-    const double *numbers;      /* int, float, double: 1; v3: 3; m44d: 16, row-major; floats: `count` */
+    const double *numbers;      /* int, float, double: 1; v2: 2; v3: 3; m44d: 16, row-major; floats: `count` */
     const void *bytes;          /* opaque: `count` bytes */
     size_t count;
 };

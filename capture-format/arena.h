@@ -1,0 +1,18 @@
+/* Many small allocations that live and die together. */
+#ifndef GLINT_ARENA_H
+#define GLINT_ARENA_H
+
+#include <stddef.h>
+
+struct glint_arena {
+    struct glint_arena_block *last;
+    size_t bytes; /* taken so far */
+};
+
+/* Zeroed, aligned for any type; NULL when memory is out. */
+void *glint_arena_take(struct glint_arena *arena, size_t bytes);
+void *glint_arena_copy(struct glint_arena *arena, const void *data, size_t bytes);
+char *glint_arena_string(struct glint_arena *arena, const char *string);
+void glint_arena_finish(struct glint_arena *arena);
+
+#endif

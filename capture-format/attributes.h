@@ -1,0 +1,28 @@
+/* The structs of capture.h to EXR attributes and back, by the rows of the registry. */
+#ifndef GLINT_ATTRIBUTES_H
+#define GLINT_ATTRIBUTES_H
+
+#include "arena.h"
+#include "check.h"
+#include "glint/exr.h"
+
+struct glint_attribute_list {
+    struct glint_exr_attribute *all;
+    size_t count, capacity;
+};
+
+/* A place for one more, zeroed; NULL when memory is out. */
+struct glint_exr_attribute *glint_attribute_push(struct glint_arena *arena, struct glint_attribute_list *list);
+bool glint_attribute_push_string(struct glint_arena *arena, struct glint_attribute_list *list, const char *name,
+                                 const char *value);
+
+/* Adds what `from` (the scope's struct) holds. False when memory is out or a value has no name. */
+bool glint_attributes_encode(struct glint_arena *arena, struct glint_attribute_list *list, enum glint_scope scope,
+                             const void *from);
+/* Fills `to` (zeroed) from the part's attributes and checks them: types, ranges, matrices, volumes. */
+bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
+                             void *to);
+/* Whether the name belongs to glint (any `glint.` name). */
+bool glint_attribute_is_ours(const char *name);
+
+#endif

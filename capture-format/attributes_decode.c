@@ -1,0 +1,226 @@
+/* EXR attributes to the structs of capture.h, by the rows of the registry, and their checks. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "attributes.h"
+
+struct context {
+    struct glint_check *check;
+    const struct glint_exr_part_info *part;
+    const struct glint_attribute_row *row;
+};
+
+#define BROKEN(c, rule, ...)                                                                                           \
+    glint_violation((c)->check, GLINT_RULE_##rule, (c)->part->name, (c)->row->name, __VA_ARGS__)
+
+bool glint_attribute_is_ours(const char *name) {
+    return !strncmp(name, "glint.", 6);
+}
+
+static enum glint_exr_attribute_type exr_type(enum glint_attribute_kind kind) {
+    static const struct {
+        const char *name;
+        enum glint_exr_attribute_type type;
+    } types[] = {{"m44d", GLINT_EXR_M44D},     {"v3d", GLINT_EXR_V3D},
+                 {"v2d", GLINT_EXR_V2D},       {"double", GLINT_EXR_DOUBLE},
+                 {"v3f", GLINT_EXR_V3F},       {"int", GLINT_EXR_INT},
+                 {"string", GLINT_EXR_STRING}, {"stringvector", GLINT_EXR_STRINGS}};
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (!strcmp(types[i].name, glint_kind_type(kind))) return types[i].type;
+    return GLINT_EXR_OPAQUE;
+}
+
+static bool in_range(enum glint_range range, double v) {
+    switch (range) {
+    case GLINT_RANGE_POSITIVE:
+        return v > 0;
+    case GLINT_RANGE_NOT_NEGATIVE:
+        return v >= 0;
+    case GLINT_RANGE_UNIT:
+        return v > 0 && v <= 1;
+    case GLINT_RANGE_ANY:
+        break;
+    }
+    return true;
+}
+
+/* ---- matrices ---- */
+
+static bool check_view(struct context *c, const double *m) {
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+        return BROKEN(c, MATRIX, "expected the last row 0 0 0 1, found %g %g %g %g", m[12], m[13], m[14], m[15]);
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
+            const double dot = m[4 * i] * m[4 * j] + m[4 * i + 1] * m[4 * j + 1] + m[4 * i + 2] * m[4 * j + 2];
+            if (!(fabs(dot - (i == j)) <= 1e-3))
+                return BROKEN(c, MATRIX, "expected a rotation, found rows %d and %d with the product %g", i, j, dot);
+        }
+    return true;
+}
+
+static bool check_clip(struct context *c, const double *m) {
+    static const int zeros[] = {1, 3, 4, 7, 8, 9, 12, 13, 15};
+    for (size_t i = 0; i < sizeof zeros / sizeof *zeros; i++)
+        if (!(fabs(m[zeros[i]]) <= 1e-9))
+            return BROKEN(c, MATRIX, "expected 0 in row %d column %d, found %g", zeros[i] / 4, zeros[i] % 4,
+                          m[zeros[i]]);
+    if (!(fabs(fabs(m[14]) - 1) <= 1e-9))
+        return BROKEN(c, MATRIX, "expected 1 or -1 in row 3 column 2, found %g", m[14]);
+    if (m[0] == 0 || m[5] == 0 || m[11] == 0)
+        return BROKEN(c, MATRIX, "expected an invertible matrix, found %g, %g and %g for a, b and B", m[0], m[5],
+                      m[11]);
+    return true;
+}
+
+/* ---- lists ---- */
+
+static bool parse_class(const char *text, struct glint_stencil_class *class) {
+    unsigned long numbers[2];
+    for (int i = 0; i < 2; i++) {
+        char *end = NULL;
+        if (*text < '0' || *text > '9') return false;
+        numbers[i] = strtoul(text, &end, 10);
+        if (numbers[i] > UINT32_MAX || *end != (i ? '=' : '/')) return false;
+        text = end + 1;
+    }
+    if (!*text || strlen(text) >= sizeof class->name) return false;
+    class->value = (uint32_t)numbers[0];
+    class->mask = (uint32_t)numbers[1];
+    snprintf(class->name, sizeof class->name, "%s", text);
+    return true;
+}
+
+static bool decode_classes(struct context *c, const struct glint_exr_attribute *from, struct glint_frame *frame) {
+    if (from->count > GLINT_MAX_STENCIL_CLASSES)
+        return BROKEN(c, ATTRIBUTE, "expected at most %d classes, found %zu", GLINT_MAX_STENCIL_CLASSES, from->count);
+    for (size_t i = 0; i < from->count; i++)
+        if (parse_class(from->strings[i], &frame->classes[frame->class_count])) frame->class_count++;
+        else if (!BROKEN(c, ATTRIBUTE, "expected value/mask=name, found \"%.60s\"", from->strings[i])) return false;
+    return true;
+}
+
+static bool decode_planes(struct context *c, struct glint_cubemap *cubemap) {
+    for (unsigned i = 0; i < GLINT_MAX_PLANES / 4; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s.%02u", c->row->name, i);
+        const struct glint_exr_attribute *from = glint_exr_attribute(c->part, name);
+        if (!from) break;
+        if (from->type != GLINT_EXR_M44D)
+            return BROKEN(c, ATTRIBUTE, "expected an m44d attribute, found %s", from->type_name);
+        for (unsigned r = 0; r < 4; r++) {
+            const double *plane = from->numbers + 4 * r;
+            if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0 && plane[3] == 0) return true;
+            if (!isfinite(plane[0]) || !isfinite(plane[1]) || !isfinite(plane[2]) || !isfinite(plane[3]))
+                return BROKEN(c, ATTRIBUTE, "expected finite numbers, found %g %g %g %g", plane[0], plane[1], plane[2],
+                              plane[3]);
+            memcpy(cubemap->planes[cubemap->plane_count++], plane, 4 * sizeof *plane);
+        }
+    }
+    return true;
+}
+
+static bool check_volume(struct context *c, const struct glint_cubemap *cubemap) {
+    if (cubemap->inner == GLINT_VOLUME_BOX)
+        for (int i = 0; i < 3; i++)
+            if (!(cubemap->box_min[i] < cubemap->box_max[i]))
+                return BROKEN(c, VOLUME, "expected boxMin < boxMax, found %g and %g on axis %d", cubemap->box_min[i],
+                              cubemap->box_max[i], i);
+    if (cubemap->inner == GLINT_VOLUME_SPHERE && !(cubemap->sphere_radius > 0))
+        return BROKEN(c, VOLUME, "expected a positive sphereRadius, found %g", cubemap->sphere_radius);
+    if (cubemap->inner != GLINT_VOLUME_HULL) return true;
+    if (cubemap->plane_count < 4)
+        return BROKEN(c, VOLUME, "expected 4 to %d planes, found %u", GLINT_MAX_PLANES, cubemap->plane_count);
+    for (uint32_t i = 0; i < cubemap->plane_count; i++)
+        if (cubemap->planes[i][0] == 0 && cubemap->planes[i][1] == 0 && cubemap->planes[i][2] == 0)
+            return BROKEN(c, VOLUME, "expected a normal that is not zero, found one in plane %u", i);
+    return true;
+}
+
+/* ---- one attribute ---- */
+
+static bool decode_name(struct context *c, const struct glint_exr_attribute *from, void *member) {
+    const char *const *names = glint_kind_names(c->row->kind);
+    for (int i = 0; names[i]; i++)
+        if (!strcmp(names[i], from->string)) {
+            memcpy(member, &i, sizeof i);
+            return true;
+        }
+    return BROKEN(c, ATTRIBUTE, "expected one of its names (\"%s\", …), found \"%.60s\"", names[0], from->string);
+}
+
+static bool decode_numbers(struct context *c, const struct glint_exr_attribute *from, void *member) {
+    const double *n = from->numbers;
+    for (size_t i = 0; i < from->count; i++) {
+        if (!isfinite(n[i])) return BROKEN(c, ATTRIBUTE, "expected finite numbers, found %g", n[i]);
+        if (!in_range(c->row->range, n[i])) return BROKEN(c, ATTRIBUTE, "expected it in range, found %g", n[i]);
+    }
+    switch (c->row->kind) {
+    case GLINT_KIND_CAMERA_VIEW:
+        memcpy(member, n, 16 * sizeof *n);
+        return check_view(c, n);
+    case GLINT_KIND_CAMERA_CLIP:
+        memcpy(member, n, 16 * sizeof *n);
+        return check_clip(c, n);
+    case GLINT_KIND_PLANE:
+        memcpy(member, n, 4 * sizeof *n);
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+            return BROKEN(c, ATTRIBUTE, "expected a normal that is not zero, found zero");
+        return true;
+    case GLINT_KIND_UINT:
+        memcpy(member, &(uint32_t){(uint32_t)(int32_t)n[0]}, 4);
+        return true;
+    case GLINT_KIND_BOOL:
+        memcpy(member, &(bool){n[0] != 0}, sizeof(bool));
+        return true;
+    case GLINT_KIND_V3FLOAT:
+        for (int i = 0; i < 3; i++) memcpy((char *)member + 4 * i, &(float){(float)n[i]}, 4);
+        return true;
+    default:
+        memcpy(member, n, from->count * sizeof *n);
+        return true;
+    }
+}
+
+static bool decode_row(struct context *c, void *to) {
+    const struct glint_attribute_row *row = c->row;
+    if (row->kind == GLINT_KIND_PLANES) return decode_planes(c, to);
+    void *member = (char *)to + row->offset;
+    const struct glint_exr_attribute *from = glint_exr_attribute(c->part, row->name);
+    if (!from) {
+        if (row->kind == GLINT_KIND_DOUBLE) memcpy(member, &row->fallback, sizeof row->fallback);
+        const bool wanted = row->required && (row->group == GLINT_NO_GROUP || *(bool *)((char *)to + row->group));
+        return wanted ? BROKEN(c, ATTRIBUTE, "missing") : true;
+    }
+    if (from->type != exr_type(row->kind))
+        return BROKEN(c, ATTRIBUTE, "expected type %s, found %s", glint_kind_type(row->kind), from->type_name);
+    switch (row->kind) {
+    case GLINT_KIND_CLASSES:
+        return decode_classes(c, from, to);
+    case GLINT_KIND_AXIS:
+    case GLINT_KIND_CLIP_Y:
+    case GLINT_KIND_CLIP_Z:
+    case GLINT_KIND_VOLUME:
+        return decode_name(c, from, member);
+    default:
+        return decode_numbers(c, from, member);
+    }
+}
+
+bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
+                             void *to) {
+    size_t count = 0;
+    const struct glint_attribute_row *rows = glint_attribute_rows(&count);
+    struct context c = {.check = check, .part = part};
+    /* A group is there as soon as one of its attributes is: the others are then missing. */
+    for (size_t i = 0; i < count; i++)
+        if (rows[i].scope == scope && rows[i].group != GLINT_NO_GROUP && glint_exr_attribute(part, rows[i].name))
+            *(bool *)((char *)to + rows[i].group) = true;
+    for (size_t i = 0; i < count; i++) {
+        c.row = &rows[i];
+        if (rows[i].scope == scope && !decode_row(&c, to)) return false;
+        if (rows[i].scope == scope && rows[i].kind == GLINT_KIND_PLANES && !check_volume(&c, to)) return false;
+    }
+    return true;
+}

@@ -1,0 +1,59 @@
+/* An open capture. */
+#ifndef GLINT_CAPTURE_INTERNAL_H
+#define GLINT_CAPTURE_INTERNAL_H
+
+#include "exr_internal.h"
+#include "part.h"
+
+/* Another file in the capture's folder that holds pixels of its cube maps. */
+struct glint_sibling {
+    char *name;
+    char hex[33];
+    struct glint_exr *exr;
+};
+
+/* Where a part's pixels are. */
+struct glint_source {
+    struct glint_exr *exr;
+    size_t part;
+};
+
+struct glint_capture {
+    struct glint_exr *exr;
+    struct glint_arena arena;
+    struct glint_part_info *parts;
+    struct glint_source *sources;
+    size_t count;
+    struct glint_sibling *siblings;
+    size_t sibling_count;
+    struct glint_frame frame;
+    bool has_frame;
+};
+
+/* The reader's open, and validate's: the check decides whether a broken rule ends it. */
+struct glint_capture *glint_capture_open_checked(const char *path, const struct glint_limits *limits,
+                                                 struct glint_check *check);
+
+/* What decoding needs to know about the frame that a part belongs to. */
+struct glint_decoder {
+    const struct glint_frame *frame;
+    const struct glint_camera *camera; /* the one that depth and view-space normals refer to */
+    struct glint_encodings encodings;
+    uint32_t width, height;
+};
+#define GLINT_BLOCK 256 /* pixels decoded at a time */
+
+/* In place, `count` <= GLINT_BLOCK values as stored (widened to float) to canonical ones. */
+void glint_decode_depth(const struct glint_decoder *d, float *v, size_t count);
+void glint_decode_roughness(const struct glint_decoder *d, float *v, size_t count);
+void glint_decode_motion(const struct glint_decoder *d, int axis, float *v, size_t count);
+/* From uint channels. */
+void glint_decode_motion_packed(const struct glint_decoder *d, const uint32_t *in, float *v, size_t count);
+void glint_decode_color(const struct glint_decoder *d, float *v, size_t count);
+void glint_decode_length(const struct glint_decoder *d, float *v, size_t count);
+/* n[0], n[1], n[2] to unit world normals; n[2] is not read when the encoding is octahedral. `lengths` receives their
+   lengths before they were made unit, or NULL. */
+void glint_decode_normal(const struct glint_decoder *d, enum glint_normal_encoding encoding, float *const n[3],
+                         float *lengths, size_t count);
+
+#endif

@@ -1,0 +1,255 @@
+/* Reads channels of a part, decoded block by block in the threads that decompress them. */
+#include <stdio.h>
+#include <string.h>
+
+#include "capture_internal.h"
+#include "half.h"
+
+enum decoding { AS_STORED, LENGTH, DEPTH, NORMAL, ROUGHNESS, MOTION, PACKED, COLOR };
+
+/* One wanted channel: which planes of the file it comes from and what is done to them. */
+struct output {
+    enum decoding decoding;
+    enum glint_normal_encoding normal;
+    int axis;     /* X, Y, Z: 0, 1, 2 */
+    int plane[3]; /* of the file's wanted channels; a normal has X, Y, Z, the others one; -1 for none */
+};
+
+struct job {
+    struct glint_decoder decoder;
+    const char *names[GLINT_EXR_MAX_WANTED];
+    enum glint_stored stored[GLINT_EXR_MAX_WANTED];
+    size_t planes;
+    struct output outputs[GLINT_EXR_MAX_WANTED];
+    size_t count;
+    enum glint_type type;
+    uint8_t *out;
+};
+
+/* The index of a file channel among those to read; adds it once. -1 when the part has none or there is no room. */
+static int want(struct job *job, const struct glint_exr_part_info *part, const char *name) {
+    for (size_t i = 0; i < job->planes; i++)
+        if (!strcmp(job->names[i], name)) return (int)i;
+    const int at = glint_exr_channel(part, name);
+    if (at < 0 || job->planes == GLINT_EXR_MAX_WANTED) return -1;
+    job->names[job->planes] = part->channels[at].name;
+    job->stored[job->planes] = part->channels[at].stored;
+    return (int)job->planes++;
+}
+
+static int axis_of(const char *name) {
+    const char last = name[strlen(name) - 1];
+    return last == 'Y' ? 1 : last == 'Z' ? 2 : 0;
+}
+
+static enum decoding decoding_of(const struct glint_part_info *part, const struct glint_role_channel *row) {
+    if (!row) return AS_STORED;
+    const int encoding = glint_part_encoding(part, row);
+    if (!strcmp(row->encoding, "depth")) return DEPTH;
+    if (!strcmp(row->encoding, "normal") || !strcmp(row->encoding, "vertex_normal")) return NORMAL;
+    if (!strcmp(row->encoding, "roughness")) return encoding == GLINT_ROUGHNESS_PERCEPTUAL ? AS_STORED : ROUGHNESS;
+    if (!strcmp(row->encoding, "motion"))
+        return encoding == GLINT_MOTION_UV ? AS_STORED : encoding == GLINT_MOTION_PACKED16 ? PACKED : MOTION;
+    if (!strcmp(row->encoding, "color")) return encoding == GLINT_COLOR_LINEAR ? AS_STORED : COLOR;
+    return !strcmp(row->unit, "m") ? LENGTH : AS_STORED;
+}
+
+static bool plan_normal(struct job *job, const struct glint_part_info *part, const struct glint_exr_part_info *file,
+                        const struct glint_role_channel *row, struct output *to) {
+    char name[64];
+    snprintf(name, sizeof name, "%s", row->name);
+    to->normal = (enum glint_normal_encoding)glint_part_encoding(part, row);
+    for (int axis = 0; axis < 3; axis++) {
+        name[strlen(name) - 1] = "XYZ"[axis];
+        to->plane[axis] = axis == 2 && to->normal == GLINT_NORMAL_OCTAHEDRAL ? -1 : want(job, file, name);
+        if (to->plane[axis] < 0 && !(axis == 2 && to->normal == GLINT_NORMAL_OCTAHEDRAL)) return false;
+    }
+    return true;
+}
+
+static bool plan_output(struct job *job, const struct glint_part_info *part, const struct glint_exr_part_info *file,
+                        const char *name, struct output *to) {
+    *to = (struct output){.plane = {-1, -1, -1}};
+    if (!name) return true;
+    const struct glint_role_channel *row = glint_role_channel_find(part->role, name);
+    to->decoding = decoding_of(part, row);
+    to->axis = axis_of(name);
+    if (to->decoding == NORMAL) return plan_normal(job, part, file, row, to);
+    to->plane[0] = want(job, file, name);
+    return to->plane[0] >= 0;
+}
+
+/* ---- blocks ---- */
+
+static void widen(enum glint_stored stored, const uint8_t *in, size_t count, float *out) {
+    if (stored == GLINT_STORED_FLOAT) {
+        memcpy(out, in, count * 4);
+        return;
+    }
+    uint16_t half[GLINT_BLOCK];
+    memcpy(half, in, count * 2);
+    for (size_t i = 0; i < count; i++) out[i] = glint_half_to_float(half[i]);
+}
+
+static void put(const struct job *job, const float *values, size_t count, uint8_t *out) {
+    if (job->type == GLINT_F32) {
+        for (size_t i = 0; i < count; i++) memcpy(out + 4 * i * job->count, &values[i], 4);
+        return;
+    }
+    uint16_t half[GLINT_BLOCK];
+    for (size_t i = 0; i < count; i++) half[i] = glint_float_to_half(values[i]);
+    for (size_t i = 0; i < count; i++) memcpy(out + 2 * i * job->count, &half[i], 2);
+}
+
+/* Bits stay as they are where nothing is decoded and the types agree. */
+static bool put_as_stored(const struct job *job, const struct output *from, const uint8_t *in, size_t count,
+                          uint8_t *out) {
+    if (from->plane[0] < 0) {
+        const size_t bytes = job->type == GLINT_F16 ? 2 : 4;
+        for (size_t i = 0; i < count; i++) memset(out + bytes * i * job->count, 0, bytes);
+        return true;
+    }
+    const bool half = job->stored[from->plane[0]] == GLINT_STORED_HALF;
+    if (from->decoding != AS_STORED || half != (job->type == GLINT_F16)) return false;
+    if (half)
+        for (size_t i = 0; i < count; i++) memcpy(out + 2 * i * job->count, in + 2 * i, 2);
+    else
+        for (size_t i = 0; i < count; i++) memcpy(out + 4 * i * job->count, in + 4 * i, 4);
+    return true;
+}
+
+struct block {
+    float values[3][GLINT_BLOCK];
+    int normal[3]; /* the planes that `values` hold the normal of, so that X, Y and Z are decoded once */
+    bool has_normal;
+};
+
+static void load(const struct job *job, const uint8_t *const *planes, size_t line, uint32_t x, size_t count, int plane,
+                 float *out) {
+    const uint8_t *in = planes[plane] + line + x * glint_stored_bytes(job->stored[plane]);
+    widen(job->stored[plane], in, count, out);
+}
+
+static const float *normal_of(const struct job *job, const struct output *from, const uint8_t *const *planes,
+                              size_t line, uint32_t x, size_t count, struct block *block) {
+    if (!block->has_normal || memcmp(block->normal, from->plane, sizeof block->normal)) {
+        for (int axis = 0; axis < 3; axis++)
+            if (from->plane[axis] >= 0) load(job, planes, line, x, count, from->plane[axis], block->values[axis]);
+        float *const n[3] = {block->values[0], block->values[1], block->values[2]};
+        glint_decode_normal(&job->decoder, from->normal, n, NULL, count);
+        memcpy(block->normal, from->plane, sizeof block->normal);
+        block->has_normal = true;
+    }
+    return block->values[from->axis];
+}
+
+static void decode(const struct job *job, const struct output *from, const uint8_t *in, float *v, size_t count) {
+    uint32_t words[GLINT_BLOCK];
+    if (from->decoding == PACKED) {
+        memcpy(words, in, count * 4);
+        glint_decode_motion_packed(&job->decoder, words, v, count);
+        return;
+    }
+    widen(job->stored[from->plane[0]], in, count, v);
+    switch (from->decoding) {
+    case LENGTH:
+        glint_decode_length(&job->decoder, v, count);
+        break;
+    case DEPTH:
+        glint_decode_depth(&job->decoder, v, count);
+        break;
+    case ROUGHNESS:
+        glint_decode_roughness(&job->decoder, v, count);
+        break;
+    case MOTION:
+        glint_decode_motion(&job->decoder, from->axis, v, count);
+        break;
+    case COLOR:
+        glint_decode_color(&job->decoder, v, count);
+        break;
+    case AS_STORED:
+    case NORMAL:
+    case PACKED:
+        break;
+    }
+}
+
+static bool decode_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *const *planes, size_t line_bytes,
+                        struct glint_error *err) {
+    (void)err;
+    const struct job *job = user;
+    const uint32_t width = job->decoder.width;
+    const size_t bytes = job->type == GLINT_F16 ? 2 : 4;
+    struct block block;
+    float values[GLINT_BLOCK];
+    for (uint32_t l = 0; l < lines; l++)
+        for (uint32_t x = 0; x < width; x += GLINT_BLOCK) {
+            const size_t count = width - x < GLINT_BLOCK ? width - x : GLINT_BLOCK, line = l * line_bytes;
+            block.has_normal = false;
+            for (size_t i = 0; i < job->count; i++) {
+                const struct output *from = &job->outputs[i];
+                uint8_t *out = job->out + (((size_t)(y + l) * width + x) * job->count + i) * bytes;
+                const uint8_t *in = from->plane[0] < 0 ? NULL
+                                                       : planes[from->plane[0]] + line +
+                                                             x * glint_stored_bytes(job->stored[from->plane[0]]);
+                if (put_as_stored(job, from, in, count, out)) continue;
+                if (from->decoding == NORMAL) {
+                    put(job, normal_of(job, from, planes, line, x, count, &block), count, out);
+                } else {
+                    decode(job, from, in, values, count);
+                    put(job, values, count, out);
+                }
+            }
+        }
+    return true;
+}
+
+/* ---- the calls ---- */
+
+static const struct glint_source *source_of(const struct glint_capture *capture, const struct glint_part_info *part,
+                                            struct glint_error *err) {
+    const size_t i = part ? (size_t)(part - capture->parts) : capture->count;
+    if (i < capture->count && &capture->parts[i] == part) return &capture->sources[i];
+    glint_fail(err, GLINT_ERROR_USAGE, "%s: expected a part of this capture, found another", capture->exr->path);
+    return NULL;
+}
+
+bool glint_capture_read(struct glint_capture *capture, const struct glint_part_info *part, const char *const *channels,
+                        size_t count, enum glint_type type, void *out, uint32_t threads, struct glint_error *err) {
+    const struct glint_source *source = source_of(capture, part, err);
+    if (!source) return false;
+    if (type == GLINT_U8 || type == GLINT_U16 || type == GLINT_U32)
+        return glint_exr_read(source->exr, source->part, channels, count, type, out, threads, err);
+    if ((type != GLINT_F16 && type != GLINT_F32) || !count || count > GLINT_EXR_MAX_WANTED)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "%s: part %s: expected 1 to %d channels and a plain type, found %zu, type %d",
+                          capture->exr->path, part->name, GLINT_EXR_MAX_WANTED, count, (int)type);
+    const struct glint_exr_part_info *file = &source->exr->parts[source->part].info;
+    struct job job = {.count = count, .type = type, .out = out};
+    job.decoder = (struct glint_decoder){
+        .frame = &capture->frame, .encodings = part->encodings, .width = part->width, .height = part->height};
+    job.decoder.camera = part->has_planar ? &part->planar.camera
+                         : part->previous ? &capture->frame.previous
+                                          : &capture->frame.camera;
+    for (size_t i = 0; i < count; i++) {
+        if (!plan_output(&job, part, file, channels[i], &job.outputs[i]))
+            return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: %s missing", capture->exr->path, part->name,
+                              channels[i]);
+        const int plane = job.outputs[i].plane[0];
+        if (plane >= 0 && (job.stored[plane] == GLINT_STORED_UINT) != (job.outputs[i].decoding == PACKED))
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: %s: expected half or float, found uint",
+                              capture->exr->path, part->name, channels[i]);
+    }
+    if (!job.planes) { /* nothing but zeros was asked for */
+        memset(out, 0, (size_t)part->width * part->height * count * (type == GLINT_F16 ? 2 : 4));
+        return true;
+    }
+    return glint_exr_rows(source->exr, source->part, job.names, job.planes, threads, decode_rows, &job, err);
+}
+
+bool glint_capture_read_raw(struct glint_capture *capture, const struct glint_part_info *part,
+                            const char *const *channels, size_t count, enum glint_type type, void *out,
+                            uint32_t threads, struct glint_error *err) {
+    const struct glint_source *source = source_of(capture, part, err);
+    return source && glint_exr_read(source->exr, source->part, channels, count, type, out, threads, err);
+}

@@ -1,0 +1,22 @@
+/* How a broken rule is answered: the reader and the writer stop at the first, validate reports them all. */
+#ifndef GLINT_CHECK_H
+#define GLINT_CHECK_H
+
+#include "registry.h"
+
+struct glint_check {
+    const char *file;
+    glint_report report; /* NULL: stop at the first */
+    void *user;
+    size_t violations;
+    struct glint_error *err;
+};
+
+/* Part and channel may be NULL. True when the check goes on. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 5, 6)))
+#endif
+bool glint_violation(struct glint_check *check, enum glint_rule rule, const char *part, const char *channel,
+                     const char *format, ...);
+
+#endif

@@ -1,0 +1,135 @@
+/* From each encoding to the canonical values. FORMAT.md states the formulas and how precise they are. */
+#include <math.h>
+
+#include "capture_internal.h"
+
+/* z_clip = A·z + B and w = s·z for view z, so a depth-buffer value d = A·s + B/t at distance t = s·z in front. */
+static void decode_device(const struct glint_decoder *d, bool sky_at_zero, float *v, size_t count) {
+    const double *m = d->camera->view_to_clip, unit = d->frame->metres_per_unit;
+    const bool symmetric = d->frame->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE;
+    const double scale = symmetric ? 2 : 1, bias = (symmetric ? -1 : 0) - m[10] * m[14], b = m[11] * unit;
+    for (size_t i = 0; i < count; i++) {
+        const double value = (double)v[i], t = b / (value * scale + bias);
+        const bool sky = sky_at_zero ? value <= 0 : value >= 1;
+        /* Past infinity the distance would come back from behind. */
+        v[i] = sky || t <= 0 ? INFINITY : (float)t;
+    }
+}
+
+static void decode_logarithmic(const struct glint_decoder *d, bool reversed, float *v, size_t count) {
+    const double near = d->frame->depth_near, span = log(d->frame->depth_far / near);
+    for (size_t i = 0; i < count; i++) {
+        const double value = reversed ? 1 - (double)v[i] : (double)v[i];
+        v[i] = value >= 1 ? INFINITY : (float)(near * exp(value * span) * d->frame->metres_per_unit);
+    }
+}
+
+void glint_decode_depth(const struct glint_decoder *d, float *v, size_t count) {
+    switch (d->encodings.depth) {
+    case GLINT_DEPTH_VIEW_LINEAR:
+        glint_decode_length(d, v, count);
+        break;
+    case GLINT_DEPTH_DEVICE:
+        decode_device(d, false, v, count);
+        break;
+    case GLINT_DEPTH_REVERSED:
+    case GLINT_DEPTH_REVERSED_INFINITE:
+        decode_device(d, true, v, count);
+        break;
+    case GLINT_DEPTH_LOGARITHMIC:
+        decode_logarithmic(d, false, v, count);
+        break;
+    case GLINT_DEPTH_LOGARITHMIC_REVERSED:
+        decode_logarithmic(d, true, v, count);
+        break;
+    }
+}
+
+void glint_decode_length(const struct glint_decoder *d, float *v, size_t count) {
+    const double unit = d->frame->metres_per_unit;
+    if (unit == 1) return;
+    for (size_t i = 0; i < count; i++) v[i] = (float)((double)v[i] * unit);
+}
+
+void glint_decode_roughness(const struct glint_decoder *d, float *v, size_t count) {
+    switch (d->encodings.roughness) {
+    case GLINT_ROUGHNESS_PERCEPTUAL:
+        break;
+    case GLINT_ROUGHNESS_ALPHA:
+        for (size_t i = 0; i < count; i++) v[i] = sqrtf(v[i] < 0 ? 0 : v[i]);
+        break;
+    case GLINT_ROUGHNESS_GLOSS:
+        for (size_t i = 0; i < count; i++) v[i] = 1 - v[i];
+        break;
+    case GLINT_ROUGHNESS_POWER:
+        for (size_t i = 0; i < count; i++) v[i] = sqrtf(sqrtf(2 / ((v[i] < 0 ? 0 : v[i]) + 2)));
+        break;
+    }
+}
+
+void glint_decode_motion(const struct glint_decoder *d, int axis, float *v, size_t count) {
+    float scale = 1;
+    if (d->encodings.motion == GLINT_MOTION_NDC)
+        scale = axis == 1 && d->frame->clip_y == GLINT_CLIP_Y_UP ? -0.5f : 0.5f;
+    if (d->encodings.motion == GLINT_MOTION_PIXELS) {
+        const float size = (float)(axis == 0 ? d->width : d->height);
+        for (size_t i = 0; i < count; i++) v[i] /= size;
+    }
+    if (scale == 1) return;
+    for (size_t i = 0; i < count; i++) v[i] *= scale;
+}
+
+void glint_decode_motion_packed(const struct glint_decoder *d, const uint32_t *in, float *v, size_t count) {
+    const double scale = d->frame->motion_range / 32767;
+    for (size_t i = 0; i < count; i++) v[i] = (float)(((double)in[i] - 32768) * scale);
+}
+
+static float from_srgb(float value) {
+    const float magnitude = fabsf(value);
+    const float linear = magnitude <= 0.04045f ? magnitude / 12.92f : powf((magnitude + 0.055f) / 1.055f, 2.4f);
+    return copysignf(linear, value);
+}
+
+void glint_decode_color(const struct glint_decoder *d, float *v, size_t count) {
+    const double factor = 1 / d->frame->pre_exposure;
+    if (d->encodings.color == GLINT_COLOR_PRE_EXPOSED && factor != 1)
+        for (size_t i = 0; i < count; i++) v[i] = (float)((double)v[i] * factor);
+    if (d->encodings.color == GLINT_COLOR_SRGB)
+        for (size_t i = 0; i < count; i++) v[i] = from_srgb(v[i]);
+}
+
+/* ---- normals ---- */
+
+static void from_octahedral(float *const n[3], size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const float x = 2 * n[0][i] - 1, y = 2 * n[1][i] - 1, z = 1 - fabsf(x) - fabsf(y), fold = z < 0 ? -z : 0;
+        n[0][i] = x - copysignf(fold, x);
+        n[1][i] = y - copysignf(fold, y);
+        n[2][i] = z;
+    }
+}
+
+static void to_world(const double *m, float *const n[3], size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const double x = (double)n[0][i], y = (double)n[1][i], z = (double)n[2][i];
+        for (int axis = 0; axis < 3; axis++) n[axis][i] = (float)(m[axis] * x + m[4 + axis] * y + m[8 + axis] * z);
+    }
+}
+
+void glint_decode_normal(const struct glint_decoder *d, enum glint_normal_encoding encoding, float *const n[3],
+                         float *lengths, size_t count) {
+    if (encoding == GLINT_NORMAL_UNORM)
+        for (int axis = 0; axis < 3; axis++)
+            for (size_t i = 0; i < count; i++) n[axis][i] = 2 * n[axis][i] - 1;
+    if (encoding == GLINT_NORMAL_OCTAHEDRAL) from_octahedral(n, count);
+    for (size_t i = 0; lengths && i < count; i++)
+        lengths[i] = encoding == GLINT_NORMAL_OCTAHEDRAL && isfinite(n[2][i])
+                         ? 1
+                         : sqrtf(n[0][i] * n[0][i] + n[1][i] * n[1][i] + n[2][i] * n[2][i]);
+    if (d->encodings.normal_space == GLINT_SPACE_VIEW) to_world(d->camera->world_to_view, n, count);
+    for (size_t i = 0; i < count; i++) {
+        const float square = n[0][i] * n[0][i] + n[1][i] * n[1][i] + n[2][i] * n[2][i];
+        const float scale = square > 0 && square < INFINITY ? 1 / sqrtf(square) : 1;
+        for (int axis = 0; axis < 3; axis++) n[axis][i] *= scale;
+    }
+}

@@ -1,0 +1,69 @@
+/* What the EXR reader, the EXR writer and the capture reader share. */
+#ifndef GLINT_EXR_INTERNAL_H
+#define GLINT_EXR_INTERNAL_H
+
+#include <openexr.h>
+#include <pthread.h>
+
+#include "arena.h"
+#include "glint/exr.h"
+
+/* What OpenEXRCore needs to know about a file that glint opened for it, and what it last complained about. */
+struct glint_exr_stream {
+    int fd;
+    uint64_t bytes;     /* of the file */
+    uint64_t allowance; /* bytes that may still be read through the stream; chunks do not pass through it */
+    const char *path;
+    pthread_mutex_t lock;
+    char complaint[256];
+};
+
+struct glint_exr_part_file {
+    struct glint_exr_part_info info;
+    bool readable;        /* flat scanlines without subsampling */
+    int32_t first_y;      /* of the data window */
+    uint32_t chunk_lines; /* scanlines in each chunk but the last */
+    uint32_t chunk_count;
+    size_t line_bytes;     /* of all channels */
+    size_t *channel_bytes; /* offset of each channel in an unpacked line */
+    exr_compression_t compression;
+};
+
+struct glint_exr {
+    char *path;
+    exr_context_t context;
+    struct glint_exr_stream stream;
+    struct glint_limits limits; /* with the defaults filled in */
+    struct glint_arena arena;
+    struct glint_exr_part_file *parts;
+    size_t part_count;
+};
+
+/* Receives lines y .. y + lines - 1 of the wanted channels, as stored: planes[i] is the first line of channel i (NULL
+   for a NULL name), the next line is line_bytes further. Called from several threads, each line once. */
+typedef bool (*glint_exr_rows_fn)(void *user, uint32_t y, uint32_t lines, const uint8_t *const *planes,
+                                  size_t line_bytes, struct glint_error *err);
+#define GLINT_EXR_MAX_WANTED 64
+bool glint_exr_rows(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, uint32_t threads,
+                    glint_exr_rows_fn rows, void *user, struct glint_error *err);
+/* -1 when the part has no such channel. */
+int glint_exr_channel(const struct glint_exr_part_info *part, const char *name);
+static inline size_t glint_stored_bytes(enum glint_stored stored) {
+    return stored == GLINT_STORED_HALF ? 2 : 4;
+}
+
+/* Attributes between OpenEXRCore's shape and glint's. */
+bool glint_exr_attributes_get(struct glint_exr *exr, size_t part, struct glint_error *err);
+bool glint_exr_attribute_set(exr_context_t context, int part, const struct glint_exr_attribute *attribute);
+
+/* ZIP chunks of OpenEXR: bytes split by parity, each the difference to the one before, then zlib. `scratch` holds as
+   many bytes as the unpacked chunk. */
+struct libdeflate_compressor;
+struct libdeflate_decompressor;
+/* The compressed size, or 0 when it would not be smaller than `bytes`. `out` holds `bytes`. */
+size_t glint_zip_pack(struct libdeflate_compressor *zip, const uint8_t *in, size_t bytes, uint8_t *scratch,
+                      uint8_t *out);
+bool glint_zip_unpack(struct libdeflate_decompressor *zip, const uint8_t *in, size_t in_bytes, uint8_t *scratch,
+                      uint8_t *out, size_t bytes);
+
+#endif

@@ -1,0 +1,354 @@
+/* Writes a multi-part EXR file: chunks are packed and compressed on all cores and written in order. */
+#include <errno.h>
+#include <fcntl.h>
+#include <libdeflate.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "exr_internal.h"
+#include "threads.h"
+
+#define MAX_WORKERS 64
+/* Of libdeflate: level 1 packs noisy half-float images to within a few percent of what the slow levels reach. */
+#define ZIP_LEVEL 1
+
+struct worker {
+    uint8_t *pixels, *scratch, *packed;
+    struct libdeflate_compressor *zip;
+};
+
+struct target {
+    const struct glint_exr_part *part;
+    const struct glint_exr_channel **sorted; /* in the file's order */
+    size_t line_bytes;
+    uint32_t chunk_lines;
+    size_t first_chunk; /* in the whole file */
+};
+
+struct job {
+    const char *path;
+    struct target *targets;
+    size_t target_count, chunk_count;
+    exr_context_t context;
+    struct glint_exr_stream stream;
+    struct worker workers[MAX_WORKERS];
+    pthread_mutex_t lock;
+    pthread_cond_t turn;
+    size_t next; /* the chunk whose turn it is to be written */
+    bool failed;
+    struct glint_error first;
+};
+
+static bool job_fail(struct job *job, enum glint_code code, const char *part, const char *what) {
+    pthread_mutex_lock(&job->lock);
+    if (!job->failed) glint_fail(&job->first, code, "%s: part %s: %s", job->path, part, what);
+    job->failed = true;
+    pthread_cond_broadcast(&job->turn);
+    pthread_mutex_unlock(&job->lock);
+    return false;
+}
+
+static int64_t stream_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
+                            exr_stream_error_func_ptr_t error) {
+    (void)context, (void)error;
+    struct glint_exr_stream *stream = user;
+    uint64_t done = 0;
+    while (done < size) {
+        const ssize_t got = pwrite(stream->fd, (const char *)buffer + done, size - done, (off_t)(offset + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) {
+            snprintf(stream->complaint, sizeof stream->complaint, "%s", strerror(got ? errno : ENOSPC));
+            return -1;
+        }
+        done += (uint64_t)got;
+    }
+    return (int64_t)done;
+}
+
+static void complain(exr_const_context_t context, exr_result_t code, const char *message) {
+    (void)code;
+    void *user = NULL;
+    if (!context || exr_get_user_data(context, &user) || !user) return;
+    struct glint_exr_stream *stream = user;
+    if (!stream->complaint[0]) snprintf(stream->complaint, sizeof stream->complaint, "%s", message ? message : "");
+}
+
+static exr_compression_t compression_of(enum glint_compression compression) {
+    switch (compression) {
+    case GLINT_NONE:
+        return EXR_COMPRESSION_NONE;
+    case GLINT_ZIPS:
+        return EXR_COMPRESSION_ZIPS;
+    case GLINT_PIZ:
+        return EXR_COMPRESSION_PIZ;
+    case GLINT_PXR24:
+        return EXR_COMPRESSION_PXR24;
+    case GLINT_RLE:
+        return EXR_COMPRESSION_RLE;
+    case GLINT_ZIP:
+        break;
+    }
+    return EXR_COMPRESSION_ZIP;
+}
+
+static void pack(const struct target *target, uint32_t y, uint32_t lines, uint8_t *out) {
+    for (uint32_t l = 0; l < lines; l++)
+        for (size_t c = 0; c < target->part->channel_count; c++) {
+            const struct glint_exr_channel *channel = target->sorted[c];
+            const size_t bytes = glint_stored_bytes(channel->stored), width = target->part->width;
+            const size_t step = channel->x_stride_bytes ? channel->x_stride_bytes : bytes;
+            const size_t line = channel->y_stride_bytes ? channel->y_stride_bytes : step * width;
+            const uint8_t *from = (const uint8_t *)channel->data + (size_t)(y + l) * line;
+            if (step == bytes) memcpy(out, from, width * bytes);
+            else if (bytes == 2)
+                for (size_t x = 0; x < width; x++) memcpy(out + x * 2, from + x * step, 2);
+            else
+                for (size_t x = 0; x < width; x++) memcpy(out + x * 4, from + x * step, 4);
+            out += width * bytes;
+        }
+}
+
+/* ---- compressions that glint leaves to OpenEXRCore ---- */
+
+struct foreign {
+    const uint8_t *pixels;
+    size_t bytes;
+    uint8_t *packed; /* holds `bytes` */
+    size_t packed_bytes;
+};
+
+static exr_result_t foreign_pack(exr_encode_pipeline_t *pipe) {
+    const struct foreign *foreign = pipe->encoding_user_data;
+    if (pipe->packed_alloc_size < foreign->bytes) return EXR_ERR_ARGUMENT_OUT_OF_RANGE;
+    memcpy(pipe->packed_buffer, foreign->pixels, foreign->bytes);
+    pipe->packed_bytes = foreign->bytes;
+    return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t foreign_write(exr_encode_pipeline_t *pipe) {
+    struct foreign *foreign = pipe->encoding_user_data;
+    foreign->packed_bytes = pipe->compressed_bytes;
+    if (pipe->compressed_bytes > foreign->bytes) return EXR_ERR_ARGUMENT_OUT_OF_RANGE;
+    memcpy(foreign->packed, pipe->compressed_buffer, pipe->compressed_bytes);
+    return EXR_ERR_SUCCESS;
+}
+
+static exr_result_t foreign_yield(exr_encode_pipeline_t *pipe) {
+    (void)pipe;
+    return EXR_ERR_SUCCESS;
+}
+
+static bool compress_foreign(struct job *job, int part, uint32_t y, struct foreign *foreign) {
+    exr_chunk_info_t chunk;
+    exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
+    if (exr_write_scanline_chunk_info(job->context, part, (int)y, &chunk)) return false;
+    if (exr_encoding_initialize(job->context, part, &chunk, &pipe)) return false;
+    /* The default routines want to see channel pointers; the packing that would use them is replaced. */
+    for (int i = 0; i < pipe.channel_count; i++) {
+        pipe.channels[i].encode_from_ptr = foreign->pixels;
+        pipe.channels[i].user_pixel_stride = pipe.channels[i].bytes_per_element;
+        pipe.channels[i].user_line_stride = pipe.channels[i].bytes_per_element * pipe.channels[i].width;
+    }
+    bool ok = exr_encoding_choose_default_routines(job->context, part, &pipe) == EXR_ERR_SUCCESS;
+    pipe.encoding_user_data = foreign;
+    pipe.convert_and_pack_fn = foreign_pack;
+    pipe.yield_until_ready_fn = foreign_yield;
+    pipe.write_fn = foreign_write;
+    ok = ok && exr_encoding_run(job->context, part, &pipe) == EXR_ERR_SUCCESS;
+    exr_encoding_destroy(job->context, &pipe);
+    return ok;
+}
+
+static bool write_in_turn(struct job *job, size_t index, int part, uint32_t y, const uint8_t *data, size_t bytes) {
+    pthread_mutex_lock(&job->lock);
+    while (job->next != index && !job->failed) pthread_cond_wait(&job->turn, &job->lock);
+    const bool go = !job->failed;
+    pthread_mutex_unlock(&job->lock);
+    if (!go) return false;
+    const exr_result_t rv = exr_write_scanline_chunk(job->context, part, (int)y, data, bytes);
+    if (rv)
+        return job_fail(job, GLINT_ERROR_IO, job->targets[part].part->name,
+                        job->stream.complaint[0] ? job->stream.complaint : exr_get_default_error_message(rv));
+    pthread_mutex_lock(&job->lock);
+    job->next++;
+    pthread_cond_broadcast(&job->turn);
+    pthread_mutex_unlock(&job->lock);
+    return true;
+}
+
+static bool write_chunk(void *user, uint32_t w, size_t index) {
+    struct job *job = user;
+    struct worker *worker = &job->workers[w];
+    size_t part = job->target_count - 1;
+    while (job->targets[part].first_chunk > index) part--;
+    const struct target *target = &job->targets[part];
+    const uint32_t y = (uint32_t)(index - target->first_chunk) * target->chunk_lines;
+    const uint32_t left = target->part->height - y, lines = left < target->chunk_lines ? left : target->chunk_lines;
+    const size_t bytes = lines * target->line_bytes;
+    const exr_compression_t compression = compression_of(target->part->compression);
+    const uint8_t *data = worker->pixels;
+    size_t data_bytes = bytes;
+    pack(target, y, lines, worker->pixels);
+    if (compression == EXR_COMPRESSION_ZIP || compression == EXR_COMPRESSION_ZIPS) {
+        const size_t packed = glint_zip_pack(worker->zip, worker->pixels, bytes, worker->scratch, worker->packed);
+        if (packed) data = worker->packed, data_bytes = packed;
+    } else if (compression != EXR_COMPRESSION_NONE) {
+        struct foreign foreign = {.pixels = worker->pixels, .bytes = bytes, .packed = worker->packed};
+        if (!compress_foreign(job, (int)part, y, &foreign))
+            return job_fail(job, GLINT_ERROR_UNSUPPORTED, target->part->name, "OpenEXRCore cannot compress it");
+        if (foreign.packed_bytes < bytes) data = worker->packed, data_bytes = foreign.packed_bytes;
+    }
+    return write_in_turn(job, index, (int)part, y, data, data_bytes);
+}
+
+/* ---- headers ---- */
+
+static int by_name(const void *a, const void *b) {
+    const struct glint_exr_channel *const *left = a, *const *right = b;
+    return strcmp((*left)->name, (*right)->name);
+}
+
+static exr_result_t declare(struct job *job, size_t i, const struct glint_exr_part *first, const char **what) {
+    static const exr_pixel_type_t types[] = {EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, EXR_PIXEL_UINT};
+    const struct target *target = &job->targets[i];
+    const struct glint_exr_part *part = target->part;
+    /* Multi-part files have one display window; the first part's picture is what is shown. */
+    const exr_attr_box2i_t display = {.max = {.x = (int)first->width - 1, .y = (int)first->height - 1}};
+    const exr_attr_box2i_t data = {.max = {.x = (int)part->width - 1, .y = (int)part->height - 1}};
+    const exr_attr_v2f_t center = {.x = 0};
+    int at = 0;
+    *what = "header";
+    exr_result_t rv = exr_add_part(job->context, part->name, EXR_STORAGE_SCANLINE, &at);
+    if (!rv)
+        rv = exr_initialize_required_attr(job->context, at, &display, &data, 1, &center, 1, EXR_LINEORDER_INCREASING_Y,
+                                          compression_of(part->compression));
+    for (size_t c = 0; !rv && c < part->channel_count; c++) {
+        *what = target->sorted[c]->name;
+        rv = exr_add_channel(job->context, at, *what, types[target->sorted[c]->stored], EXR_PERCEPTUALLY_LOGARITHMIC, 1,
+                             1);
+    }
+    for (size_t a = 0; !rv && a < part->attribute_count; a++) {
+        *what = part->attributes[a].name;
+        if (!glint_exr_attribute_set(job->context, at, &part->attributes[a])) rv = EXR_ERR_INVALID_ATTR;
+    }
+    return rv;
+}
+
+static bool write_headers(struct job *job) {
+    exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    init.error_handler_fn = complain;
+    init.user_data = &job->stream;
+    init.write_fn = stream_write;
+    const char *what = "header", *name = job->targets[0].part->name;
+    exr_result_t rv = exr_start_write(&job->context, job->path, EXR_WRITE_FILE_DIRECTLY, &init);
+    if (!rv) rv = exr_set_longname_support(job->context, 1);
+    for (size_t i = 0; !rv && i < job->target_count; i++) {
+        name = job->targets[i].part->name;
+        rv = declare(job, i, job->targets[0].part, &what);
+    }
+    if (!rv) what = "header", rv = exr_write_header(job->context);
+    if (!rv) return true;
+    char text[512];
+    snprintf(text, sizeof text, "%s: %s", what,
+             job->stream.complaint[0] ? job->stream.complaint : exr_get_default_error_message(rv));
+    return job_fail(job, rv == EXR_ERR_WRITE_IO ? GLINT_ERROR_IO : GLINT_ERROR_USAGE, name, text);
+}
+
+static bool plan(struct job *job, const struct glint_exr_part *parts, size_t count, struct glint_arena *arena,
+                 size_t *chunk_bytes, struct glint_error *err) {
+    job->targets = glint_arena_take(arena, count * sizeof *job->targets);
+    if (!job->targets) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_exr_part *part = &parts[i];
+        struct target *target = &job->targets[i];
+        if (!part->name || !part->name[0] || !part->width || !part->height || part->width > 1u << 24 ||
+            part->height > 1u << 26 || !part->channel_count)
+            return glint_fail(err, GLINT_ERROR_USAGE,
+                              "%s: part %s: expected a name, a size and channels, found %u x %u, %zu", job->path,
+                              part->name ? part->name : "(none)", part->width, part->height, part->channel_count);
+        target->part = part;
+        target->sorted = glint_arena_take(arena, part->channel_count * sizeof *target->sorted);
+        if (!target->sorted) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
+        for (size_t c = 0; c < part->channel_count; c++) {
+            target->sorted[c] = &part->channels[c];
+            target->line_bytes += part->width * glint_stored_bytes(part->channels[c].stored);
+        }
+        qsort(target->sorted, part->channel_count, sizeof *target->sorted, by_name);
+        target->chunk_lines = part->compression == GLINT_PIZ                                       ? 32
+                              : part->compression == GLINT_ZIP || part->compression == GLINT_PXR24 ? 16
+                                                                                                   : 1;
+        target->first_chunk = job->chunk_count;
+        job->chunk_count += (part->height + target->chunk_lines - 1) / target->chunk_lines;
+        const size_t bytes = target->line_bytes * target->chunk_lines;
+        if (bytes > *chunk_bytes) *chunk_bytes = bytes;
+        job->target_count++;
+    }
+    return true;
+}
+
+static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
+    const uint32_t workers = glint_loop_workers(job->chunk_count, threads);
+    bool ok = write_headers(job);
+    for (uint32_t i = 0; i < workers && ok; i++) {
+        struct worker *worker = &job->workers[i];
+        worker->pixels = malloc(chunk_bytes);
+        worker->scratch = malloc(chunk_bytes);
+        worker->packed = malloc(chunk_bytes);
+        worker->zip = libdeflate_alloc_compressor(ZIP_LEVEL);
+        if (!worker->pixels || !worker->scratch || !worker->packed || !worker->zip)
+            ok = job_fail(job, GLINT_ERROR_MEMORY, job->targets[0].part->name, "out of memory");
+    }
+    ok = ok && glint_loop(job->chunk_count, workers, write_chunk, job);
+    if (job->context) {
+        const exr_result_t rv = exr_finish(&job->context);
+        if (ok && rv)
+            ok = job_fail(job, GLINT_ERROR_IO, job->targets[job->target_count - 1].part->name,
+                          job->stream.complaint[0] ? job->stream.complaint : exr_get_default_error_message(rv));
+    }
+    for (uint32_t i = 0; i < workers; i++) {
+        free(job->workers[i].pixels);
+        free(job->workers[i].scratch);
+        free(job->workers[i].packed);
+        if (job->workers[i].zip) libdeflate_free_compressor(job->workers[i].zip);
+    }
+    return ok;
+}
+
+bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                     struct glint_error *err) {
+    struct glint_arena arena = {0};
+    struct job job = {.path = path, .stream = {.fd = -1, .path = path}};
+    size_t chunk_bytes = 0;
+    bool ok = false;
+    const size_t length = strlen(path) + 32;
+    char *temporary = glint_arena_take(&arena, length);
+    pthread_mutex_init(&job.lock, NULL);
+    pthread_cond_init(&job.turn, NULL);
+    if (!temporary) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+        goto done;
+    }
+    if (!count) {
+        glint_fail(err, GLINT_ERROR_USAGE, "%s: expected at least one part, found none", path);
+        goto done;
+    }
+    if (!plan(&job, parts, count, &arena, &chunk_bytes, err)) goto done;
+    snprintf(temporary, length, "%s.tmp-%ld", path, (long)getpid());
+    job.stream.fd = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (job.stream.fd < 0) {
+        glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
+        goto done;
+    }
+    ok = write_file(&job, chunk_bytes, threads);
+    if (!ok && err) *err = job.first;
+    if (close(job.stream.fd) && ok) ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
+    if (ok && rename(temporary, path)) ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (!ok) unlink(temporary);
+done:
+    pthread_cond_destroy(&job.turn);
+    pthread_mutex_destroy(&job.lock);
+    glint_arena_finish(&arena);
+    return ok;
+}

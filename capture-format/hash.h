@@ -1,0 +1,14 @@
+/* Content hashes: XXH3-128 over a file's bytes, as 32 hexadecimal digits. */
+#ifndef GLINT_HASH_H
+#define GLINT_HASH_H
+
+#include "glint/common.h"
+
+/* From the file's first byte, whatever the descriptor's position. `path` is for the message. */
+bool glint_hash_fd(int fd, const char *path, char hex[33], struct glint_error *err);
+/* The file `sibling` in the folder of `path`. */
+bool glint_hash_sibling(const char *path, const char *sibling, char hex[33], struct glint_error *err);
+/* The sibling's path, to be freed; NULL when memory is out. */
+char *glint_sibling_path(const char *path, const char *sibling);
+
+#endif

@@ -1,0 +1,270 @@
+/* A part of an EXR file as a part of a capture, and the rules that bind it. */
+#include "part.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "attributes.h"
+
+#define BROKEN(rule, channel, ...) glint_violation(check, GLINT_RULE_##rule, out->name, channel, __VA_ARGS__)
+
+int glint_part_encoding(const struct glint_part_info *part, const struct glint_role_channel *channel) {
+    const struct glint_encoding_row *row = glint_encoding_find(channel->encoding);
+    return row ? glint_encoding_get(&part->encodings, row) : 0;
+}
+
+static bool is_normal(const struct glint_role_channel *channel) {
+    return !strcmp(channel->encoding, "normal") || !strcmp(channel->encoding, "vertex_normal");
+}
+
+static bool ends_in(const char *name, const char *end) {
+    const size_t length = strlen(name), tail = strlen(end);
+    return length >= tail && !strcmp(name + length - tail, end);
+}
+
+bool glint_part_has_channel(const struct glint_part_info *part, const char *channel) {
+    for (size_t i = 0; i < part->channel_count; i++)
+        if (!strcmp(part->channels[i].name, channel)) return true;
+    /* The Z of an octahedral normal follows from its X and Y. */
+    const struct glint_role_channel *row = glint_role_channel_find(part->role, channel);
+    if (!row || !is_normal(row) || !ends_in(channel, ".Z")) return false;
+    if (glint_part_encoding(part, row) != GLINT_NORMAL_OCTAHEDRAL) return false;
+    char other[64];
+    snprintf(other, sizeof other, "%s", channel);
+    other[strlen(other) - 1] = 'X';
+    return glint_part_has_channel(part, other);
+}
+
+/* ---- attributes of a part ---- */
+
+static bool parse_version(struct glint_check *check, const struct glint_exr_part_info *from,
+                          const struct glint_part_info *out) {
+    const struct glint_exr_attribute *version = glint_exr_attribute(from, GLINT_VERSION_ATTRIBUTE);
+    if (!version || version->type != GLINT_EXR_INT)
+        return BROKEN(VERSION, NULL, "%s: expected an int, found %s", GLINT_VERSION_ATTRIBUTE,
+                      version ? version->type_name : "none");
+    if (version->numbers[0] != GLINT_FORMAT_VERSION)
+        return BROKEN(VERSION, NULL, "%s: expected %d, found %g", GLINT_VERSION_ATTRIBUTE, GLINT_FORMAT_VERSION,
+                      version->numbers[0]);
+    return true;
+}
+
+static bool parse_encodings(struct glint_check *check, const struct glint_exr_part_info *from,
+                            struct glint_part_info *out) {
+    size_t count = 0;
+    const struct glint_encoding_row *rows = glint_encoding_rows(&count);
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_exr_attribute *a = glint_exr_attribute(from, rows[i].attribute);
+        if (!a) continue;
+        const int value = a->type == GLINT_EXR_STRING ? glint_encoding_value(rows[i].which, a->string) : -1;
+        if (value >= 0) glint_encoding_set(&out->encodings, &rows[i], value);
+        else if (!BROKEN(ENCODING, NULL, "%s: expected an encoding such as \"%s\", found \"%.60s\"", a->name,
+                         rows[i].values[0].name, a->type == GLINT_EXR_STRING ? a->string : a->type_name))
+            return false;
+    }
+    return true;
+}
+
+static void parse_storage(const struct glint_exr_part_info *from, struct glint_channel_info *channels, size_t count) {
+    const struct glint_exr_attribute *a = glint_exr_attribute(from, GLINT_STORAGE_ATTRIBUTE);
+    for (size_t i = 0; a && a->type == GLINT_EXR_STRINGS && i < a->count; i++) {
+        const char *equals = strchr(a->strings[i], '=');
+        for (size_t c = 0; equals && c < count; c++) {
+            const size_t length = strlen(channels[c].name);
+            if ((size_t)(equals - a->strings[i]) == length && !strncmp(a->strings[i], channels[c].name, length))
+                snprintf(channels[c].storage, sizeof channels[c].storage, "%.63s", equals + 1);
+        }
+    }
+}
+
+static bool parse_sibling(struct glint_check *check, const struct glint_exr_part_info *from,
+                          struct glint_part_info *out) {
+    const struct glint_exr_attribute *a = glint_exr_attribute(from, GLINT_SIBLING_ATTRIBUTE);
+    const struct glint_exr_attribute *hash = glint_exr_attribute(from, GLINT_SIBLING_HASH_ATTRIBUTE);
+    if (!a) return true;
+    if (a->type != GLINT_EXR_STRING || !a->string[0] || strlen(a->string) >= sizeof out->sibling ||
+        strpbrk(a->string, "/\\") || !strcmp(a->string, ".") || !strcmp(a->string, ".."))
+        return BROKEN(SIBLING, NULL, "%s: expected a plain file name, found \"%.80s\"", GLINT_SIBLING_ATTRIBUTE,
+                      a->type == GLINT_EXR_STRING ? a->string : a->type_name);
+    if (!hash || hash->type != GLINT_EXR_STRING || strlen(hash->string) != 32 ||
+        strspn(hash->string, "0123456789abcdef") != 32)
+        return BROKEN(SIBLING, NULL, "%s: expected 32 hexadecimal digits, found \"%.40s\"",
+                      GLINT_SIBLING_HASH_ATTRIBUTE, hash && hash->type == GLINT_EXR_STRING ? hash->string : "none");
+    if (strcmp(out->role->name, "cubemap"))
+        return BROKEN(SIBLING, NULL, "%s: expected it on cubemap.NNN only", GLINT_SIBLING_ATTRIBUTE);
+    snprintf(out->sibling, sizeof out->sibling, "%s", a->string);
+    return true;
+}
+
+/* Attributes that are not glint's, of the types that the public header knows. */
+static bool keep_foreign(struct glint_arena *arena, const struct glint_exr_part_info *from,
+                         struct glint_part_info *out) {
+    struct glint_attribute *kept = glint_arena_take(arena, (from->attribute_count + 1) * sizeof *kept);
+    out->attributes = kept;
+    for (size_t i = 0; kept && i < from->attribute_count; i++) {
+        const struct glint_exr_attribute *a = &from->attributes[i];
+        if (glint_attribute_is_ours(a->name)) continue;
+        struct glint_attribute *to = &kept[out->attribute_count];
+        to->name = a->name;
+        to->type = a->type == GLINT_EXR_STRING ? GLINT_ATTRIBUTE_STRING
+                   : a->type == GLINT_EXR_INT  ? GLINT_ATTRIBUTE_INT
+                                               : GLINT_ATTRIBUTE_DOUBLE;
+        if (a->type == GLINT_EXR_STRING) to->string = a->string;
+        else if (a->type == GLINT_EXR_INT || a->type == GLINT_EXR_FLOAT || a->type == GLINT_EXR_DOUBLE)
+            to->number = a->numbers[0];
+        else continue;
+        out->attribute_count++;
+    }
+    return kept != NULL;
+}
+
+/* ---- channels ---- */
+
+static bool check_required(struct glint_check *check, const struct glint_part_info *out) {
+    for (size_t i = 0; i < out->role->channel_count; i++) {
+        const struct glint_role_channel *row = &out->role->channels[i];
+        bool wanted = row->required;
+        /* Optional vectors come whole: one of X, Y, Z asks for the others; motion.Z stays optional. */
+        if (!strcmp(row->encoding, "vertex_normal") || !strcmp(row->encoding, "motion")) {
+            char first[64];
+            snprintf(first, sizeof first, "%s", row->name);
+            for (const char *axis = "XYZ"; *axis; axis++) {
+                first[strlen(first) - 1] = *axis;
+                wanted = wanted || glint_part_has_channel(out, first);
+            }
+        }
+        if (wanted && !glint_part_has_channel(out, row->name) && !BROKEN(CHANNELS, row->name, "missing")) return false;
+    }
+    return true;
+}
+
+static bool check_channel(struct glint_check *check, const struct glint_part_info *out,
+                          const struct glint_channel_info *channel) {
+    static const char *const names[] = {"half", "float", "uint"};
+    const struct glint_role_channel *row = glint_role_channel_find(out->role, channel->name);
+    if (!row) return BROKEN(CHANNELS, channel->name, "expected a channel of %s, found another", out->role->name);
+    if (is_normal(row) && ends_in(row->name, ".Z") && glint_part_encoding(out, row) == GLINT_NORMAL_OCTAHEDRAL)
+        return BROKEN(CHANNELS, channel->name, "expected no Z beside an octahedral normal, found one");
+    const bool integer = !strcmp(row->name, "stencil.id") ||
+                         (!strcmp(row->encoding, "motion") && out->encodings.motion == GLINT_MOTION_PACKED16);
+    if (integer != (channel->stored == GLINT_STORED_UINT))
+        return BROKEN(TYPES, channel->name, "expected %s, found %s", integer ? "uint" : "half or float",
+                      names[channel->stored]);
+    return true;
+}
+
+static bool check_channels(struct glint_check *check, const struct glint_part_info *out) {
+    if (!out->role->channels || out->sibling[0]) return true;
+    for (size_t i = 0; i < out->channel_count; i++)
+        if (!check_channel(check, out, &out->channels[i])) return false;
+    return check_required(check, out);
+}
+
+bool glint_part_parse(struct glint_check *check, struct glint_arena *arena, const struct glint_exr_part_info *from,
+                      bool scanline, struct glint_part_info *out) {
+    snprintf(out->name, sizeof out->name, "%s", from->name);
+    out->role = glint_role_find(out->name, &out->index, &out->previous);
+    out->width = from->width;
+    out->height = from->height;
+    struct glint_channel_info *channels =
+        glint_arena_copy(arena, from->channels, from->channel_count * sizeof *from->channels);
+    if (!channels || !keep_foreign(arena, from, out))
+        return glint_fail(check->err, GLINT_ERROR_MEMORY, "%s: out of memory", check->file);
+    out->channels = channels;
+    out->channel_count = from->channel_count;
+    if (!out->role) return true;
+    parse_storage(from, channels, from->channel_count);
+    if (!parse_version(check, from, out)) return false;
+    if (out->role->reserved && !BROKEN(RESERVED, NULL, "the role is reserved for a later version")) return false;
+    if (!scanline && !BROKEN(STORAGE, NULL, "expected flat scanlines without subsampling")) return false;
+    if (!parse_encodings(check, from, out) || !parse_sibling(check, from, out)) return false;
+    if (!strcmp(out->role->name, "cubemap")) {
+        out->has_cubemap = true;
+        if (!glint_attributes_decode(check, from, GLINT_SCOPE_CUBEMAP, &out->cubemap)) return false;
+    }
+    if (!strcmp(out->role->name, "planar")) {
+        out->has_planar = true;
+        if (!glint_attributes_decode(check, from, GLINT_SCOPE_PLANAR, &out->planar)) return false;
+    }
+    return check_channels(check, out);
+}
+
+/* ---- rules between parts ---- */
+
+static bool check_depth(struct glint_check *check, const struct glint_part_info *out, const struct glint_frame *frame) {
+    if (!glint_part_has_channel(out, "depth.Z") || !out->role) return true;
+    if (!glint_role_channel_find(out->role, "depth.Z")) return true;
+    const enum glint_depth_encoding encoding = out->encodings.depth;
+    const struct glint_camera *camera = out->has_planar ? &out->planar.camera
+                                        : out->previous ? &frame->previous
+                                                        : &frame->camera;
+    if (encoding == GLINT_DEPTH_LOGARITHMIC || encoding == GLINT_DEPTH_LOGARITHMIC_REVERSED) {
+        if (frame->depth_near > 0 && frame->depth_near < frame->depth_far) return true;
+        return BROKEN(DEPTH, "depth.Z", "logarithmic: expected 0 < depthNear < depthFar, found %g and %g",
+                      frame->depth_near, frame->depth_far);
+    }
+    if (encoding == GLINT_DEPTH_VIEW_LINEAR) return true;
+    /* NDC z at distance t is A·s + B/t with s the sign of view z in front: B > 0 puts near at the larger value. */
+    const double *m = camera->view_to_clip, far_ndc = m[10] * m[14];
+    const double far_value = frame->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? (far_ndc + 1) / 2 : far_ndc;
+    const bool near_at_one = m[11] > 0;
+    if (near_at_one != (encoding != GLINT_DEPTH_DEVICE))
+        return BROKEN(DEPTH, "depth.Z", "%s: expected a matrix with near at %d, found near at %d",
+                      glint_encoding_name("depth", (int)encoding), encoding == GLINT_DEPTH_DEVICE ? 0 : 1, near_at_one);
+    if (encoding == GLINT_DEPTH_REVERSED_INFINITE && !(fabs(far_value) <= 1e-5))
+        return BROKEN(DEPTH, "depth.Z", "reversed_infinite: expected a matrix with 0 at infinity, found %g", far_value);
+    return true;
+}
+
+static bool check_shape(struct glint_check *check, const struct glint_part_info *out,
+                        const struct glint_part_info *gbuffer) {
+    if (!out->width || !out->height) return true; /* in a sibling not looked at yet */
+    if (out->role->shape == GLINT_SHAPE_CUBE && (uint64_t)out->height != 6 * (uint64_t)out->width)
+        return BROKEN(SHAPE, NULL, "expected N x 6N pixels, found %u x %u", out->width, out->height);
+    if (out->role->shape == GLINT_SHAPE_FRAME && gbuffer &&
+        (out->width != gbuffer->width || out->height != gbuffer->height))
+        return BROKEN(SHAPE, NULL, "expected %u x %u pixels as in gbuffer, found %u x %u", gbuffer->width,
+                      gbuffer->height, out->width, out->height);
+    return true;
+}
+
+static bool check_required_roles(struct glint_check *check, const struct glint_part_info *parts, size_t count) {
+    size_t role_count = 0;
+    const struct glint_role *roles = glint_roles(&role_count);
+    for (size_t r = 0; r < role_count; r++) {
+        bool found = !roles[r].required;
+        for (size_t i = 0; i < count && !found; i++) found = parts[i].role == &roles[r] && !parts[i].previous;
+        if (!found && !glint_violation(check, GLINT_RULE_REQUIRED, roles[r].name, NULL, "missing")) return false;
+    }
+    return true;
+}
+
+bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_info *const *files,
+                       const struct glint_part_info *parts, size_t count, struct glint_frame *frame, bool *has_frame) {
+    const struct glint_part_info *gbuffer = NULL;
+    bool cubes_only = count > 0;
+    *has_frame = false;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < i; j++)
+            if (!strcmp(parts[i].name, parts[j].name) && !glint_violation(check, GLINT_RULE_NAMES, parts[i].name, NULL,
+                                                                          "expected one part of this name, found two"))
+                return false;
+        if (parts[i].role && !strcmp(parts[i].name, "gbuffer")) {
+            gbuffer = &parts[i];
+            *has_frame = true;
+            if (!glint_attributes_decode(check, files[i], GLINT_SCOPE_FRAME, frame)) return false;
+        }
+        cubes_only = cubes_only && parts[i].has_cubemap && !parts[i].sibling[0];
+    }
+    if (!cubes_only && !check_required_roles(check, parts, count)) return false;
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_part_info *out = &parts[i];
+        if (!out->role) continue;
+        if (!check_shape(check, out, gbuffer) || (gbuffer && !check_depth(check, out, frame))) return false;
+        if (gbuffer && out->previous && !strcmp(out->role->name, "gbuffer") && !frame->has_previous &&
+            !BROKEN(PREVIOUS, NULL, "expected previousWorldToView and previousViewToClip on gbuffer, found none"))
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,82 @@
+/* The registry as C tables: roles, encodings, attributes and rules, made from rows/. */
+#ifndef GLINT_REGISTRY_H
+#define GLINT_REGISTRY_H
+
+#include "glint/capture.h"
+
+/* ---- roles ---- */
+
+/* The role that a part's name stands for, its number (or -1) and whether it is previous.ROLE; NULL when unknown. */
+const struct glint_role *glint_role_find(const char *part, int32_t *index, bool *previous);
+const struct glint_role_channel *glint_role_channel_find(const struct glint_role *role, const char *channel);
+
+/* ---- encodings ---- */
+
+struct glint_encoding_value {
+    const char *name, *meaning;
+};
+struct glint_encoding_row {
+    const char *which;     /* "depth" */
+    const char *attribute; /* "glint.depth" */
+    size_t offset;         /* of the enum in glint_encodings */
+    const struct glint_encoding_value *values;
+    int count;
+};
+const struct glint_encoding_row *glint_encoding_rows(size_t *count);
+const struct glint_encoding_row *glint_encoding_find(const char *which);
+int glint_encoding_get(const struct glint_encodings *encodings, const struct glint_encoding_row *row);
+void glint_encoding_set(struct glint_encodings *encodings, const struct glint_encoding_row *row, int value);
+
+/* ---- attributes ---- */
+
+enum glint_attribute_kind {
+    GLINT_KIND_CAMERA_VIEW,
+    GLINT_KIND_CAMERA_CLIP,
+    GLINT_KIND_V3,
+    GLINT_KIND_V2,
+    GLINT_KIND_DOUBLE,
+    GLINT_KIND_V3FLOAT,
+    GLINT_KIND_UINT,
+    GLINT_KIND_BOOL,
+    GLINT_KIND_AXIS,
+    GLINT_KIND_CLIP_Y,
+    GLINT_KIND_CLIP_Z,
+    GLINT_KIND_VOLUME,
+    GLINT_KIND_CLASSES,
+    GLINT_KIND_PLANES,
+    GLINT_KIND_PLANE
+};
+enum glint_range { GLINT_RANGE_ANY, GLINT_RANGE_POSITIVE, GLINT_RANGE_NOT_NEGATIVE, GLINT_RANGE_UNIT };
+enum glint_scope { GLINT_SCOPE_FRAME, GLINT_SCOPE_CUBEMAP, GLINT_SCOPE_PLANAR, GLINT_SCOPE_COUNT };
+#define GLINT_NO_GROUP ((size_t)-1)
+struct glint_attribute_row {
+    enum glint_scope scope;
+    const char *name;
+    enum glint_attribute_kind kind;
+    size_t offset; /* of the member in the scope's struct */
+    size_t group;  /* of the bool that says whether the engine has it */
+    bool required;
+    enum glint_range range;
+    double fallback;
+    const char *unit, *meaning;
+};
+const struct glint_attribute_row *glint_attribute_rows(size_t *count);
+const char *glint_scope_place(enum glint_scope scope);
+/* EXR's word for how a kind is stored. */
+const char *glint_kind_type(enum glint_attribute_kind kind);
+/* Names of the values of AXIS, CLIP_Y, CLIP_Z and VOLUME, NULL-terminated; NULL for the other kinds. */
+const char *const *glint_kind_names(enum glint_attribute_kind kind);
+
+/* ---- rules ---- */
+
+enum glint_rule {
+#define RULE(id, name, text) GLINT_RULE_##id,
+#include "rows/rules.h"
+    GLINT_RULE_COUNT
+};
+struct glint_rule_row {
+    const char *name, *text;
+};
+const struct glint_rule_row *glint_rule_rows(void);
+
+#endif

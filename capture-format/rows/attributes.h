@@ -1,0 +1,48 @@
+/* Attributes that carry a struct of capture.h. Frame attributes stand on the part `gbuffer`.
+   SCOPE(id, struct, where they stand)
+   ATTRIBUTE(scope, name, kind, member, group, need, range, fallback, unit, meaning)
+     group: the bool member that says whether the engine has it, or NONE
+     need: REQUIRED (with its group, when it has one) or OPTIONAL; a missing optional one reads as `fallback`
+     range: ANY, POSITIVE, NOT_NEGATIVE, UNIT (0 < v <= 1); every number is finite */
+/* clang-format off */
+SCOPE(FRAME, glint_frame, "on `gbuffer`")
+    ATTRIBUTE(FRAME, "glint.worldToView",         CAMERA_VIEW, camera.world_to_view,   NONE,         REQUIRED, ANY,          0, "",      "view = worldToView · world, row-major, column vectors: a rotation (mirroring allowed) and a translation")
+    ATTRIBUTE(FRAME, "glint.viewToClip",          CAMERA_CLIP, camera.view_to_clip,    NONE,         REQUIRED, ANY,          0, "",      "clip = viewToClip · view, jitter included: rows (a 0 c 0) (0 b d 0) (0 0 A B) (0 0 ±1 0)")
+    ATTRIBUTE(FRAME, "glint.previousWorldToView", CAMERA_VIEW, previous.world_to_view, has_previous, REQUIRED, ANY,          0, "",      "the same one frame earlier")
+    ATTRIBUTE(FRAME, "glint.previousViewToClip",  CAMERA_CLIP, previous.view_to_clip,  has_previous, REQUIRED, ANY,          0, "",      "the same one frame earlier")
+    ATTRIBUTE(FRAME, "glint.frame",               UINT,        number,                 NONE,         OPTIONAL, ANY,          0, "",      "frame number; 32 bits, unsigned")
+    ATTRIBUTE(FRAME, "glint.cut",                 BOOL,        cut,                    NONE,         OPTIONAL, ANY,          0, "",      "1: nothing of the previous frame is of use")
+    ATTRIBUTE(FRAME, "glint.player",              V3,          player,                 has_player,   OPTIONAL, ANY,          0, "units", "world position around which cube maps are selected; the camera when absent")
+    ATTRIBUTE(FRAME, "glint.jitter",              V2,          jitter_px,              NONE,         OPTIONAL, ANY,          0, "px",    "sub-pixel offset contained in viewToClip; +x right, +y down")
+    ATTRIBUTE(FRAME, "glint.exposure",            DOUBLE,      exposure,               NONE,         OPTIONAL, POSITIVE,     1, "",      "factor from scene-referred to display")
+    ATTRIBUTE(FRAME, "glint.preExposure",         DOUBLE,      pre_exposure,           NONE,         OPTIONAL, POSITIVE,     1, "",      "factor contained in pre-exposed colour")
+    ATTRIBUTE(FRAME, "glint.metresPerUnit",       DOUBLE,      metres_per_unit,        NONE,         OPTIONAL, POSITIVE,     1, "m",     "length of an engine unit")
+    ATTRIBUTE(FRAME, "glint.depthNear",           DOUBLE,      depth_near,             NONE,         OPTIONAL, NOT_NEGATIVE, 0, "units", "near of logarithmic depth")
+    ATTRIBUTE(FRAME, "glint.depthFar",            DOUBLE,      depth_far,              NONE,         OPTIONAL, NOT_NEGATIVE, 0, "units", "far of logarithmic depth")
+    ATTRIBUTE(FRAME, "glint.motionRange",         DOUBLE,      motion_range,           NONE,         OPTIONAL, POSITIVE,     1, "uv",    "offset that the largest value of packed motion stands for")
+    ATTRIBUTE(FRAME, "glint.up",                  AXIS,        up,                     NONE,         OPTIONAL, ANY,          0, "",      "world axis that points up: `+y` (default), `+z`, `+x`, `-y`, `-z`, `-x`")
+    ATTRIBUTE(FRAME, "glint.clipY",               CLIP_Y,      clip_y,                 NONE,         OPTIONAL, ANY,          0, "",      "where NDC y = +1 is: `up` (top of the picture, default) or `down`")
+    ATTRIBUTE(FRAME, "glint.clipZ",               CLIP_Z,      clip_z,                 NONE,         OPTIONAL, ANY,          0, "",      "range of NDC z: `zero_to_one` (default) or `minus_one_to_one`; a depth buffer holds [0, 1] either way")
+    ATTRIBUTE(FRAME, "glint.fogColor",            V3FLOAT,     fog.color,              has_fog,      REQUIRED, NOT_NEGATIVE, 0, "radiance", "radiance far inside the fog")
+    ATTRIBUTE(FRAME, "glint.fogDensity",          DOUBLE,      fog.density,            has_fog,      REQUIRED, NOT_NEGATIVE, 0, "1/units", "extinction at fogBase")
+    ATTRIBUTE(FRAME, "glint.fogBase",             DOUBLE,      fog.base,               has_fog,      OPTIONAL, ANY,          0, "units", "coordinate along up")
+    ATTRIBUTE(FRAME, "glint.fogScaleHeight",      DOUBLE,      fog.scale_height,       has_fog,      OPTIONAL, NOT_NEGATIVE, 0, "units", "height for a fall to 1/e; 0: the same at every height")
+    ATTRIBUTE(FRAME, "glint.stencilClasses",      CLASSES,     classes,                NONE,         OPTIONAL, ANY,          0, "",      "strings `value/mask=name` in decimal: stencil.id belongs to the class when (id & mask) = value; mask 0 means all bits")
+SCOPE(CUBEMAP, glint_cubemap, "on each `cubemap.NNN`")
+    ATTRIBUTE(CUBEMAP, "glint.center",       V3,     center,        NONE, REQUIRED, ANY,          0, "units",  "world position of the centre")
+    ATTRIBUTE(CUBEMAP, "glint.outdoor",      BOOL,   outdoor,       NONE, OPTIONAL, ANY,          0, "",       "1: stands outdoors")
+    ATTRIBUTE(CUBEMAP, "glint.fade",         DOUBLE, fade,          NONE, OPTIONAL, UNIT,         1, "",       "weight while it is added or removed, (0, 1]")
+    ATTRIBUTE(CUBEMAP, "glint.age",          UINT,   age_frames,    NONE, OPTIONAL, ANY,          0, "frames", "time since it was rendered")
+    ATTRIBUTE(CUBEMAP, "glint.inner",        VOLUME, inner,         NONE, OPTIONAL, ANY,          0, "",       "a volume around the centre known to be empty: `none` (default), `box`, `sphere`, `hull`; positions relative to the centre")
+    ATTRIBUTE(CUBEMAP, "glint.boxMin",       V3,     box_min,       NONE, OPTIONAL, ANY,          0, "units",  "corner of the box")
+    ATTRIBUTE(CUBEMAP, "glint.boxMax",       V3,     box_max,       NONE, OPTIONAL, ANY,          0, "units",  "opposite corner, larger on every axis")
+    ATTRIBUTE(CUBEMAP, "glint.sphereCenter", V3,     sphere_center, NONE, OPTIONAL, ANY,          0, "units",  "centre of the sphere")
+    ATTRIBUTE(CUBEMAP, "glint.sphereRadius", DOUBLE, sphere_radius, NONE, OPTIONAL, NOT_NEGATIVE, 0, "units",  "radius of the sphere")
+    ATTRIBUTE(CUBEMAP, "glint.hull",         PLANES, planes,        NONE, OPTIONAL, ANY,          0, "units",  "attributes `glint.hull.00` … `glint.hull.15`, four planes (n, d) each, one a row, inside where n·p + d ≤ 0; all-zero rows at the end of the last one are not planes")
+SCOPE(PLANAR, glint_planar, "on each `planar.NNN`")
+    ATTRIBUTE(PLANAR, "glint.plane",       PLANE,       plane,                NONE, REQUIRED, ANY, 0, "units", "row 0: the mirror plane (n, d), world, n·p + d = 0; the other rows are zero")
+    ATTRIBUTE(PLANAR, "glint.worldToView", CAMERA_VIEW, camera.world_to_view, NONE, REQUIRED, ANY, 0, "",      "the mirrored camera")
+    ATTRIBUTE(PLANAR, "glint.viewToClip",  CAMERA_CLIP, camera.view_to_clip,  NONE, REQUIRED, ANY, 0, "",      "the mirrored camera")
+/* clang-format on */
+#undef SCOPE
+#undef ATTRIBUTE

@@ -1,0 +1,24 @@
+/* RULE(id, name, what FORMAT.md says). `validate` reports each under its name; the reader refuses a file on those that
+   stand above the line; the writer never writes what breaks one of them. */
+/* clang-format off */
+RULE(VERSION,   "version",          "Every part of a known role carries `glint.version` (int), the same in all; a reader refuses versions that it does not know.")
+RULE(NAMES,     "unique-names",     "No two parts have one name.")
+RULE(REQUIRED,  "required-parts",   "A capture holds every required role. A file of cube maps only, for other captures to name as sibling, needs none.")
+RULE(STORAGE,   "scanline",         "Parts of known roles are flat scanline images without subsampling.")
+RULE(RESERVED,  "reserved-roles",   "A reserved role is not used before a version defines it.")
+RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral) and no channel that the role does not list.")
+RULE(TYPES,     "channel-types",    "`stencil.id` and packed motion are uint; every other listed channel is half or float.")
+RULE(SHAPE,     "shape",            "Parts of shape `frame` have the size of `gbuffer`; cube maps are N × 6N.")
+RULE(ENCODING,  "encoding",         "A declared encoding is one of the names of its table; where nothing is declared the first one holds.")
+RULE(ATTRIBUTE, "attributes",       "Attributes have the type and range of their table, the required ones are there, every number is finite.")
+RULE(MATRIX,    "matrices",         "World-to-view matrices are a rotation (within 1e-3) and a translation with the last row 0 0 0 1; view-to-clip matrices are invertible and of the stated form.")
+RULE(DEPTH,     "depth-encoding",   "The declared depth encoding agrees with the matrix (near at 0 or at 1, finite or infinite), logarithmic depth has 0 < depthNear < depthFar.")
+RULE(PREVIOUS,  "previous-camera",  "A capture with `previous.gbuffer` has the previous camera.")
+RULE(VOLUME,    "inner-volume",     "An inner volume has what describes it: a box with min < max, a sphere with a positive radius, a hull with 4 to 64 planes with normals that are not zero.")
+RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the capture's own folder, its bytes have the stated hash, and it holds a part of the same name with pixels.")
+/* ---- pixels: checked by validate alone ---- */
+RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN anywhere; infinity only where a table says so (depth and distance under sky). Under sky only the depth is looked at.")
+RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals are unit before renormalisation, within 0.02 (or the step of the declared storage, when that is coarser).")
+RULE(PIXEL_RANGE,     "pixels-range",     "Roughness, metalness, specular, albedo, alpha, opacity, weight and visible lie in [0, 1] after decoding; colour, depth and distances are not negative; encoded depth, unorm and octahedral values lie in [0, 1].")
+/* clang-format on */
+#undef RULE

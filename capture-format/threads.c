@@ -1,0 +1,54 @@
+/* A loop over indices spread on threads. */
+#include "threads.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+#define MAX_WORKERS 64
+
+struct loop {
+    size_t count;
+    glint_loop_fn fn;
+    void *user;
+    atomic_size_t next;
+    atomic_bool failed;
+};
+
+struct worker {
+    struct loop *loop;
+    uint32_t index;
+    pthread_t thread;
+};
+
+static void *work(void *user) {
+    struct worker *worker = user;
+    struct loop *loop = worker->loop;
+    while (!atomic_load(&loop->failed)) {
+        const size_t i = atomic_fetch_add(&loop->next, 1);
+        if (i >= loop->count) break;
+        if (!loop->fn(loop->user, worker->index, i)) atomic_store(&loop->failed, true);
+    }
+    return NULL;
+}
+
+uint32_t glint_loop_workers(size_t count, uint32_t threads) {
+    const long cores = threads ? (long)threads : sysconf(_SC_NPROCESSORS_ONLN);
+    uint32_t workers = cores < 1 ? 1 : cores > MAX_WORKERS ? MAX_WORKERS : (uint32_t)cores;
+    if (count < workers) workers = count ? (uint32_t)count : 1;
+    return workers;
+}
+
+bool glint_loop(size_t count, uint32_t workers, glint_loop_fn fn, void *user) {
+    struct loop loop = {.count = count, .fn = fn, .user = user};
+    struct worker all[MAX_WORKERS];
+    uint32_t started = 1;
+    for (; started < workers && started < MAX_WORKERS; started++) {
+        all[started] = (struct worker){.loop = &loop, .index = started};
+        if (pthread_create(&all[started].thread, NULL, work, &all[started])) break;
+    }
+    all[0] = (struct worker){.loop = &loop};
+    work(&all[0]);
+    for (uint32_t i = 1; i < started; i++) pthread_join(all[i].thread, NULL);
+    return !atomic_load(&loop.failed);
+}

@@ -1,0 +1,18 @@
+/* A loop over indices spread on threads. */
+#ifndef GLINT_THREADS_H
+#define GLINT_THREADS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Called for each index once, indices handed out in ascending order. `worker` < the number of workers. False stops the
+   loop: indices not yet handed out are not run. */
+typedef bool (*glint_loop_fn)(void *user, uint32_t worker, size_t index);
+
+/* How many workers a loop of `count` runs on; `threads` 0 means one for each core. */
+uint32_t glint_loop_workers(size_t count, uint32_t threads);
+/* Runs on the calling thread and workers - 1 others (fewer when the system refuses them). True when no call failed. */
+bool glint_loop(size_t count, uint32_t workers, glint_loop_fn fn, void *user);
+
+#endif

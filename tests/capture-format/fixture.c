@@ -1,0 +1,196 @@
+/* A small synthetic capture for the tests of the format. */
+#include "fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const double PI = 3.14159265358979323846;
+
+struct glint_camera fixture_camera(const double eye[3], double near, double far) {
+    /* Turned about y and x so that no axis is special. */
+    const double a = 0.6, b = -0.2;
+    const double r[9] = {cos(a),          0,       -sin(a),        sin(a) * sin(b), cos(b), cos(a) * sin(b),
+                         sin(a) * cos(b), -sin(b), cos(a) * cos(b)};
+    struct glint_camera camera = {0};
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) camera.world_to_view[4 * i + j] = r[3 * i + j];
+        camera.world_to_view[4 * i + 3] = -(r[3 * i] * eye[0] + r[3 * i + 1] * eye[1] + r[3 * i + 2] * eye[2]);
+    }
+    camera.world_to_view[15] = 1;
+    camera.view_to_clip[0] = 1 / tan(0.5);
+    camera.view_to_clip[5] = camera.view_to_clip[0] * FIX_W / FIX_H;
+    camera.view_to_clip[10] = far / (near - far);
+    camera.view_to_clip[11] = near * far / (near - far);
+    camera.view_to_clip[14] = -1;
+    return camera;
+}
+
+struct glint_frame fixture_frame(void) {
+    struct glint_frame frame = {0};
+    frame.camera = fixture_camera((const double[3]){1, 2, 3}, 0.1, 500);
+    frame.previous = fixture_camera((const double[3]){1.1, 2, 2.9}, 0.1, 500);
+    frame.has_previous = true;
+    frame.number = 4000000007u;
+    frame.jitter_px[0] = 0.25;
+    frame.jitter_px[1] = -0.125;
+    frame.has_player = true;
+    frame.player[1] = 1e9 + 0.125;
+    frame.exposure = 1.5;
+    frame.pre_exposure = 0.25;
+    frame.metres_per_unit = 0.01;
+    frame.depth_near = 0.1;
+    frame.depth_far = 500;
+    frame.motion_range = 0.5;
+    frame.has_fog = true;
+    frame.fog = (struct glint_fog){{0.5f, 0.6f, 0.7f}, 0.01, -2, 80};
+    frame.class_count = 2;
+    frame.classes[0] = (struct glint_stencil_class){.value = 3, .mask = 7, .name = "sky"};
+    frame.classes[1] = (struct glint_stencil_class){.value = 4, .name = "character = player"};
+    return frame;
+}
+
+double fixture_noise(uint32_t a, uint32_t b) {
+    uint32_t x = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;
+    x ^= x >> 15;
+    x *= 0x2c1b3c6du;
+    x ^= x >> 12;
+    x *= 0x297a2d39u;
+    x ^= x >> 15;
+    return x / 4294967296.0;
+}
+
+void fixture_normal(uint32_t i, double n[3]) {
+    const double z = 2 * fixture_noise(i, 1) - 1, phi = 2 * PI * fixture_noise(i, 2), r = sqrt(1 - z * z);
+    n[0] = r * cos(phi);
+    n[1] = r * sin(phi);
+    n[2] = z;
+}
+
+void fixture_init(struct fixture *f) {
+    memset(f, 0, sizeof *f);
+    for (uint32_t i = 0; i < FIX_W * FIX_H; i++) {
+        float *g = f->gbuffer + 17 * i;
+        double n[3];
+        g[0] = i % 7 == 0 ? INFINITY : (float)(0.2 + 400 * pow(fixture_noise(i, 3), 3));
+        fixture_normal(i, n);
+        for (int a = 0; a < 3; a++) g[1 + a] = (float)n[a];
+        for (uint32_t c = 4; c < 10; c++) g[c] = (float)fixture_noise(i, c);
+        for (uint32_t c = 10; c < 13; c++) g[c] = (float)(0.2 * fixture_noise(i, c) - 0.1);
+        fixture_normal(i + 5000, n);
+        for (int a = 0; a < 3; a++) g[13 + a] = (float)n[a];
+        f->stencil[i] = i % 251;
+        for (uint32_t c = 0; c < 4; c++) f->color[4 * i + c] = (float)fixture_noise(i, 40 + c);
+    }
+    for (uint32_t i = 0; i < FIX_CUBE * FIX_CUBE * 6; i++) {
+        for (uint32_t c = 0; c < 4; c++) f->cube[5 * i + c] = (float)fixture_noise(i, 20 + c);
+        f->cube[5 * i + 4] = i % 5 == 0 ? INFINITY : (float)(1 + 50 * fixture_noise(i, 30));
+        f->cube[5 * i + 3] = i % 5 == 0 ? 0 : 1;
+    }
+    f->cubemap = (struct glint_cubemap){.center = {1e6 + 0.1, 2, -3}, .outdoor = true, .fade = 0.5, .age_frames = 12};
+    f->cubemap.inner = GLINT_VOLUME_HULL;
+    f->cubemap.plane_count = 6;
+    for (int i = 0; i < 6; i++) {
+        f->cubemap.planes[i][i / 2] = i % 2 ? 1 : -1;
+        f->cubemap.planes[i][3] = -(2.0 + i) / 3;
+    }
+    f->planar.plane[1] = 1;
+    f->planar.plane[3] = -1.0 / 3;
+    f->planar.camera = fixture_camera((const double[3]){1, -2, 3}, 0.1, 500);
+}
+
+static const char *const gbuffer_names[] = {"depth.Z",           "normal.X",           "normal.Y",
+                                            "normal.Z",          "material.roughness", "material.metalness",
+                                            "material.specular", "albedo.R",           "albedo.G",
+                                            "albedo.B",          "motion.X",           "motion.Y",
+                                            "motion.Z",          "vertexNormal.X",     "vertexNormal.Y",
+                                            "vertexNormal.Z"};
+
+static void add(struct glint_part *part, struct fixture_channels *c, const char *name, const float *data, size_t stride,
+                bool wide) {
+    (void)wide;
+    c->all[part->channel_count++] = (struct glint_channel){.name = name,
+                                                           .type = GLINT_F32,
+                                                           .data = data,
+                                                           .x_stride_bytes = stride * 4,
+                                                           .y_stride_bytes = stride * 4 * part->width};
+    part->channels = c->all;
+}
+
+struct glint_part fixture_part(const struct fixture *f, enum fixture_part which, struct fixture_channels *c) {
+    static const char *const names[] = {"gbuffer",      "lit",
+                                        "scene",        "previous.gbuffer",
+                                        "previous.lit", "cubemap.000",
+                                        "cubemap.017",  "sky",
+                                        "planar.002",   "transparent",
+                                        "water",        "truth.reflection.ggx",
+                                        "truth.mirror", "engine.screen_trace.anything"};
+    const bool cube = which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1 || which == FIXTURE_SKY;
+    struct glint_part part = {
+        .name = names[which], .width = cube ? FIX_CUBE : FIX_W, .height = cube ? 6 * FIX_CUBE : FIX_H};
+    static const char *const rgba[] = {"R", "G", "B", "A"};
+    memset(c, 0, sizeof *c);
+    if (which == FIXTURE_GBUFFER || which == FIXTURE_PREVIOUS_GBUFFER) {
+        for (size_t i = 0; i < 16; i++) add(&part, c, gbuffer_names[i], f->gbuffer + i, 17, i == 0);
+        c->all[part.channel_count++] =
+            (struct glint_channel){.name = "stencil.id", .type = GLINT_U32, .data = f->stencil};
+        return part;
+    }
+    if (which == FIXTURE_MIRROR) {
+        add(&part, c, "distance.Z", f->gbuffer, 17, true);
+        add(&part, c, "visible", f->gbuffer + 5, 17, false);
+        return part;
+    }
+    if (which == FIXTURE_ENGINE) {
+        add(&part, c, "hit.u", f->gbuffer + 5, 17, false);
+        add(&part, c, "whatever", f->gbuffer + 6, 17, false);
+        return part;
+    }
+    const float *color = cube ? f->cube : f->color;
+    const size_t stride = cube ? 5 : 4;
+    for (size_t i = 0; i < 3; i++) add(&part, c, rgba[i], color + i, stride, false);
+    if (which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1) {
+        add(&part, c, "A", color + 3, stride, false);
+        add(&part, c, "distance.Z", color + 4, stride, true);
+        part.cubemap = &f->cubemap;
+    }
+    if (which == FIXTURE_TRANSPARENT || which == FIXTURE_WATER) {
+        add(&part, c, which == FIXTURE_WATER ? "opacity" : "A", color + 3, stride, false);
+        for (size_t i = 0; i < 4; i++) add(&part, c, gbuffer_names[i], f->gbuffer + i, 17, i == 0);
+        if (which == FIXTURE_WATER) add(&part, c, "thickness.Z", f->gbuffer + 5, 17, false);
+        else add(&part, c, "material.roughness", f->gbuffer + 4, 17, false);
+    }
+    if (which == FIXTURE_PLANAR) {
+        add(&part, c, "depth.Z", f->gbuffer, 17, true);
+        part.planar = &f->planar;
+    }
+    if (which == FIXTURE_TRUTH) add(&part, c, "weight", color + 3, stride, false);
+    return part;
+}
+
+bool fixture_write(const struct fixture *f, const char *path, int count, const struct glint_writer_options *options,
+                   struct glint_error *err) {
+    struct glint_writer *writer = glint_writer_create(path, options, err);
+    const struct glint_frame frame = fixture_frame();
+    bool ok = writer && glint_writer_set_frame(writer, &frame, err);
+    for (int i = 0; ok && i < count; i++) {
+        struct fixture_channels channels;
+        const struct glint_part part = fixture_part(f, (enum fixture_part)i, &channels);
+        ok = glint_writer_add_part(writer, &part, err);
+    }
+    ok = ok && glint_writer_finish(writer, err) && glint_writer_wait(writer, err);
+    glint_writer_destroy(&writer);
+    return ok;
+}
+
+const char *fixture_path(char buffer[512], const char *name) {
+    const char *root = getenv("TMPDIR");
+    snprintf(buffer, 512, "%s/glint-test-%ld", root ? root : "/tmp", (long)getpid());
+    mkdir(buffer, 0700);
+    const size_t length = strlen(buffer);
+    snprintf(buffer + length, 512 - length, "/%s", name);
+    return buffer;
+}

@@ -1,0 +1,57 @@
+/* A small synthetic capture for the tests of the format: every role's channels, values from closed forms. */
+#ifndef FIXTURE_H
+#define FIXTURE_H
+
+#include "glint/capture.h"
+
+enum { FIX_W = 40, FIX_H = 24, FIX_CUBE = 8 };
+
+/* A camera at `eye` that looks along -z of its own (right-handed, view z < 0 in front), near and far in units. */
+struct glint_camera fixture_camera(const double eye[3], double near, double far);
+struct glint_frame fixture_frame(void);
+
+/* A pseudo-random number in [0, 1) from two indices. */
+double fixture_noise(uint32_t a, uint32_t b);
+
+/* A unit normal for pixel i. */
+void fixture_normal(uint32_t i, double n[3]);
+
+struct fixture {
+    float gbuffer[FIX_W * FIX_H * 17];
+    uint32_t stencil[FIX_W * FIX_H];
+    float color[FIX_W * FIX_H * 4];
+    float cube[FIX_CUBE * FIX_CUBE * 6 * 5];
+    struct glint_cubemap cubemap;
+    struct glint_planar planar;
+};
+void fixture_init(struct fixture *f);
+
+enum fixture_part {
+    FIXTURE_GBUFFER,
+    FIXTURE_LIT,
+    FIXTURE_SCENE,
+    FIXTURE_PREVIOUS_GBUFFER,
+    FIXTURE_PREVIOUS_LIT,
+    FIXTURE_CUBEMAP_0,
+    FIXTURE_CUBEMAP_1,
+    FIXTURE_SKY,
+    FIXTURE_PLANAR,
+    FIXTURE_TRANSPARENT,
+    FIXTURE_WATER,
+    FIXTURE_TRUTH,
+    FIXTURE_MIRROR,
+    FIXTURE_ENGINE,
+    FIXTURE_PARTS
+};
+struct fixture_channels {
+    struct glint_channel all[20];
+};
+/* The part's description, with pixels from `f`; `channels` holds its channel list. */
+struct glint_part fixture_part(const struct fixture *f, enum fixture_part which, struct fixture_channels *channels);
+/* Writes parts [0, count) with the frame; count FIXTURE_LIT + 1 is the smallest capture. */
+bool fixture_write(const struct fixture *f, const char *path, int count, const struct glint_writer_options *options,
+                   struct glint_error *err);
+/* A path in the test's own temporary folder ($TMPDIR or /tmp), in a buffer of the caller. */
+const char *fixture_path(char buffer[512], const char *name);
+
+#endif
