@@ -1,0 +1,242 @@
+/* Parts: a list of channels, each a plane of floats that is converted to the type an engine would have had. */
+#include "dump.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "encode.h"
+#include "half.h"
+
+#define MAX_CHANNELS 24
+
+struct part {
+    struct glint_part part;
+    struct glint_channel channels[MAX_CHANNELS];
+    void *memory[MAX_CHANNELS];
+    size_t pixels;
+    bool failed;
+};
+
+static void part_init(struct part *part, const struct dump *dump, const char *name, uint32_t width, uint32_t height) {
+    *part = (struct part){.part = {.name = name, .width = width, .height = height, .encodings = dump->encodings},
+                          .pixels = (size_t)width * height};
+}
+
+static const size_t type_bytes[] = {
+    [GLINT_F16] = 2, [GLINT_F32] = 4, [GLINT_U16] = 2, [GLINT_U32] = 4, [GLINT_UNORM8] = 1, [GLINT_UNORM16] = 2};
+
+static void convert(enum glint_type type, const float *source, size_t stride, size_t count, void *out) {
+    uint16_t *words = out;
+    uint8_t *bytes = out;
+    float *floats = out;
+    for (size_t i = 0; i < count; i++) {
+        float v = source[i * stride];
+        switch (type) {
+        case GLINT_F16:
+            words[i] = half_from(v);
+            break;
+        case GLINT_U16:
+            words[i] = (uint16_t)v;
+            break;
+        case GLINT_UNORM16:
+            words[i] = (uint16_t)(clampf(v, 0, 1) * 65535 + 0.5f);
+            break;
+        case GLINT_UNORM8:
+            bytes[i] = (uint8_t)(clampf(v, 0, 1) * 255 + 0.5f);
+            break;
+        default:
+            floats[i] = v;
+        }
+    }
+}
+
+/* Adds a channel; `source` is the first value, `stride_bytes` apart from the next. */
+static void put(struct part *part, const char *name, struct storage storage, const float *source, size_t stride_bytes) {
+    size_t i = part->part.channel_count++;
+    part->memory[i] = malloc(part->pixels * type_bytes[storage.type]);
+    if (!part->memory[i]) {
+        part->failed = true;
+        return;
+    }
+    convert(storage.type, source, stride_bytes / sizeof(float), part->pixels, part->memory[i]);
+    part->channels[i] =
+        (struct glint_channel){.name = name, .type = storage.type, .data = part->memory[i], .storage = storage.name};
+}
+
+static void put3(struct part *part, const char *const names[3], struct storage storage, const vec3 *source,
+                 size_t stride_bytes) {
+    put(part, names[0], storage, &source->x, stride_bytes);
+    put(part, names[1], storage, &source->y, stride_bytes);
+    put(part, names[2], storage, &source->z, stride_bytes);
+}
+
+static bool part_done(struct part *part, const struct dump *dump, struct glint_error *err) {
+    part->part.channels = part->channels;
+    bool ok = part->failed ? glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", part->part.name)
+                           : glint_writer_add_part(dump->writer, &part->part, err);
+    for (size_t i = 0; i < part->part.channel_count; i++) free(part->memory[i]);
+    return ok;
+}
+
+static const char *const rgb[3] = {"R", "G", "B"};
+static const struct storage half = {GLINT_F16, "RGBA16F"}, whole = {GLINT_F32, "R32F"};
+
+static void encode_pixels(const struct dump *dump, const struct view *view, const struct pixel *in, struct pixel *out) {
+    const struct glint_encodings *e = &dump->encodings;
+    for (size_t i = 0; i < (size_t)view->width * view->height; i++) {
+        out[i] = in[i];
+        out[i].depth = encode_depth(e->depth, view, in[i].depth);
+        out[i].normal = encode_normal(e->normal, e->normal_space, view, in[i].normal);
+        out[i].vertex_normal = encode_normal(e->vertex_normal, e->normal_space, view, in[i].vertex_normal);
+        out[i].roughness = encode_roughness(e->roughness, in[i].roughness);
+        encode_motion(e->motion, view, in[i].motion, out[i].motion);
+    }
+}
+
+static void put_normal(struct part *part, const char *const names[3], enum glint_normal_encoding encoding,
+                       const vec3 *source) {
+    struct storage storage = storage_normal(encoding);
+    put(part, names[0], storage, &source->x, sizeof(struct pixel));
+    put(part, names[1], storage, &source->y, sizeof(struct pixel));
+    if (encoding != GLINT_NORMAL_OCTAHEDRAL) put(part, names[2], storage, &source->z, sizeof(struct pixel));
+}
+
+bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *view, const struct pixel *pixels,
+                  struct glint_error *err) {
+    static const char *const normal[3] = {"normal.X", "normal.Y", "normal.Z"};
+    static const char *const vertex[3] = {"vertexNormal.X", "vertexNormal.Y", "vertexNormal.Z"};
+    static const char *const albedo[3] = {"albedo.R", "albedo.G", "albedo.B"};
+    static const struct storage byte = {GLINT_UNORM8, "RGBA8"};
+    const struct glint_encodings *e = &dump->encodings;
+    size_t count = (size_t)view->width * view->height, stride = sizeof(struct pixel);
+    struct pixel *p = malloc(count * sizeof *p);
+    if (!p) return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", name);
+    encode_pixels(dump, view, pixels, p);
+    struct part part;
+    part_init(&part, dump, name, view->width, view->height);
+    put(&part, "depth.Z", storage_depth(e->depth), &p->depth, stride);
+    put_normal(&part, normal, e->normal, &p->normal);
+    put_normal(&part, vertex, e->vertex_normal, &p->vertex_normal);
+    put(&part, "material.roughness", storage_roughness(e->roughness), &p->roughness, stride);
+    put(&part, "material.metalness", byte, &p->metalness, stride);
+    put(&part, "material.specular", byte, &p->specular, stride);
+    put3(&part, albedo, byte, &p->albedo, stride);
+    put(&part, "motion.X", storage_motion(e->motion), &p->motion[0], stride);
+    put(&part, "motion.Y", storage_motion(e->motion), &p->motion[1], stride);
+    part.channels[part.part.channel_count++] = (struct glint_channel){.name = "stencil.id",
+                                                                      .type = GLINT_U32,
+                                                                      .data = &p->stencil,
+                                                                      .x_stride_bytes = stride,
+                                                                      .y_stride_bytes = stride * view->width,
+                                                                      .storage = "S8"};
+    bool ok = part_done(&part, dump, err);
+    free(p);
+    return ok;
+}
+
+static vec3 *encoded_colors(const struct dump *dump, const vec3 *first, size_t stride_bytes, size_t count) {
+    vec3 *colors = malloc(count * sizeof *colors);
+    for (size_t i = 0; colors && i < count; i++) {
+        const vec3 *color = (const vec3 *)(const void *)((const char *)first + i * stride_bytes);
+        colors[i] = encode_color(dump->encodings.color, dump->pre_exposure, *color);
+    }
+    return colors;
+}
+
+/* A part that begins with R G B. */
+static bool color_part(struct part *part, const struct dump *dump, const char *name, uint32_t width, uint32_t height,
+                       struct storage storage, const vec3 *first, size_t stride_bytes, struct glint_error *err) {
+    part_init(part, dump, name, width, height);
+    vec3 *colors = encoded_colors(dump, first, stride_bytes, part->pixels);
+    if (!colors) return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", name);
+    put3(part, rgb, storage, colors, sizeof(vec3));
+    free(colors);
+    return true;
+}
+
+bool dump_lit(const struct dump *dump, const char *name, const struct pixel *pixels, struct glint_error *err) {
+    struct part part;
+    return color_part(&part, dump, name, dump->view->width, dump->view->height, half, &pixels->lit,
+                      sizeof(struct pixel), err) &&
+           part_done(&part, dump, err);
+}
+
+bool dump_cubemap(const struct dump *dump, uint32_t index, const struct glint_cubemap *map, uint32_t size,
+                  const struct texel *texels, struct glint_error *err) {
+    char name[32];
+    struct part part;
+    snprintf(name, sizeof name, "cubemap.%03u", index);
+    if (!color_part(&part, dump, name, size, 6 * size, half, &texels->color, sizeof *texels, err)) return false;
+    put(&part, "A", half, &texels->alpha, sizeof *texels);
+    put(&part, "distance.Z", whole, &texels->distance, sizeof *texels);
+    part.part.cubemap = map;
+    return part_done(&part, dump, err);
+}
+
+bool dump_cubemap_elsewhere(const struct dump *dump, uint32_t index, const struct glint_cubemap *map, uint32_t size,
+                            const char *sibling, struct glint_error *err) {
+    char name[32];
+    struct part part;
+    snprintf(name, sizeof name, "cubemap.%03u", index);
+    part_init(&part, dump, name, size, 6 * size);
+    part.part.cubemap = map;
+    part.part.sibling = sibling;
+    return part_done(&part, dump, err);
+}
+
+bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels, struct glint_error *err) {
+    struct part part;
+    return color_part(&part, dump, "sky", size, 6 * size, half, &texels->color, sizeof *texels, err) &&
+           part_done(&part, dump, err);
+}
+
+static int by_value(const void *a, const void *b) {
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Median of the relative standard errors of pixels that have a surface. */
+static bool median_error(const float *errors, const float *weights, size_t count, double *median) {
+    float *kept = malloc((count + 1) * sizeof *kept);
+    if (!kept) return false;
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        size_t at = i * (sizeof(struct truth) / sizeof(float));
+        if (weights[at] > 0) kept[n++] = errors[at];
+    }
+    qsort(kept, n, sizeof *kept, by_value);
+    *median = n ? (double)kept[n / 2] : 0;
+    free(kept);
+    return true;
+}
+
+static bool dump_lobe(const struct dump *dump, const char *name, const struct truth *truth, const vec3 *color,
+                      const float *weight, const float *error, uint32_t samples, struct glint_error *err) {
+    struct part part;
+    double noise;
+    uint32_t width = dump->view->width, height = dump->view->height;
+    if (!median_error(error, weight, (size_t)width * height, &noise))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", name);
+    if (!color_part(&part, dump, name, width, height, whole, color, sizeof *truth, err)) return false;
+    put(&part, "weight", whole, weight, sizeof *truth);
+    const struct glint_attribute attributes[] = {
+        {.name = "truthSamples", .type = GLINT_ATTRIBUTE_INT, .number = samples},
+        {.name = "truthNoise", .type = GLINT_ATTRIBUTE_DOUBLE, .number = noise},
+    };
+    part.part.attributes = attributes;
+    part.part.attribute_count = sizeof attributes / sizeof *attributes;
+    return part_done(&part, dump, err);
+}
+
+bool dump_truth(const struct dump *dump, const struct truth *truth, uint32_t samples, struct glint_error *err) {
+    if (!dump_lobe(dump, "truth.reflection.ggx", truth, &truth->ggx, &truth->ggx_weight, &truth->ggx_error, samples,
+                   err) ||
+        !dump_lobe(dump, "truth.reflection.blinn_phong", truth, &truth->blinn_phong, &truth->phong_weight,
+                   &truth->phong_error, samples, err))
+        return false;
+    struct part part;
+    part_init(&part, dump, "truth.mirror", dump->view->width, dump->view->height);
+    put(&part, "distance.Z", whole, &truth->distance, sizeof *truth);
+    put(&part, "visible", half, &truth->visible, sizeof *truth);
+    return part_done(&part, dump, err);
+}

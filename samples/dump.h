@@ -1,0 +1,26 @@
+/* Buffers to parts of a capture, stored the way an engine would have stored them: encoded, rounded, declared. */
+#ifndef SAMPLES_DUMP_H
+#define SAMPLES_DUMP_H
+
+#include "render.h"
+
+struct dump {
+    struct glint_writer *writer;
+    struct glint_encodings encodings;
+    double pre_exposure; /* for pre-exposed colour */
+    const struct view *view;
+};
+
+/* `name` is "gbuffer" or "previous.gbuffer"; normals in view space use the given view. */
+bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *view, const struct pixel *pixels,
+                  struct glint_error *err);
+bool dump_lit(const struct dump *dump, const char *name, const struct pixel *pixels, struct glint_error *err);
+bool dump_cubemap(const struct dump *dump, uint32_t index, const struct glint_cubemap *map, uint32_t size,
+                  const struct texel *texels, struct glint_error *err);
+/* A cube map whose pixels are in another file. */
+bool dump_cubemap_elsewhere(const struct dump *dump, uint32_t index, const struct glint_cubemap *map, uint32_t size,
+                            const char *sibling, struct glint_error *err);
+bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels, struct glint_error *err);
+bool dump_truth(const struct dump *dump, const struct truth *truth, uint32_t samples, struct glint_error *err);
+
+#endif

@@ -1,0 +1,130 @@
+/* The frame as an engine's buffers hold it, and its cube maps. One ray a pixel, through its jittered centre. */
+#include "render.h"
+
+#include "half.h"
+
+struct frame_work {
+    const struct world *world;
+    const struct view *view, *previous;
+    struct pixel *pixels;
+};
+
+static void motion_of(const struct frame_work *work, uint32_t x, uint32_t y, vec3 point, double w, float motion[2]) {
+    double uv[2];
+    if (!view_project(work->previous, point, w, uv)) return;
+    motion[0] = (float)(uv[0] - (x + 0.5) / work->view->width);
+    motion[1] = (float)(uv[1] - (y + 0.5) / work->view->height);
+}
+
+/* A perturbed normal is bent back towards the surface until the mirror ray leaves it, as engines do: a reflection of
+   the surface's own inside would mean nothing. */
+static vec3 bent(vec3 normal, const struct hit *hit, vec3 to_eye) {
+    const float enough = 0.01f;
+    vec3 towards = dot(reflected(to_eye, hit->normal), hit->geometric) > enough ? hit->normal : hit->geometric;
+    for (float k = 0; k < 1; k += 0.25f) {
+        vec3 n = unit(mix(normal, towards, k));
+        if (dot(n, to_eye) > 0 && dot(reflected(to_eye, n), hit->geometric) > enough) return n;
+    }
+    return towards;
+}
+
+static vec3 to_half(vec3 v) {
+    return v3(half_to(half_from(v.x)), half_to(half_from(v.y)), half_to(half_from(v.z)));
+}
+
+static struct pixel seen(const struct frame_work *work, const struct hit *hit, vec3 direction) {
+    vec3 to_eye = scale(unit(direction), -1);
+    float slope = fmaxf(dot(to_eye, hit->geometric), 0.05f);
+    struct surface surface = world_surface(work->world, hit, hit->t * work->view->pixel_rad / slope);
+    struct pixel pixel = {.depth = hit->t,
+                          .vertex_normal = to_half(hit->normal),
+                          .albedo = surface.albedo,
+                          .roughness = surface.roughness,
+                          .metalness = surface.metalness,
+                          .specular = surface.specular,
+                          .stencil = surface.stencil,
+                          .position = hit->position,
+                          .geometric = hit->geometric};
+    pixel.normal = to_half(bent(surface.normal, hit, to_eye));
+    pixel.leave = world_leave(hit, hit->geometric);
+    pixel.lit = world_radiance(work->world, hit);
+    return pixel;
+}
+
+static void frame_row(void *user, uint32_t y) {
+    const struct frame_work *work = user;
+    for (uint32_t x = 0; x < work->view->width; x++) {
+        struct pixel *pixel = &work->pixels[(size_t)y * work->view->width + x];
+        vec3 direction = view_ray(work->view, x, y);
+        struct hit hit = world_trace(work->world, view_eye(work->view), direction, (float)VIEW_NEAR);
+        if (hit.t < INFINITY) {
+            *pixel = seen(work, &hit, direction);
+            vec3 step = hit.mesh->flags & MESH_MOVING ? hit.mesh->step : gray(0);
+            motion_of(work, x, y, sub(hit.position, step), 1, pixel->motion);
+        } else {
+            *pixel = (struct pixel){.depth = INFINITY,
+                                    .stencil = STENCIL_SKY,
+                                    .normal = v3(0, 1, 0),
+                                    .vertex_normal = v3(0, 1, 0),
+                                    .lit = world_sky(work->world, direction)};
+            motion_of(work, x, y, direction, 0, pixel->motion);
+        }
+    }
+}
+
+bool render_frame(const struct world *world, const struct view *view, const struct view *previous, struct pixel *pixels,
+                  struct job *job, double weight, struct glint_error *err) {
+    struct frame_work work = {world, view, previous, pixels};
+    return parallel_for(job, "rendering", weight, view->height, frame_row, &work, err);
+}
+
+vec3 cube_direction(uint32_t face, uint32_t x, uint32_t y, uint32_t size) {
+    float s = 2 * ((float)x + 0.5f) / (float)size - 1, t = 2 * ((float)y + 0.5f) / (float)size - 1;
+    switch (face) { /* Vulkan, "Cube Map Face Selection": sc and tc solved for the direction */
+    case 0:
+        return v3(1, -t, -s);
+    case 1:
+        return v3(-1, -t, s);
+    case 2:
+        return v3(s, 1, t);
+    case 3:
+        return v3(s, -1, -t);
+    case 4:
+        return v3(s, -t, 1);
+    default:
+        return v3(-s, -t, -1);
+    }
+}
+
+struct cube_work {
+    const struct world *world;
+    vec3 center;
+    uint32_t size;
+    struct texel *texels;
+    bool sky_only;
+};
+
+static void cube_row(void *user, uint32_t row) {
+    const struct cube_work *work = user;
+    for (uint32_t x = 0; x < work->size; x++) {
+        struct texel *texel = &work->texels[(size_t)row * work->size + x];
+        vec3 direction = unit(cube_direction(row / work->size, x, row % work->size, work->size));
+        struct hit hit = {.t = INFINITY};
+        texel->color =
+            work->sky_only ? world_sky(work->world, direction) : world_look(work->world, work->center, direction, &hit);
+        texel->alpha = hit.t < INFINITY ? 1 : 0;
+        texel->distance = hit.t;
+    }
+}
+
+bool render_cubemap(const struct world *world, vec3 center, uint32_t size, struct texel *texels, struct job *job,
+                    double weight, struct glint_error *err) {
+    struct cube_work work = {world, center, size, texels, false};
+    return parallel_for(job, "rendering cube maps", weight, 6 * size, cube_row, &work, err);
+}
+
+bool render_sky(const struct world *world, uint32_t size, struct texel *texels, struct job *job, double weight,
+                struct glint_error *err) {
+    struct cube_work work = {world, gray(0), size, texels, true};
+    return parallel_for(job, "rendering the sky", weight, 6 * size, cube_row, &work, err);
+}

@@ -1,0 +1,48 @@
+/* Pictures of a world: what an engine's frame holds, cube maps, and the truth. */
+#ifndef SAMPLES_RENDER_H
+#define SAMPLES_RENDER_H
+
+#include "parallel.h"
+#include "view.h"
+#include "world.h"
+
+struct pixel {
+    float depth; /* along the view axis; INFINITY: sky */
+    vec3 normal; /* rounded to half floats, as the engine's G-buffer holds it */
+    vec3 vertex_normal, albedo;
+    float roughness, metalness, specular;
+    float motion[2]; /* uv one frame earlier minus uv now */
+    uint32_t stencil;
+    vec3 lit;
+    vec3 position, leave, geometric; /* of the surface; `leave` is where reflected rays start */
+};
+
+/* `pixels` has room for the view's size. */
+bool render_frame(const struct world *world, const struct view *view, const struct view *previous, struct pixel *pixels,
+                  struct job *job, double weight, struct glint_error *err);
+
+struct texel {
+    vec3 color;
+    float alpha;    /* 0: sky */
+    float distance; /* from the centre; INFINITY: sky */
+};
+
+/* N × 6N texels: faces +X -X +Y -Y +Z -Z one below the other, oriented as Vulkan's cube maps. */
+bool render_cubemap(const struct world *world, vec3 center, uint32_t size, struct texel *texels, struct job *job,
+                    double weight, struct glint_error *err);
+/* The sky alone. */
+bool render_sky(const struct world *world, uint32_t size, struct texel *texels, struct job *job, double weight,
+                struct glint_error *err);
+vec3 cube_direction(uint32_t face, uint32_t x, uint32_t y, uint32_t size);
+
+struct truth {
+    vec3 ggx, blinn_phong;          /* mean radiance over the lobe */
+    float ggx_weight, phong_weight; /* share of the draws that left the surface; 0: no surface */
+    float ggx_error, phong_error;   /* standard error of the mean's luminance, relative */
+    float distance, visible;        /* of the exact mirror ray; INFINITY: sky */
+};
+
+bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
+                  struct truth *truth, struct job *job, double weight, struct glint_error *err);
+
+#endif

@@ -1,0 +1,283 @@
+/* Writes captures of a scene: options in, files out. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bake.h"
+#include "dump.h"
+#include "gltf.h"
+#include "scenes.h"
+
+static const struct glint_sample samples[] = {
+#define ROW(name, summary) {#name, summary},
+    SCENES(ROW)
+#undef ROW
+};
+
+const struct glint_sample *glint_samples(size_t *count) {
+    *count = sizeof samples / sizeof *samples;
+    return samples;
+}
+
+enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, DEFAULT_CUBE = 256, MAX_SIDE = 16384, MAX_CUBE = 4096 };
+
+/* Everything between the options and the files. */
+struct session {
+    struct scene scene;
+    struct glint_sample_options options;
+    const char *out;
+    struct job job;
+    struct world *now, *before, *probes;
+    struct pixel *pixels, *previous;
+    struct texel *texels;
+    struct truth *truth;
+    uint32_t light_samples;
+    char cubemaps_path[4096];
+};
+
+static bool check_options(const struct glint_sample_options *o, struct glint_error *err) {
+    if (o->width > MAX_SIDE || o->height > MAX_SIDE || !o->width != !o->height)
+        return glint_fail(err, GLINT_ERROR_USAGE, "size %u x %u: expected 1 to %d a side", o->width, o->height,
+                          MAX_SIDE);
+    if (o->cube_size > MAX_CUBE)
+        return glint_fail(err, GLINT_ERROR_USAGE, "cube size %u: expected at most %d", o->cube_size, MAX_CUBE);
+    if (o->fov_y_rad < 0 || !(o->fov_y_rad < 3.0))
+        return glint_fail(err, GLINT_ERROR_USAGE, "field of view %g rad: expected between 0 and 3", o->fov_y_rad);
+    double apart = 0;
+    for (int i = 0; i < 3; i++) {
+        double moved = o->target[i] - o->eye[i];
+        apart += moved * moved;
+        if (!isfinite(o->offset[i])) return glint_fail(err, GLINT_ERROR_USAGE, "offset: expected finite numbers");
+    }
+    if (o->camera_given && !(apart > 1e-12 && isfinite(apart)))
+        return glint_fail(err, GLINT_ERROR_USAGE, "camera: expected a position and another point to look at");
+    return true;
+}
+
+static bool build_scene(const char *name, struct session *s, struct glint_error *err) {
+    static void (*const builders[])(struct scene *) = {
+#define BUILDER(name, summary) scene_##name,
+        SCENES(BUILDER)
+#undef BUILDER
+    };
+    scene_init(&s->scene);
+    for (size_t i = 0; i < sizeof samples / sizeof *samples; i++) {
+        if (strcmp(name, samples[i].name)) continue;
+        builders[i](&s->scene);
+        if (s->scene.out_of_memory) return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for scene %s", name);
+        return true;
+    }
+    return gltf_load(name, &s->scene, err);
+}
+
+/* ---- What holds for the frame, moved by the offset ---- */
+
+static void move_camera(struct glint_camera *camera, const double offset[3]) {
+    double *m = camera->world_to_view;
+    for (int row = 0; row < 3; row++)
+        m[4 * row + 3] -= m[4 * row] * offset[0] + m[4 * row + 1] * offset[1] + m[4 * row + 2] * offset[2];
+}
+
+static struct glint_frame frame_of_views(const struct session *s, const struct view *view, const struct view *previous,
+                                         uint32_t number) {
+    const struct scene *scene = &s->scene;
+    const double *offset = s->options.offset;
+    struct glint_frame frame = {.camera = view->camera,
+                                .previous = previous->camera,
+                                .has_previous = true,
+                                .has_player = true,
+                                .number = number,
+                                .exposure = scene->exposure,
+                                .depth_near = VIEW_NEAR,
+                                .depth_far = VIEW_FAR,
+                                .motion_range = 1,
+                                .metres_per_unit = 1,
+                                .pre_exposure = 1,
+                                .has_fog = scene->has_fog,
+                                .fog = scene->fog};
+    if (s->options.encodings.color == GLINT_COLOR_PRE_EXPOSED) frame.pre_exposure = scene->exposure;
+    memcpy(frame.jitter_px, view->jitter_px, sizeof frame.jitter_px);
+    move_camera(&frame.camera, offset);
+    move_camera(&frame.previous, offset);
+    vec3 player =
+        s->options.camera_given ? view_eye(view) : along(scene->player, scene->player_step, (float)(number - 1));
+    const float at[3] = {player.x, player.y, player.z};
+    for (int i = 0; i < 3; i++) frame.player[i] = (double)at[i] + offset[i];
+    frame.fog.base += offset[1];
+    memcpy(frame.classes, scene->classes, sizeof scene->classes);
+    frame.class_count = scene->class_count;
+    return frame;
+}
+
+static struct glint_cubemap moved_cubemap(const struct session *s, uint32_t i) {
+    struct glint_cubemap map = s->scene.cubemaps[i];
+    for (int k = 0; k < 3; k++) map.center[k] += s->options.offset[k];
+    return map;
+}
+
+/* ---- Files ---- */
+
+static bool write_cubemaps(struct session *s, const struct dump *dump, struct glint_error *err) {
+    for (uint32_t i = 0; i < s->scene.cubemap_count; i++) {
+        struct glint_cubemap map = moved_cubemap(s, i);
+        const double *c = s->scene.cubemaps[i].center;
+        vec3 center = v3((float)c[0], (float)c[1], (float)c[2]);
+        if (!render_cubemap(s->probes, center, s->options.cube_size, s->texels, &s->job, 3, err)) return false;
+        if (!dump_cubemap(dump, i, &map, s->options.cube_size, s->texels, err)) return false;
+    }
+    return true;
+}
+
+static bool name_cubemaps(const struct session *s, const struct dump *dump, struct glint_error *err) {
+    const char *slash = strrchr(s->cubemaps_path, '/'), *sibling = slash ? slash + 1 : s->cubemaps_path;
+    for (uint32_t i = 0; i < s->scene.cubemap_count; i++) {
+        struct glint_cubemap map = moved_cubemap(s, i);
+        if (!dump_cubemap_elsewhere(dump, i, &map, s->options.cube_size, sibling, err)) return false;
+    }
+    return true;
+}
+
+static bool write_sky(struct session *s, const struct dump *dump, struct glint_error *err) {
+    if (!s->scene.sky) return true;
+    uint32_t size = s->options.cube_size;
+    return render_sky(s->now, size, s->texels, &s->job, 1, err) && dump_sky(dump, size, s->texels, err);
+}
+
+static bool write_parts(struct session *s, const struct dump *dump, const struct view *view,
+                        const struct view *previous, bool shot, struct glint_error *err) {
+    if (!dump_gbuffer(dump, "gbuffer", view, s->pixels, err) || !dump_lit(dump, "lit", s->pixels, err) ||
+        !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
+        !dump_lit(dump, "previous.lit", s->previous, err))
+        return false;
+    if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
+    if (!s->truth) return true;
+    return render_truth(s->now, view, s->pixels, s->options.truth_samples, s->truth, &s->job, s->options.truth_samples,
+                        err) &&
+           dump_truth(dump, s->truth, s->options.truth_samples, err);
+}
+
+static bool make_worlds(struct session *s, double time, struct glint_error *err) {
+    world_destroy(&s->now);
+    world_destroy(&s->before);
+    s->now = world_create(&s->scene, WORLD_ALL, time, err);
+    s->before = s->now ? world_create(&s->scene, WORLD_ALL, time - 1, err) : NULL;
+    return s->before != NULL;
+}
+
+/* `rendered` says that `pixels` already holds the frame before this one. */
+static bool render_views(struct session *s, const struct view views[3], bool rendered, struct glint_error *err) {
+    struct pixel *swapped = s->previous;
+    s->previous = s->pixels;
+    s->pixels = swapped;
+    if (!rendered && !render_frame(s->before, &views[1], &views[2], s->previous, &s->job, 2, err)) return false;
+    return render_frame(s->now, &views[0], &views[1], s->pixels, &s->job, 2, err);
+}
+
+static bool write_frame(struct session *s, const char *path, uint32_t number, bool rendered, bool shot,
+                        struct glint_error *err) {
+    bool ok = false;
+    struct view views[3];
+    const struct glint_sample_options *o = &s->options;
+    for (uint32_t i = 0; i < 3; i++)
+        views[i] = view_at(&s->scene, o, o->width, o->height, (int64_t)number - (int64_t)i);
+    struct glint_frame frame = frame_of_views(s, &views[0], &views[1], number);
+    struct dump dump = {.encodings = o->encodings, .pre_exposure = frame.pre_exposure, .view = &views[0]};
+    if (!make_worlds(s, (double)number - 1, err) || !render_views(s, views, rendered, err)) return false;
+    dump.writer = glint_writer_create(
+        path, &(struct glint_writer_options){.compression = o->compression, .threads = o->threads}, err);
+    if (!dump.writer) return false;
+    ok = glint_writer_set_frame(dump.writer, &frame, err) && write_parts(s, &dump, &views[0], &views[1], shot, err) &&
+         glint_writer_finish(dump.writer, err);
+    glint_writer_destroy(&dump.writer);
+    return ok;
+}
+
+static bool write_shared_cubemaps(struct session *s, struct glint_error *err) {
+    struct dump dump = {.encodings = s->options.encodings, .pre_exposure = 1};
+    if (dump.encodings.color == GLINT_COLOR_PRE_EXPOSED) dump.pre_exposure = s->scene.exposure;
+    dump.writer = glint_writer_create(
+        s->cubemaps_path,
+        &(struct glint_writer_options){.compression = s->options.compression, .threads = s->options.threads}, err);
+    if (!dump.writer) return false;
+    bool ok = write_cubemaps(s, &dump, err) && glint_writer_finish(dump.writer, err);
+    glint_writer_destroy(&dump.writer);
+    return ok;
+}
+
+/* The path with `infix` before its suffix. */
+static bool name_file(char *path, size_t room, const char *out, const char *infix, struct glint_error *err) {
+    const char *slash = strrchr(out, '/'), *dot = strrchr(slash ? slash : out, '.');
+    size_t stem = dot && dot > out ? (size_t)(dot - out) : strlen(out);
+    int n = snprintf(path, room, "%.*s%s%s", (int)stem, out, infix, out + stem);
+    return n >= 0 && (size_t)n < room ? true : glint_fail(err, GLINT_ERROR_USAGE, "%.200s: the path is too long", out);
+}
+
+static bool write_files(struct session *s, struct glint_error *err) {
+    uint32_t first = s->options.first_frame, frames = s->options.frames;
+    if (frames == 1) return write_frame(s, s->out, first, false, false, err);
+    if (!name_file(s->cubemaps_path, sizeof s->cubemaps_path, s->out, ".cubemaps", err) ||
+        !write_shared_cubemaps(s, err))
+        return false;
+    for (uint32_t i = 0; i < frames; i++) {
+        char path[4096], infix[32];
+        snprintf(infix, sizeof infix, ".%04u", first + i);
+        if (!name_file(path, sizeof path, s->out, infix, err) || !write_frame(s, path, first + i, i > 0, true, err))
+            return false;
+    }
+    return true;
+}
+
+/* ---- From options to a session ---- */
+
+static void set_defaults(struct session *s) {
+    struct glint_sample_options *o = &s->options;
+    if (!o->width) {
+        o->width = DEFAULT_WIDTH;
+        o->height = DEFAULT_HEIGHT;
+    }
+    if (!o->cube_size) o->cube_size = DEFAULT_CUBE;
+    if (!o->frames) o->frames = 1;
+    if (!o->first_frame) o->first_frame = 1;
+    if (!o->probes_given) o->probes = s->scene.probes;
+    s->light_samples = o->light_samples ? o->light_samples : s->scene.light_samples;
+}
+
+static double total_work(const struct session *s) {
+    return 5 + 3.0 * s->scene.cubemap_count + s->options.frames * (4.0 + 1 + s->options.truth_samples);
+}
+
+static bool prepare(struct session *s, struct glint_error *err) {
+    size_t pixels = (size_t)s->options.width * s->options.height, cube = s->options.cube_size;
+    s->pixels = calloc(pixels, sizeof *s->pixels);
+    s->previous = calloc(pixels, sizeof *s->previous);
+    s->texels = calloc(6 * cube * cube, sizeof *s->texels);
+    if (s->options.truth_samples) s->truth = calloc(pixels, sizeof *s->truth);
+    if (!s->pixels || !s->previous || !s->texels || (s->options.truth_samples && !s->truth))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for %u x %u pixels", s->options.width, s->options.height);
+    s->job.total = total_work(s);
+    if (!s->scene.unlit && !bake_light(&s->scene, s->light_samples, &s->job, 5, err)) return false;
+    if (s->options.probes == GLINT_PROBES_AUTO && !place_probes(&s->scene, err)) return false;
+    enum world_kind kind = s->options.probes == GLINT_PROBES_IMPERFECT ? WORLD_SIMPLIFIED : WORLD_ALL;
+    s->probes = world_create(&s->scene, kind, s->options.first_frame - 1.0, err);
+    return s->probes != NULL;
+}
+
+bool glint_sample_write(const char *scene, const char *out, const struct glint_sample_options *options,
+                        glint_progress progress, void *user, struct glint_error *err) {
+    struct session s = {.out = out, .options = options ? *options : (struct glint_sample_options){0}};
+    s.job = (struct job){.progress = progress, .user = user, .threads = s.options.threads};
+    bool ok = check_options(&s.options, err) && build_scene(scene, &s, err);
+    if (ok) {
+        set_defaults(&s);
+        ok = prepare(&s, err) && write_files(&s, err);
+    }
+    world_destroy(&s.now);
+    world_destroy(&s.before);
+    world_destroy(&s.probes);
+    free(s.pixels);
+    free(s.previous);
+    free(s.texels);
+    free(s.truth);
+    scene_finish(&s.scene);
+    return ok;
+}

@@ -1,0 +1,134 @@
+/* What a sample scene is made of: meshes with materials, lights, a sky, a camera path, cube maps. Built by code
+   (scenes/) or read from glTF; knows no renderer. Right-handed, +Y up, metres. */
+#ifndef SAMPLES_SCENE_H
+#define SAMPLES_SCENE_H
+
+#include "glint/samples.h"
+#include "vec.h"
+
+/* A point of a surface: what the ray found, then what the material's paint makes of it. */
+struct surface {
+    vec3 position;   /* in the mesh's own space, where moving things stand still */
+    vec3 normal;     /* smooth normal of the mesh; paint may perturb it */
+    float footprint; /* how far apart on the surface neighbouring pixels are, in m; 0 when not seen by the camera */
+    vec3 albedo, emission;
+    float roughness, metalness, specular;
+    uint32_t stencil;
+};
+
+struct material {
+    vec3 albedo, emission; /* averages, when there is a paint: baked light uses them */
+    float roughness, metalness, specular;
+    uint32_t stencil;
+    void (*paint)(struct surface *surface); /* detail by code; colours must depend on position and normal alone */
+};
+
+enum mesh_flags {
+    MESH_PLAIN = 0,
+    MESH_DETAIL = 1,     /* not in imperfect cube maps */
+    MESH_SIMPLIFIED = 2, /* only in imperfect cube maps */
+    MESH_MOVING = 4      /* not in imperfect cube maps; moves by `step` each frame */
+};
+
+struct mesh {
+    struct material material;
+    uint32_t flags;
+    vec3 step;
+    vec3 *positions, *normals;
+    vec3 *light; /* baked irradiance at each vertex, sky and all bounces */
+    uint32_t *triangles;
+    uint32_t vertex_count, triangle_count;
+    uint32_t vertex_room, triangle_room;
+};
+
+struct light {
+    vec3 position, intensity;   /* W/sr, say */
+    vec3 axis;                  /* of a spot; 0: shines everywhere */
+    float cos_inner, cos_outer; /* full inside, none outside */
+    float range;                /* fades to nothing here */
+};
+
+/* What a moving thing takes of the baked light around it: the soft shadow under a car. */
+struct contact {
+    vec3 low, high, step;
+};
+
+#define SCENE_MAX_LIGHTS 48
+#define SCENE_MAX_CONTACTS 4
+#define SCENE_MAX_CUBEMAPS 32
+
+struct scene {
+    struct mesh *meshes;
+    uint32_t mesh_count, mesh_room;
+    bool out_of_memory; /* sticky: building goes on as a no-op */
+
+    /* Where shapes are put: rotated about +Y, then moved. */
+    vec3 place;
+    float turn_rad;
+    float cell; /* longest edge that baked light is interpolated over */
+    vec3 step;  /* of the moving meshes that are begun next */
+
+    struct light lights[SCENE_MAX_LIGHTS];
+    uint32_t light_count;
+    struct contact contacts[SCENE_MAX_CONTACTS];
+    uint32_t contact_count;
+    vec3 sun_direction, sun_irradiance; /* towards the sun */
+    vec3 (*sky)(vec3 direction);        /* radiance; NULL: black */
+    bool unlit;                         /* radiance is emission alone */
+    uint32_t light_samples, bounces;    /* of baked light, by default */
+    float fill;                         /* radiance of what the last bounce would still bring, per albedo */
+
+    vec3 eye, target;           /* at frame 1 */
+    vec3 eye_step, target_step; /* each frame */
+    float fov_y_rad;
+    vec3 player, player_step;
+    double exposure;
+    enum glint_probes probes;
+    struct glint_cubemap cubemaps[SCENE_MAX_CUBEMAPS];
+    uint32_t cubemap_count;
+    bool has_fog;
+    struct glint_fog fog;
+    struct glint_stencil_class classes[8];
+    uint32_t class_count;
+};
+
+enum { STENCIL_WORLD = 1, STENCIL_SKY = 2, STENCIL_VEHICLE = 4, STENCIL_VEGETATION = 8, STENCIL_GLASS = 16 };
+
+void scene_init(struct scene *scene);
+void scene_finish(struct scene *scene);
+
+/* ---- Building: everything is added to the mesh that was begun last ---- */
+
+void scene_mesh(struct scene *scene, const struct material *material, uint32_t flags);
+/* Shapes that follow are put at `place`, turned about +Y. */
+void scene_place(struct scene *scene, vec3 place, float turn_rad);
+uint32_t scene_vertex(struct scene *scene, vec3 position, vec3 normal);
+void scene_triangle(struct scene *scene, uint32_t a, uint32_t b, uint32_t c);
+
+/* Parallelogram seen from where u × v points to. */
+void scene_quad(struct scene *scene, vec3 corner, vec3 u, vec3 v);
+void scene_box(struct scene *scene, vec3 low, vec3 high);
+enum box_face { FACE_PX = 1, FACE_NX = 2, FACE_PY = 4, FACE_NY = 8, FACE_PZ = 16, FACE_NZ = 32, FACE_ALL = 63 };
+void scene_box_faces(struct scene *scene, vec3 low, vec3 high, uint32_t faces);
+/* The inside of a box: the faces look inwards. */
+void scene_room(struct scene *scene, vec3 low, vec3 high, uint32_t faces);
+void scene_tube(struct scene *scene, vec3 from, vec3 to, float radius, uint32_t segments);
+void scene_sphere(struct scene *scene, vec3 center, float radius, uint32_t segments);
+/* Turns the polyline (radius, height) about the vertical through `center`; smooth around, hard at its corners. */
+void scene_lathe(struct scene *scene, vec3 center, const float (*profile)[2], uint32_t count, uint32_t segments);
+/* A convex polygon in x and y, counter-clockwise, swept along z from z0 to z1. */
+void scene_extrude(struct scene *scene, const float (*polygon)[2], uint32_t count, float z0, float z1);
+
+/* The box of a moving thing, in world coordinates at frame 1, moving by the current step. */
+void scene_contact(struct scene *scene, vec3 low, vec3 high);
+void scene_lamp(struct scene *scene, vec3 position, vec3 intensity, float range);
+void scene_spot(struct scene *scene, vec3 position, vec3 axis, vec3 intensity, float range, float inner_rad,
+                float outer_rad);
+struct glint_cubemap *scene_cubemap(struct scene *scene, vec3 center, bool outdoor);
+/* An inner volume, in world coordinates. */
+void cubemap_box(struct glint_cubemap *map, vec3 low, vec3 high);
+
+/* The box of everything; false when there is nothing. */
+bool scene_bounds(const struct scene *scene, vec3 *low, vec3 *high);
+
+#endif

@@ -1,0 +1,99 @@
+/* What a resolve pass estimates, computed for the scene itself: the mean radiance over the whole lobe around the
+   full-resolution normal, and where the exact mirror ray ends. */
+#include "render.h"
+
+#include "lobes.h"
+#include "noise.h"
+
+struct truth_work {
+    const struct world *world;
+    const struct view *view;
+    const struct pixel *pixels;
+    uint32_t samples;
+    struct truth *truth;
+};
+
+typedef vec3 lobe(vec3 to_eye, vec3 normal, float roughness, float u, float v);
+
+struct mean {
+    double color[3], square;
+    uint32_t count;
+};
+
+static void gather(struct mean *mean, vec3 color) {
+    mean->color[0] += (double)color.x;
+    mean->color[1] += (double)color.y;
+    mean->color[2] += (double)color.z;
+    double l = (double)luminance(color);
+    mean->square += l * l;
+    mean->count++;
+}
+
+static vec3 result(const struct mean *mean, uint32_t samples, float *weight, float *error) {
+    *weight = samples ? (float)mean->count / (float)samples : 0;
+    *error = 0;
+    if (!mean->count) return gray(0);
+    double n = mean->count;
+    vec3 color = v3((float)(mean->color[0] / n), (float)(mean->color[1] / n), (float)(mean->color[2] / n));
+    double l = (double)luminance(color), variance = mean->square / n - l * l;
+    if (n > 1 && l > 0 && variance > 0) *error = (float)(sqrt(variance / (n - 1)) / l);
+    return color;
+}
+
+/* Draws that go below the horizon, of the normal or of the surface itself, are repeated. */
+static vec3 average(const struct truth_work *work, const struct pixel *pixel, vec3 to_eye, vec3 normal, lobe *draw,
+                    uint32_t seed, float *weight, float *error) {
+    enum { MOST_REPEATS = 64 };
+    struct mean mean = {0};
+    for (uint32_t i = 0; i < work->samples; i++) {
+        float u, v;
+        r2_point(i, seed, &u, &v);
+        for (uint32_t k = 0; k < MOST_REPEATS; k++) {
+            vec3 direction = draw(to_eye, normal, pixel->roughness, u, v);
+            if (dot(direction, normal) > 0 && dot(direction, pixel->geometric) > 0) {
+                gather(&mean, world_look(work->world, pixel->leave, direction, NULL));
+                break;
+            }
+            uint32_t again = hash_two(hash_two(seed, i), k);
+            u = unit_float(hash_u32(again));
+            v = unit_float(hash_u32(again + 1));
+        }
+    }
+    return result(&mean, work->samples, weight, error);
+}
+
+static bool on_screen(const struct truth_work *work, const struct hit *hit) {
+    double uv[2];
+    vec3 to_eye = sub(view_eye(work->view), hit->position);
+    if (!view_project(work->view, hit->position, 1, uv)) return false;
+    if (uv[0] < 0 || uv[0] >= 1 || uv[1] < 0 || uv[1] >= 1) return false;
+    if (dot(to_eye, hit->geometric) <= 0) return false;
+    vec3 from = world_leave(hit, hit->geometric);
+    return !world_blocked(work->world, from, sub(view_eye(work->view), from), 1);
+}
+
+static void truth_row(void *user, uint32_t y) {
+    const struct truth_work *work = user;
+    for (uint32_t x = 0; x < work->view->width; x++) {
+        uint32_t index = y * work->view->width + x;
+        const struct pixel *pixel = &work->pixels[index];
+        struct truth *truth = &work->truth[index];
+        *truth = (struct truth){.distance = INFINITY};
+        if (!(pixel->depth < INFINITY)) continue;
+        vec3 to_eye = unit(sub(view_eye(work->view), pixel->position)), normal = unit(pixel->normal);
+        truth->ggx = average(work, pixel, to_eye, normal, lobe_ggx, 2 * index, &truth->ggx_weight, &truth->ggx_error);
+        truth->blinn_phong = average(work, pixel, to_eye, normal, lobe_blinn_phong, 2 * index + 1, &truth->phong_weight,
+                                     &truth->phong_error);
+        vec3 mirror = unit(reflected(to_eye, normal));
+        struct hit hit = world_trace(work->world, pixel->leave, mirror, 0);
+        if (!(hit.t < INFINITY)) continue;
+        truth->distance = length(sub(hit.position, pixel->position));
+        truth->visible = on_screen(work, &hit) ? 1 : 0;
+    }
+}
+
+bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
+                  struct truth *truth, struct job *job, double weight, struct glint_error *err) {
+    struct truth_work work = {world, view, pixels, samples, truth};
+    return parallel_for(job, "tracing the truth", weight, view->height, truth_row, &work, err);
+}

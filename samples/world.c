@@ -1,0 +1,225 @@
+/* Rays through Embree, and the diffuse-only shading that every picture of a scene shares. */
+#include "world.h"
+
+#include <embree3/rtcore.h>
+#include <stdlib.h>
+
+struct world {
+    const struct scene *scene;
+    enum world_kind kind;
+    double time;
+    RTCDevice device;
+    RTCScene tree;
+    const struct mesh **meshes; /* by Embree's geometry id */
+    uint32_t mesh_count;
+};
+
+static vec3 displacement(const struct world *world, const struct mesh *mesh) {
+    return mesh->flags & MESH_MOVING ? scale(mesh->step, (float)world->time) : gray(0);
+}
+
+static bool part_of(const struct mesh *mesh, enum world_kind kind) {
+    if (!mesh->triangle_count) return false;
+    static const uint32_t left_out[] = {[WORLD_ALL] = MESH_SIMPLIFIED,
+                                        [WORLD_STATIC] = MESH_SIMPLIFIED | MESH_MOVING,
+                                        [WORLD_SIMPLIFIED] = MESH_DETAIL | MESH_MOVING};
+    return !(mesh->flags & left_out[kind]);
+}
+
+static bool attach(struct world *world, const struct mesh *mesh, struct glint_error *err) {
+    RTCGeometry geometry = rtcNewGeometry(world->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    vec3 *positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
+                                              mesh->vertex_count);
+    if (!positions) {
+        rtcReleaseGeometry(geometry);
+        return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for a mesh of %u vertices", mesh->vertex_count);
+    }
+    vec3 moved = displacement(world, mesh);
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) positions[i] = add(mesh->positions[i], moved);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->triangles, 0,
+                               3 * sizeof(uint32_t), mesh->triangle_count);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(world->tree, geometry, world->mesh_count);
+    rtcReleaseGeometry(geometry);
+    world->meshes[world->mesh_count++] = mesh;
+    return true;
+}
+
+struct world *world_create(const struct scene *scene, enum world_kind kind, double time, struct glint_error *err) {
+    struct world *world = calloc(1, sizeof *world);
+    if (!world) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the ray tracer");
+        return NULL;
+    }
+    *world = (struct world){.scene = scene, .kind = kind, .time = time};
+    world->meshes = calloc(scene->mesh_count ? scene->mesh_count : 1, sizeof *world->meshes);
+    /* One thread builds the tree: ties between triangles that share an edge then fall the same way everywhere. */
+    world->device = rtcNewDevice("threads=1");
+    if (!world->meshes || !world->device) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "Embree could not be started");
+        goto failed;
+    }
+    world->tree = rtcNewScene(world->device);
+    rtcSetSceneFlags(world->tree, RTC_SCENE_FLAG_ROBUST);
+    for (uint32_t i = 0; i < scene->mesh_count; i++)
+        if (part_of(&scene->meshes[i], kind) && !attach(world, &scene->meshes[i], err)) goto failed;
+    rtcCommitScene(world->tree);
+    enum RTCError error = rtcGetDeviceError(world->device);
+    if (error == RTC_ERROR_NONE) return world;
+    glint_fail(err, error == RTC_ERROR_OUT_OF_MEMORY ? GLINT_ERROR_MEMORY : GLINT_ERROR_UNSUPPORTED,
+               "Embree refused the scene (error %d)", (int)error);
+failed:
+    world_destroy(&world);
+    return NULL;
+}
+
+void world_destroy(struct world **world) {
+    if (!*world) return;
+    if ((*world)->tree) rtcReleaseScene((*world)->tree);
+    if ((*world)->device) rtcReleaseDevice((*world)->device);
+    free((*world)->meshes);
+    free(*world);
+    *world = NULL;
+}
+
+const struct scene *world_scene(const struct world *world) {
+    return world->scene;
+}
+
+static void fill_hit(const struct world *world, const struct RTCRayHit *found, vec3 direction, struct hit *hit) {
+    const struct mesh *mesh = world->meshes[found->hit.geomID];
+    const uint32_t *index = mesh->triangles + 3 * (size_t)found->hit.primID;
+    float u = found->hit.u, v = found->hit.v, w = 1 - u - v;
+    vec3 geometric = unit(v3(found->hit.Ng_x, found->hit.Ng_y, found->hit.Ng_z));
+    vec3 normal =
+        unit(along(along(scale(mesh->normals[index[0]], w), mesh->normals[index[1]], u), mesh->normals[index[2]], v));
+    if (dot(geometric, direction) > 0) geometric = scale(geometric, -1);
+    if (dot(normal, geometric) < 0) normal = scale(normal, -1);
+    hit->geometric = geometric;
+    hit->normal = normal;
+    hit->light = mesh->light
+                     ? along(along(scale(mesh->light[index[0]], w), mesh->light[index[1]], u), mesh->light[index[2]], v)
+                     : gray(0);
+    hit->mesh = mesh;
+    hit->triangle = found->hit.primID;
+}
+
+struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min) {
+    struct RTCRayHit ray = {.ray = {.org_x = origin.x,
+                                    .org_y = origin.y,
+                                    .org_z = origin.z,
+                                    .tnear = t_min,
+                                    .dir_x = direction.x,
+                                    .dir_y = direction.y,
+                                    .dir_z = direction.z,
+                                    .tfar = INFINITY,
+                                    .mask = ~0U},
+                            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect1(world->tree, &context, &ray);
+    struct hit hit = {.t = INFINITY};
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    hit.t = ray.ray.tfar;
+    hit.position = along(origin, direction, hit.t);
+    fill_hit(world, &ray, direction, &hit);
+    return hit;
+}
+
+bool world_blocked(const struct world *world, vec3 origin, vec3 direction, float t_max) {
+    struct RTCRay ray = {.org_x = origin.x,
+                         .org_y = origin.y,
+                         .org_z = origin.z,
+                         .dir_x = direction.x,
+                         .dir_y = direction.y,
+                         .dir_z = direction.z,
+                         .tfar = t_max,
+                         .mask = ~0U};
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(world->tree, &context, &ray);
+    return ray.tfar < 0;
+}
+
+static vec3 off_surface(vec3 position, vec3 side) {
+    float size = fmaxf(fabsf(position.x), fmaxf(fabsf(position.y), fabsf(position.z)));
+    return along(position, side, 2e-5f + 3e-6f * size);
+}
+
+vec3 world_leave(const struct hit *hit, vec3 side) {
+    return off_surface(hit->position, dot(side, hit->geometric) < 0 ? scale(hit->geometric, -1) : hit->geometric);
+}
+
+struct surface world_surface(const struct world *world, const struct hit *hit, float footprint) {
+    const struct material *material = &hit->mesh->material;
+    struct surface surface = {.position = sub(hit->position, displacement(world, hit->mesh)),
+                              .normal = hit->normal,
+                              .footprint = footprint,
+                              .albedo = material->albedo,
+                              .emission = material->emission,
+                              .roughness = material->roughness,
+                              .metalness = material->metalness,
+                              .specular = material->specular,
+                              .stencil = material->stencil};
+    if (material->paint) material->paint(&surface);
+    if (world->kind == WORLD_SIMPLIFIED) surface.metalness = 0;
+    return surface;
+}
+
+vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
+    const struct scene *scene = world->scene;
+    vec3 from = off_surface(position, normal), sum = gray(0);
+    float sun = dot(scene->sun_direction, normal);
+    if (sun > 0 && luminance(scene->sun_irradiance) > 0 && !world_blocked(world, from, scene->sun_direction, INFINITY))
+        sum = scale(scene->sun_irradiance, sun);
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const struct light *light = &scene->lights[i];
+        vec3 way = sub(light->position, from);
+        float square = dot(way, way), cosine = dot(way, normal);
+        if (square > light->range * light->range || cosine <= 0) continue;
+        float distance = sqrtf(square), ratio = square / (light->range * light->range);
+        float factor = (1 - ratio) * (1 - ratio) * cosine / (distance * fmaxf(square, 0.01f));
+        if (light->cos_outer < 1)
+            factor *= smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / distance);
+        if (factor > 0 && !world_blocked(world, from, way, 1 - 0.02f / fmaxf(distance, 0.03f)))
+            sum = along(sum, light->intensity, factor);
+    }
+    return sum;
+}
+
+/* Baked light knows nothing of what moves; near a moving box it fades. */
+static float contact_shade(const struct world *world, vec3 position) {
+    const struct scene *scene = world->scene;
+    float shade = 1;
+    if (world->kind != WORLD_ALL) return shade;
+    for (uint32_t i = 0; i < scene->contact_count; i++) {
+        const struct contact *contact = &scene->contacts[i];
+        vec3 p = sub(position, scale(contact->step, (float)world->time));
+        vec3 out =
+            v3(fmaxf(contact->low.x - p.x, p.x - contact->high.x), fmaxf(contact->low.y - p.y, p.y - contact->high.y),
+               fmaxf(contact->low.z - p.z, p.z - contact->high.z));
+        float beside = fmaxf(out.x, out.z), above = fmaxf(out.y, 0);
+        shade *= 1 - 0.9f * (1 - smooth(-0.35f, 0.45f, beside)) * (1 - smooth(0.1f, 0.8f, above));
+    }
+    return shade;
+}
+
+vec3 world_radiance(const struct world *world, const struct hit *hit) {
+    struct surface surface = world_surface(world, hit, 0);
+    if (world->scene->unlit) return surface.emission;
+    float shade = hit->mesh->flags & MESH_MOVING ? 1 : contact_shade(world, hit->position);
+    vec3 irradiance = along(world_direct(world, hit->position, hit->normal), hit->light, shade);
+    vec3 albedo = scale(surface.albedo, (1 - surface.metalness) / PI_F);
+    return add(surface.emission, times(albedo, irradiance));
+}
+
+vec3 world_sky(const struct world *world, vec3 direction) {
+    return world->scene->sky ? world->scene->sky(unit(direction)) : gray(0);
+}
+
+vec3 world_look(const struct world *world, vec3 origin, vec3 direction, struct hit *hit) {
+    struct hit found = world_trace(world, origin, direction, 0);
+    if (hit) *hit = found;
+    return found.t < INFINITY ? world_radiance(world, &found) : world_sky(world, direction);
+}

@@ -1,0 +1,247 @@
+/* What holds for every scene: its captures keep all rules of the format, under every encoding, and the same options
+   give the same bytes. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { W = 64, H = 36 };
+
+static struct glint_sample_options options(void) {
+    return (struct glint_sample_options){.width = W, .height = H, .cube_size = 16, .light_samples = 4};
+}
+
+static void print_violation(void *user, const char *rule, const char *message) {
+    (void)user;
+    print_error("%s: %s\n", rule, message);
+}
+
+static void assert_valid(const char *path) {
+    struct glint_error err = {0};
+    size_t violations = 1;
+    if (!glint_capture_validate(path, NULL, print_violation, NULL, &violations, &err)) fail_msg("%s", err.message);
+    assert_int_equal(violations, 0);
+}
+
+static void test_every_scene_is_valid(void **state) {
+    size_t count;
+    const struct glint_sample *scenes = glint_samples(&count);
+    assert_true(count >= 2);
+    for (size_t i = 0; i < count; i++) {
+        struct glint_sample_options o = options();
+        o.truth_samples = 1;
+        const char *path = in_folder(state, scenes[i].name);
+        write_sample(scenes[i].name, path, &o);
+        assert_valid(path);
+        struct glint_capture *capture = open_capture(path);
+        assert_non_null(glint_capture_find(capture, "cubemap.007"));
+        assert_non_null(glint_capture_find(capture, "truth.reflection.blinn_phong"));
+        glint_capture_close(&capture);
+    }
+}
+
+/* Largest difference of decoded values; infinities must agree. */
+static double apart(const float *a, const float *b, size_t count) {
+    double largest = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (isinf(a[i]) || isinf(b[i])) assert_true(a[i] == b[i]);
+        else largest = fmax(largest, fabs((double)a[i] - (double)b[i]) / fmax(1, fabs((double)a[i])));
+    }
+    return largest;
+}
+
+/* Steps of the storage formats, worst case for values of this scene, relative above 1:
+   normals R10G10B10A2 half a step of 2/1023 before they are made unit again; roughness R8 half a step of 1/255;
+   motion half floats of pixels; colour half floats after the sRGB curve, whose slope reaches 2.4 above 1. */
+static const double depth_bound = 2e-3, normal_bound = 2e-3, roughness_bound = 2.1e-3, motion_bound = 1e-4,
+                    color_bound = 3e-3;
+
+static void compare(const char *path, const float *const plain[4]) {
+    static const char *const channels[4] = {"depth.Z",
+                                            "normal.X normal.Y normal.Z vertexNormal.X vertexNormal.Y vertexNormal.Z",
+                                            "material.roughness motion.X motion.Y", "R G B"};
+    static const size_t counts[4] = {1, 6, 3, 3};
+    const double bounds[4] = {depth_bound, normal_bound, fmax(roughness_bound, motion_bound), color_bound};
+    struct glint_capture *capture = open_capture(path);
+    float *depth = read_part(capture, "gbuffer", "depth.Z", NULL, NULL);
+    for (int k = 0; k < 4; k++) {
+        float *values = read_part(capture, k == 3 ? "lit" : "gbuffer", channels[k], NULL, NULL);
+        for (size_t i = 0; i < (size_t)W * H; i++) { /* under sky only depth and colour mean something */
+            if ((k == 1 || k == 2) && isinf(depth[i])) continue;
+            double error = apart(values + i * counts[k], plain[k] + i * counts[k], counts[k]);
+            if (error > bounds[k]) fail_msg("%s: %s differs by %g", path, channels[k], error);
+        }
+        free(values);
+    }
+    free(depth);
+    glint_capture_close(&capture);
+}
+
+static void test_every_encoding_decodes_to_the_same_scene(void **state) {
+    struct glint_sample_options o = options();
+    const char *path = in_folder(state, "plain.exr");
+    write_sample("matte", path, &o);
+    struct glint_capture *capture = open_capture(path);
+    float *plain[4] = {read_part(capture, "gbuffer", "depth.Z", NULL, NULL),
+                       read_part(capture, "gbuffer",
+                                 "normal.X normal.Y normal.Z vertexNormal.X vertexNormal.Y vertexNormal.Z", NULL, NULL),
+                       read_part(capture, "gbuffer", "material.roughness motion.X motion.Y", NULL, NULL),
+                       read_part(capture, "lit", "R G B", NULL, NULL)};
+    glint_capture_close(&capture);
+    for (int i = 1; i < 6; i++) { /* every value of every enum appears */
+        char name[32];
+        o.encodings = (struct glint_encodings){.depth = (enum glint_depth_encoding)i,
+                                               .normal = (enum glint_normal_encoding)(i % 3),
+                                               .vertex_normal = (enum glint_normal_encoding)((i + 1) % 3),
+                                               .normal_space = (enum glint_normal_space)(i % 2),
+                                               .roughness = (enum glint_roughness_encoding)(i % 4),
+                                               .motion = (enum glint_motion_encoding)(i % 4),
+                                               .color = (enum glint_color_encoding)(i % 3)};
+        snprintf(name, sizeof name, "encoded%d.exr", i);
+        path = in_folder(state, name);
+        write_sample("matte", path, &o);
+        assert_valid(path);
+        compare(path, (const float *const *)plain);
+    }
+    for (int i = 0; i < 4; i++) free(plain[i]);
+}
+
+static void test_same_options_same_bytes(void **state) {
+    const char *a = in_folder(state, "a.exr"), *b = in_folder(state, "b.exr"), *c = in_folder(state, "c.exr");
+    struct glint_sample_options o = options();
+    o.truth_samples = 2;
+    o.threads = 1;
+    write_sample("matte", a, &o);
+    o.threads = 3;
+    write_sample("matte", b, &o);
+    assert_true(same_bytes(a, b));
+    o.light_samples = 5;
+    write_sample("matte", c, &o);
+    assert_false(same_bytes(a, c));
+}
+
+static void test_offset_moves_the_doubles_and_no_pixel(void **state) {
+    const char *near_path = in_folder(state, "near.exr"), *far_path = in_folder(state, "far.exr");
+    struct glint_sample_options o = options();
+    write_sample("matte", near_path, &o);
+    o.offset[0] = 1e6;
+    o.offset[1] = -250;
+    o.offset[2] = 3e5;
+    write_sample("matte", far_path, &o);
+    struct glint_capture *a = open_capture(near_path), *b = open_capture(far_path);
+    const struct glint_frame *frames[2] = {glint_capture_frame(a), glint_capture_frame(b)};
+    double eyes[2][3], previous[2][3];
+    for (int i = 0; i < 2; i++) {
+        camera_eye(&frames[i]->camera, eyes[i]);
+        camera_eye(&frames[i]->previous, previous[i]);
+    }
+    for (int k = 0; k < 3; k++) { /* doubles at 1e6 have steps of 1e-10 */
+        assert_true(fabs(eyes[1][k] - eyes[0][k] - o.offset[k]) < 1e-8);
+        assert_true(fabs(previous[1][k] - previous[0][k] - o.offset[k]) < 1e-8);
+        assert_true(fabs(frames[1]->player[k] - frames[0]->player[k] - o.offset[k]) < 1e-8);
+    }
+    size_t maps = 0;
+    for (size_t i = 0; i < glint_capture_part_count(a); i++) {
+        const struct glint_part_info *p = glint_capture_part(a, i), *q = glint_capture_find(b, p->name);
+        assert_non_null(q);
+        if (!p->has_cubemap) continue;
+        maps++;
+        for (int k = 0; k < 3; k++) assert_true(fabs(q->cubemap.center[k] - p->cubemap.center[k] - o.offset[k]) < 1e-8);
+    }
+    assert_int_equal(maps, 8);
+    float *near_depth = read_part(a, "gbuffer", "depth.Z motion.X", NULL, NULL);
+    float *far_depth = read_part(b, "gbuffer", "depth.Z motion.X", NULL, NULL);
+    assert_memory_equal(near_depth, far_depth, sizeof(float) * 2 * W * H);
+    free(near_depth);
+    free(far_depth);
+    glint_capture_close(&a);
+    glint_capture_close(&b);
+}
+
+static void test_a_shot_shares_its_cubemaps(void **state) {
+    struct glint_sample_options o = options();
+    o.frames = 3;
+    write_sample("matte", in_folder(state, "shot.exr"), &o);
+    struct glint_capture *second = open_capture(in_folder(state, "shot.0002.exr"));
+    const struct glint_part_info *map = glint_capture_find(second, "cubemap.003");
+    assert_non_null(map);
+    assert_string_equal(map->sibling, "shot.cubemaps.exr");
+    float *shared = read_part(second, "cubemap.003", "R G B A distance.Z", NULL, NULL);
+    /* The single capture of the same frame holds the same cube map, and the same previous frame. */
+    o.frames = 1;
+    o.first_frame = 2;
+    write_sample("matte", in_folder(state, "single.exr"), &o);
+    struct glint_capture *single = open_capture(in_folder(state, "single.exr"));
+    float *own = read_part(single, "cubemap.003", "R G B A distance.Z", NULL, NULL);
+    assert_memory_equal(shared, own, sizeof(float) * 5 * 6 * 16 * 16);
+    float *a = read_part(second, "previous.lit", "R G B", NULL, NULL),
+          *b = read_part(single, "previous.lit", "R G B", NULL, NULL);
+    assert_memory_equal(a, b, sizeof(float) * 3 * W * H);
+    assert_int_equal(glint_capture_frame(second)->number, 2);
+    free(shared);
+    free(own);
+    free(a);
+    free(b);
+    glint_capture_close(&second);
+    glint_capture_close(&single);
+    assert_valid(in_folder(state, "shot.0003.exr"));
+}
+
+static bool stop_late(void *user, const char *what, double done) {
+    (void)what;
+    return done < *(const double *)user;
+}
+
+static void test_interrupted_work_leaves_complete_files_only(void **state) {
+    struct glint_sample_options o = options();
+    struct glint_error err = {0};
+    double until = 0.8;
+    o.frames = 4;
+    assert_false(glint_sample_write("matte", in_folder(state, "cut.exr"), &o, stop_late, &until, &err));
+    assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
+    int complete = 0;
+    for (int i = 1; i <= 4; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "cut.%04d.exr", i);
+        FILE *file = fopen(in_folder(state, name), "rb");
+        if (!file) continue;
+        fclose(file);
+        complete++;
+        assert_valid(in_folder(state, name));
+    }
+    assert_true(complete >= 1 && complete < 4);
+    write_sample("matte", in_folder(state, "cut.exr"), &o); /* running it again goes to the end */
+    assert_valid(in_folder(state, "cut.0004.exr"));
+}
+
+static void test_wrong_options_are_errors(void **state) {
+    struct glint_sample_options o = options();
+    struct glint_error err = {0};
+    const char *path = in_folder(state, "never.exr");
+    o.width = 1 << 20;
+    assert_false(glint_sample_write("matte", path, &o, NULL, NULL, &err));
+    assert_int_equal(err.code, GLINT_ERROR_USAGE);
+    o = options();
+    o.camera_given = true; /* eye and target are the same point */
+    assert_false(glint_sample_write("matte", path, &o, NULL, NULL, &err));
+    assert_int_equal(err.code, GLINT_ERROR_USAGE);
+    o = options();
+    assert_false(glint_sample_write("no_such_scene", path, &o, NULL, NULL, &err));
+    assert_non_null(strstr(err.message, "no_such_scene"));
+    assert_null(fopen(path, "rb"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_every_scene_is_valid, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_every_encoding_decodes_to_the_same_scene, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_same_options_same_bytes, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_offset_moves_the_doubles_and_no_pixel, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_a_shot_shares_its_cubemaps, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_interrupted_work_leaves_complete_files_only, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_wrong_options_are_errors, folder_make, folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
