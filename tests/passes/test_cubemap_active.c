@@ -1,0 +1,191 @@
+/* cubemap_active/nearest: which cube maps take part, and the chains. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "glint/passes.h"
+
+enum { MOST = 16 };
+
+/* Stands in for the replay: keeps tables in plain memory. */
+struct stand_in {
+    struct glint_host_context context;
+    struct glint_frame frame;
+    struct glint_cubemap cubemaps[MOST];
+    double count, chain, outdoor, vertical;
+    struct glint_table index, center, chains;
+    float memory[3][4 * MOST * MOST];
+};
+
+static double value(const struct glint_host_context *context, const char *parameter) {
+    const struct stand_in *s = context->user;
+    if (strcmp(parameter, "count") == 0) return s->count;
+    if (strcmp(parameter, "chain") == 0) return s->chain;
+    if (strcmp(parameter, "force_outdoor") == 0) return s->outdoor;
+    assert_string_equal(parameter, "vertical_penalty");
+    return s->vertical;
+}
+
+static struct glint_table *table(struct glint_host_context *context, const char *image, uint32_t width, uint32_t height,
+                                 struct glint_error *err) {
+    (void)err;
+    struct stand_in *s = context->user;
+    struct glint_table *t = strcmp(image, "active_index") == 0    ? &s->index
+                            : strcmp(image, "active_center") == 0 ? &s->center
+                                                                  : &s->chains;
+    t->width = width;
+    t->height = height;
+    t->texels.f = s->memory[t == &s->index ? 0 : t == &s->center ? 1 : 2];
+    return t;
+}
+
+/* Cube maps along x at 1, 2, … m, all indoors. */
+static struct stand_in *corridor(size_t count) {
+    struct stand_in *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    for (size_t i = 0; i < count; ++i) s->cubemaps[i].center[0] = 1.0 + (double)i;
+    s->count = 8;
+    s->chain = 4;
+    s->outdoor = 1;
+    s->vertical = 4;
+    s->context = (struct glint_host_context){
+        .frame = &s->frame, .cubemaps = s->cubemaps, .cubemap_count = count, .value = value, .table = table, .user = s};
+    return s;
+}
+
+static void run(struct stand_in *s) {
+    const struct glint_pass *pass = glint_pass_find("cubemap_active", "nearest");
+    assert_non_null(pass);
+    struct glint_error err = {0};
+    assert_true(pass->host(&s->context, &err));
+}
+
+static void the_nearest_in_order(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(12);
+    s->frame.has_player = true;
+    s->frame.player[0] = 6.2;
+    s->count = 5;
+    run(s);
+    const uint32_t expected[] = {5, 6, 4, 7, 3};
+    assert_int_equal(s->index.width, 5);
+    assert_memory_equal(s->index.texels.u, expected, sizeof expected);
+    free(s);
+}
+
+static void around_the_camera_without_a_player(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(12);
+    s->context.eye[0] = 11.9;
+    s->count = 1;
+    run(s);
+    assert_int_equal(s->index.texels.u[0], 11);
+    free(s);
+}
+
+static void one_outdoor_is_kept(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(12);
+    s->cubemaps[9].outdoor = s->cubemaps[11].outdoor = true;
+    run(s);
+    assert_int_equal(s->index.width, 8);
+    assert_int_equal(s->index.texels.u[7], 9); /* the nearer of both */
+    assert_int_equal(s->index.texels.u[6], 6);
+    s->outdoor = 0;
+    run(s);
+    assert_int_equal(s->index.texels.u[7], 7);
+    free(s);
+}
+
+static void an_outdoor_one_already_there_changes_nothing(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(12);
+    s->cubemaps[3].outdoor = s->cubemaps[11].outdoor = true;
+    run(s);
+    assert_int_equal(s->index.texels.u[7], 7);
+    free(s);
+}
+
+static void floors_are_kept_apart(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(2);
+    s->cubemaps[0].center[0] = 0; /* 3 m above */
+    s->cubemaps[0].center[2] = 3;
+    s->cubemaps[1].center[0] = 8; /* 8 m along */
+    s->frame.up = GLINT_AXIS_Z;
+    s->count = 1;
+    run(s);
+    assert_int_equal(s->index.texels.u[0], 1);
+    s->vertical = 1;
+    run(s);
+    assert_int_equal(s->index.texels.u[0], 0);
+    s->vertical = 4;
+    s->frame.up = GLINT_AXIS_NEG_Y; /* then z is no height */
+    run(s);
+    assert_int_equal(s->index.texels.u[0], 0);
+    free(s);
+}
+
+static void chains_start_with_themselves_and_go_by_distance(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(5);
+    const double x[] = {0, 1, 3, 7, 15};
+    for (int i = 0; i < 5; ++i) s->cubemaps[i].center[0] = x[i];
+    run(s);
+    assert_int_equal(s->chains.width, 4);
+    assert_int_equal(s->chains.height, 5);
+    const uint32_t expected[5][4] = {{0, 1, 2, 3}, {1, 0, 2, 3}, {2, 1, 0, 3}, {3, 2, 1, 0}, {4, 3, 2, 1}};
+    assert_memory_equal(s->chains.texels.u, expected, sizeof expected);
+    free(s);
+}
+
+static void a_chain_is_no_longer_than_there_are_cube_maps(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(2);
+    run(s);
+    assert_int_equal(s->chains.width, 2);
+    const uint32_t expected[2][2] = {{0, 1}, {1, 0}};
+    assert_memory_equal(s->chains.texels.u, expected, sizeof expected);
+    free(s);
+}
+
+static void centres_lose_nothing_far_from_the_origin(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(1);
+    s->frame.metres_per_unit = 0.01;
+    s->cubemaps[0].center[0] = 1e8 + 0.125; /* 1,000 km */
+    s->context.eye[0] = 1e8;
+    run(s);
+    assert_true(s->center.texels.f[0] == 0.00125f); /* a float holds no 1e8 + 0.125 */
+    assert_true(s->center.texels.f[3] == 1.0f);
+    free(s);
+}
+
+static void no_cube_map_is_an_error(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(0);
+    struct glint_error err = {0};
+    assert_false(glint_pass_find("cubemap_active", "nearest")->host(&s->context, &err));
+    assert_int_equal(err.code, GLINT_ERROR_USAGE);
+    free(s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_nearest_in_order),
+        cmocka_unit_test(around_the_camera_without_a_player),
+        cmocka_unit_test(one_outdoor_is_kept),
+        cmocka_unit_test(an_outdoor_one_already_there_changes_nothing),
+        cmocka_unit_test(floors_are_kept_apart),
+        cmocka_unit_test(chains_start_with_themselves_and_go_by_distance),
+        cmocka_unit_test(a_chain_is_no_longer_than_there_are_cube_maps),
+        cmocka_unit_test(centres_lose_nothing_far_from_the_origin),
+        cmocka_unit_test(no_cube_map_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
