@@ -37,13 +37,16 @@ uint32_t glint_device_messages(const struct glint_device *device, const char **l
 /* ---- Pipelines: which variant of each slot, with which parameter values ---- */
 
 struct glint_pipeline;
-/* `preset`: a name in the preset folders ($GLINT_PRESETS, the installed one) or a path to a JSON file. */
+/* `preset`: a path to a JSON file (it holds a '/' or ends in ".json"), or a name: $GLINT_PRESETS/NAME.json, then the
+   presets built into the library. Everything wrong in the file is reported together. */
 struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err);
 void glint_pipeline_destroy(struct glint_pipeline **pipeline);
 const char *glint_pipeline_name(const struct glint_pipeline *pipeline);
-/* "slot=variant"; "none" leaves the slot out. */
+/* Names of the presets built into the library; NULL past the last. */
+const char *glint_preset(size_t i);
+/* "slot=variant"; "none" leaves the slot out. Values of parameters that both variants have are kept. */
 bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
-/* "slot.parameter=value"; out of range is an error that names the range. */
+/* "slot.parameter=value": a number, true, false or a choice's name; out of range is an error that names the range. */
 bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 /* "slot=file.comp": the slot's shader is compiled from this file instead. */
 bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
@@ -51,6 +54,19 @@ size_t glint_pipeline_pass_count(const struct glint_pipeline *pipeline);
 const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeline, size_t i);
 double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct glint_pass *pass,
                             const struct glint_row *parameter);
+
+/* ---- Survey: what a frame holds, which decides what it calls for ---- */
+
+enum { GLINT_SURVEY_BINS = 10 };
+struct glint_survey {
+    uint64_t pixels, sky, reflecting; /* reflecting: not sky, and specular or metalness above 0 */
+    uint64_t roughness[GLINT_SURVEY_BINS]; /* reflecting pixels by roughness, bins of 0.1 */
+    float depth_m[2], roughness_range[2], specular_range[2], metalness_range[2]; /* lowest and highest without sky */
+    uint32_t cubemaps;
+    bool has_sky, has_previous;
+};
+/* Reads the G-buffer. */
+bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err);
 
 /* ---- Replay ---- */
 

@@ -1,0 +1,202 @@
+/* Programs, descriptors and the dispatches themselves, timed. */
+#include "state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "timing.h"
+
+static struct image *image_of(const struct run *run, const char *name) {
+    for (size_t i = 0; i < run->graph.image_count; i++)
+        if (strcmp(run->graph.images[i].name, name) == 0) return run->images[i];
+    return NULL;
+}
+
+static VkResult create_pool(struct run *run, uint32_t sets, uint32_t sampled, uint32_t storage) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, sampled + 1},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, storage + 1},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
+    const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                             .maxSets = sets + 1,
+                                             .poolSizeCount = 4,
+                                             .pPoolSizes = sizes};
+    return vkCreateDescriptorPool(run->replay->device->device, &info, NULL, &run->pool);
+}
+
+static VkResult allocate_set(struct run *run, VkDescriptorSetLayout layout, const char *name, VkDescriptorSet *set) {
+    const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                              .descriptorPool = run->pool,
+                                              .descriptorSetCount = 1,
+                                              .pSetLayouts = &layout};
+    VkResult result = vkAllocateDescriptorSets(run->replay->device->device, &info, set);
+    if (result == VK_SUCCESS)
+        device_set_name(run->replay->device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)*set, name);
+    return result;
+}
+
+static void write_images(const struct run *run, const struct step *step) {
+    const struct glint_pass *pass = step->pass->pass;
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (!row_is_image(row)) continue;
+        const struct image *image = image_of(run, row->name);
+        bool array = strstr(row->glsl, "CubeArray") != NULL;
+        const VkDescriptorImageInfo info = {.imageView = array ? image->array_view : image->view,
+                                            .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
+        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                            .dstSet = step->set,
+                                            .dstBinding = row->id,
+                                            .descriptorCount = 1,
+                                            .descriptorType = row->kind == GLINT_ROW_READ
+                                                                  ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
+                                                                  : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                                            .pImageInfo = &info};
+        vkUpdateDescriptorSets(run->replay->device->device, 1, &write, 0, NULL);
+    }
+}
+
+static bool prepare_frame_set(struct run *run, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    VkResult result = allocate_set(run, replay->programs.frame, "frame", &run->frame_set);
+    if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
+    memcpy(replay->frame.map, &run->block, sizeof run->block);
+    const VkDescriptorBufferInfo buffer = {replay->frame.buffer, 0, sizeof run->block};
+    const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                        .dstSet = run->frame_set,
+                                        .dstBinding = 0,
+                                        .descriptorCount = 1,
+                                        .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                        .pBufferInfo = &buffer};
+    vkUpdateDescriptorSets(replay->device->device, 1, &write, 0, NULL);
+    return true;
+}
+
+static bool prepare_queries(struct run *run, struct glint_error *err) {
+    if (!run->replay->device->timestamp_mask) return true;
+    const VkQueryPoolCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_TIMESTAMP, .queryCount = 2};
+    VkResult result = vkCreateQueryPool(run->replay->device->device, &info, NULL, &run->queries);
+    return result == VK_SUCCESS || vk_fail(err, "creating timestamp queries", result);
+}
+
+bool run_prepare(struct run *run, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    uint32_t sets = 0, sampled = 0, storage = 0;
+    for (size_t p = 0; p < run->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        if (!step->execute) continue;
+        const struct glint_pass *pass = step->pass->pass;
+        step->program = programs_get(&replay->programs, replay->device, pass, &step->spirv, &step->constants, err);
+        if (!step->program) return false;
+        sets++;
+        for (size_t r = 0; r < pass->row_count; r++) {
+            sampled += pass->rows[r].kind == GLINT_ROW_READ;
+            storage += row_is_output(&pass->rows[r]);
+        }
+    }
+    VkResult result = create_pool(run, sets, sampled, storage);
+    if (result != VK_SUCCESS) return vk_fail(err, "creating the descriptor pool", result);
+    for (size_t p = 0; p < run->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        if (!step->execute) continue;
+        result = allocate_set(run, step->program->images, step->pass->pass->slot, &step->set);
+        if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
+        write_images(run, step);
+    }
+    return prepare_frame_set(run, err) && prepare_queries(run, err);
+}
+
+static const struct image *dispatched(const struct run *run, const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_DISPATCH) return image_of(run, pass->rows[r].name);
+    return NULL;
+}
+
+static bool record_step(const struct run *run, struct step *step, struct glint_error *err) {
+    struct glint_device *device = run->replay->device;
+    const struct glint_pass *pass = step->pass->pass;
+    const struct image *whole = dispatched(run, pass);
+    if (!whole)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s declares no image to dispatch over", pass->slot, pass->variant);
+    struct barriers barriers = {.count = 0};
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (row_is_image(&pass->rows[r]))
+            image_access(image_of(run, pass->rows[r].name),
+                         pass->rows[r].kind == GLINT_ROW_READ ? IMAGE_SHADER_READ : IMAGE_SHADER_WRITE, &barriers);
+    VkCommandBuffer commands = device->commands;
+    char label[128];
+    snprintf(label, sizeof label, "%s/%s", pass->slot, pass->variant);
+    if (run->queries) vkCmdResetQueryPool(commands, run->queries, 0, 2);
+    device_begin_label(device, label);
+    barriers_record(&barriers, device);
+    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, 0);
+    const VkDescriptorSet sets[] = {step->set, run->frame_set};
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->layout, 0, 2, sets, 0, NULL);
+    vkCmdPushConstants(commands, step->program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
+                       step->constants.push);
+    vkCmdDispatch(commands, (whole->desc.width + 7) / 8, (whole->desc.height + 7) / 8, 1);
+    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, 1);
+    device_end_label(device);
+    return true;
+}
+
+static bool execute_step(struct run *run, struct step *step, bool timed, struct glint_error *err) {
+    struct glint_device *device = run->replay->device;
+    char what[160];
+    snprintf(what, sizeof what, "running %s/%s", step->pass->pass->slot, step->pass->pass->variant);
+    if (!device_begin(device, err) || !record_step(run, step, err) || !device_submit(device, what, err)) return false;
+    uint64_t ticks[2];
+    if (!run->queries || !timed) return true;
+    VkResult result = vkGetQueryPoolResults(device->device, run->queries, 0, 2, sizeof ticks, ticks, sizeof ticks[0],
+                                            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    if (result != VK_SUCCESS) return vk_fail(err, "reading timestamps", result);
+    step->ns[step->timed++] = (uint64_t)((double)((ticks[1] - ticks[0]) & device->timestamp_mask) * device->timestamp_ns);
+    return true;
+}
+
+bool run_execute(struct run *run, struct glint_error *err) {
+    const struct glint_replay_options *options = run->options;
+    const uint32_t warmup = options->repeat == 0 ? 0 : options->warmup ? options->warmup : 1;
+    const uint32_t rounds = warmup + (options->repeat ? options->repeat : 1);
+    for (size_t p = 0; p < run->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        if (!step->execute) continue;
+        if (!(step->ns = calloc(rounds, sizeof *step->ns))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        for (size_t i = 0; i < run->graph.image_count; i++) /* until the new contents are complete */
+            if (run->graph.images[i].source == SOURCE_MADE && run->graph.images[i].maker == p) run->images[i]->key = 0;
+    }
+    for (uint32_t round = 0; round < rounds; round++)
+        for (size_t p = 0; p < run->graph.pass_count; p++) {
+            struct step *step = &run->steps[p];
+            if (!step->execute) continue;
+            double done = ((double)round + (double)p / (double)run->graph.pass_count) / rounds;
+            if (!report_progress(run->progress, run->user, step->pass->pass->slot, 0.2 + 0.8 * done, err) ||
+                !execute_step(run, step, round >= warmup, err))
+                return false;
+        }
+    for (size_t i = 0; i < run->graph.image_count; i++)
+        if (run->graph.images[i].source == SOURCE_MADE && !run->images[i]->transient) run->images[i]->key = run->keys[i];
+    return true;
+}
+
+void run_release(struct run *run) {
+    VkDevice device = run->replay->device->device;
+    vkDestroyQueryPool(device, run->queries, NULL);
+    vkDestroyDescriptorPool(device, run->pool, NULL);
+    for (size_t p = 0; run->steps && p < run->graph.pass_count; p++) {
+        spirv_finish(&run->steps[p].spirv);
+        free(run->steps[p].ns);
+    }
+    free(run->steps);
+    free(run->images);
+    free(run->keys);
+    free(run->needed);
+    free(run->active);
+    free(run->host_seconds);
+    tables_finish(&run->tables);
+    graph_finish(&run->graph);
+    glint_run_close(&run->inputs);
+}

@@ -1,0 +1,24 @@
+/* Several faults gathered into one error message. */
+#ifndef GLINT_REPLAY_FAULTS_H
+#define GLINT_REPLAY_FAULTS_H
+
+#include "glint/common.h"
+
+struct faults {
+    size_t count;
+    enum glint_code code; /* of the first */
+    char text[900];
+    size_t left_out; /* how many did not fit */
+};
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void faults_add(struct faults *faults, enum glint_code code, const char *format, ...);
+/* True when there was none; otherwise fails with all of them. */
+bool faults_none(const struct faults *faults, const char *where, struct glint_error *err);
+
+/* Appends to a list in a fixed buffer: "a, b, c"; what does not fit ends in "…". */
+void text_list(char *text, size_t size, const char *item);
+
+#endif

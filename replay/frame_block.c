@@ -1,0 +1,104 @@
+/* The uniform block that every pass sees. World positions meet the camera's in double, before they become floats. */
+#include "frame_block.h"
+
+#include <math.h>
+#include <string.h>
+
+/* view = R · world + t, so the eye, which is the view's origin, is -Rᵀ · t. */
+void camera_eye(const struct glint_camera *camera, double eye[3]) {
+    const double *m = camera->world_to_view;
+    for (int i = 0; i < 3; i++) eye[i] = -(m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);
+}
+
+int up_axis(enum glint_axis up, double *sign) {
+    static const struct { int axis; double sign; } axes[] = {
+        [GLINT_AXIS_X] = {0, 1},     [GLINT_AXIS_Y] = {1, 1},     [GLINT_AXIS_Z] = {2, 1},
+        [GLINT_AXIS_NEG_X] = {0, -1}, [GLINT_AXIS_NEG_Y] = {1, -1}, [GLINT_AXIS_NEG_Z] = {2, -1}};
+    *sign = axes[up].sign;
+    return axes[up].axis;
+}
+
+static void fill_rotation(mat4 *view_from_world, mat4 *world_from_view, const double m[16]) {
+    memset(view_from_world, 0, sizeof *view_from_world);
+    memset(world_from_view, 0, sizeof *world_from_view);
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            view_from_world->column[column][row] = (float)m[4 * row + column];
+            world_from_view->column[row][column] = (float)m[4 * row + column];
+        }
+    view_from_world->column[3][3] = world_from_view->column[3][3] = 1;
+}
+
+/* For a point p relative to this camera in metres: previous view = R'·(p/u + eye) + t', times u metres a unit. */
+static void fill_previous(mat4 *out, const double previous[16], const double eye[3], double metres) {
+    memset(out, 0, sizeof *out);
+    for (int row = 0; row < 3; row++) {
+        const double *m = previous + 4 * row;
+        for (int column = 0; column < 3; column++) out->column[column][row] = (float)m[column];
+        out->column[3][row] = (float)((m[0] * eye[0] + m[1] * eye[1] + m[2] * eye[2] + m[3]) * metres);
+    }
+    out->column[3][3] = 1;
+}
+
+struct projection { double a, b, c, d, front; };
+
+/* In front of the camera clip w = front · view z is positive, so depth = front · view z and
+   NDC x = a · view.x / depth + c · front. */
+static struct projection projection_of(const struct glint_camera *camera) {
+    const double *p = camera->view_to_clip;
+    double front = p[14] < 0 ? -1 : 1;
+    return (struct projection){p[0], p[5], p[2] * front, p[6] * front, front};
+}
+
+/* uv = view.xy / depth · scale + offset: u = (NDC x + 1)/2, v = (1 ∓ NDC y)/2 with v = 0 at the top. */
+static vec4 uv_from_view(const struct projection *p, enum glint_clip_y clip_y) {
+    double down = clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1;
+    return (vec4){(float)(p->a / 2), (float)(down * p->b / 2), (float)((1 + p->c) / 2), (float)((1 + down * p->d) / 2)};
+}
+
+static vec4 view_from_uv(const struct projection *p, enum glint_clip_y clip_y) {
+    double down = clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1;
+    return (vec4){(float)(2 / p->a), (float)(down * 2 / p->b), (float)(-(1 + p->c) / p->a),
+                  (float)(-(down + p->d) / p->b)};
+}
+
+/* Depth at which NDC z is `ndc`: (A·s·d + B)/d = ndc. */
+static double depth_at(const struct glint_camera *camera, double front, double ndc) {
+    double slope = ndc - camera->view_to_clip[10] * front, depth = camera->view_to_clip[11] / slope;
+    return fabs(slope) < 1e-12 || depth < 0 || depth > 1e9 ? INFINITY : depth;
+}
+
+static void fill_fog(struct frame_block *block, const struct glint_frame *frame, const double eye[3], double metres) {
+    double sign;
+    int axis = up_axis(frame->up, &sign);
+    float up[3] = {0};
+    up[axis] = (float)sign;
+    block->up = (vec4){up[0], up[1], up[2], 0};
+    if (!frame->has_fog) return;
+    const struct glint_fog *fog = &frame->fog;
+    block->fog_color = (vec4){fog->color[0], fog->color[1], fog->color[2], (float)(fog->density / metres)};
+    block->fog_height = (vec4){(float)((eye[axis] * sign - fog->base) * metres), (float)(fog->scale_height * metres), 0, 0};
+}
+
+void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes) {
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    double eye[3];
+    memset(block, 0, sizeof *block); /* padding and all: the block is hashed */
+    camera_eye(&frame->camera, eye);
+    fill_rotation(&block->view_from_world, &block->world_from_view, frame->camera.world_to_view);
+    const struct projection p = projection_of(&frame->camera);
+    block->view_from_uv = view_from_uv(&p, frame->clip_y);
+    block->uv_from_view = uv_from_view(&p, frame->clip_y);
+    const struct glint_camera *previous = frame->has_previous ? &frame->previous : &frame->camera;
+    const struct projection q = projection_of(previous);
+    fill_previous(&block->previous_view_from_world, previous->world_to_view, eye, metres);
+    block->previous_uv_from_view = uv_from_view(&q, frame->clip_y);
+    double lowest = frame->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? -1 : 0;
+    double one = depth_at(&frame->camera, p.front, lowest), other = depth_at(&frame->camera, p.front, 1);
+    block->depth_range = (vec4){(float)(fmin(one, other) * metres), (float)(fmax(one, other) * metres), (float)p.front,
+                                (float)q.front};
+    fill_fog(block, frame, eye, metres);
+    block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
+    block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
+    block->flags = (uvec4){frame->has_previous, frame->cut, sizes->chain, 0};
+}

@@ -1,0 +1,62 @@
+/* The graph of a run: which passes run and why, in order, and where each image comes from. */
+#ifndef GLINT_REPLAY_GRAPH_H
+#define GLINT_REPLAY_GRAPH_H
+
+#include "pipeline.h"
+
+enum source {
+    SOURCE_MADE,    /* a pass of this run writes it */
+    SOURCE_CAPTURE, /* decoded from the capture */
+    SOURCE_RUN,     /* read from a run folder */
+    SOURCE_ENGINE,  /* the engine's own, a part engine.SLOT.IMAGE of the capture */
+    SOURCE_NOTHING  /* the row's "nothing" value */
+};
+
+struct graph_image {
+    const char *name;
+    const struct glint_row *row;   /* the WRITE, DIAGNOSTIC or CAPTURE row that defines it */
+    const struct glint_pass *pass; /* whose row it is; NULL for a capture image */
+    enum source source;
+    bool wanted;              /* written out: its memory is its own */
+    size_t maker;             /* MADE: place of the pass in the graph */
+    size_t first_use, last_use; /* places of the passes that touch it */
+    bool used;
+};
+
+struct graph_pass {
+    const struct pipeline_pass *entry;
+    const struct glint_pass *pass;
+    bool runs;
+    char reason[192];
+};
+
+struct graph {
+    struct graph_pass *passes; /* in order of execution, also those that do not run */
+    size_t pass_count;
+    struct graph_image *images; /* all that passes which run read or write */
+    size_t image_count;
+};
+
+/* What the frame shows, for NEEDS rows. */
+struct facts {
+    bool (*holds)(void *user, const char *fact, char *reason, size_t size, bool *known, struct glint_error *err);
+    void *user;
+};
+
+struct graph_inputs {
+    const struct glint_pipeline *pipeline;
+    const struct glint_replay_options *options;
+    struct glint_capture *capture;
+    const struct glint_run *run; /* or NULL */
+    struct facts facts;
+};
+
+/* Reports all faults together. */
+bool graph_init(struct graph *graph, const struct graph_inputs *inputs, struct glint_error *err);
+void graph_finish(struct graph *graph);
+struct graph_image *graph_find(const struct graph *graph, const char *name);
+
+bool row_is_image(const struct glint_row *row);
+bool row_is_output(const struct glint_row *row);
+
+#endif

@@ -1,0 +1,78 @@
+/* Images on the device, the memory under them, and who touched them last. */
+#ifndef GLINT_REPLAY_IMAGE_H
+#define GLINT_REPLAY_IMAGE_H
+
+#include "device.h"
+
+struct image;
+
+/* Device memory with its access state. Images may share one when their lifetimes do not overlap; the state belongs to
+   the memory, so that a newcomer waits for the last user. */
+struct block {
+    VkDeviceMemory memory;
+    VkDeviceSize size;
+    size_t images;             /* how many are bound to it */
+    const struct image *owner; /* whose contents it holds; NULL: nobody's */
+    VkPipelineStageFlags2 write_stage, read_stages;
+    VkAccessFlags2 write_access;
+};
+
+/* What an image has to be; equal descriptions can reuse an image. */
+struct image_desc {
+    enum glint_format format;
+    uint32_t width, height, layers; /* of one layer; layers: 6 · cubes, 0: a plain 2D image */
+};
+
+struct image {
+    struct glint_image info; /* as callers see it */
+    struct image_desc desc;
+    VkImage image;
+    VkImageView view;
+    VkImageView array_view; /* of a cube image, as a cube array; `view` is a cube then. NULL otherwise */
+    struct block *block;
+    uint64_t key;   /* hash of all that its contents depend on; 0: contents undefined */
+    bool listed;    /* shown to callers */
+    bool used;      /* in this run */
+    bool transient; /* shares its memory */
+    char name[64];
+    struct image *next;
+};
+
+bool image_desc_equal(const struct image_desc *a, const struct image_desc *b);
+VkDeviceSize image_bytes(const struct image_desc *desc); /* tightly packed */
+
+/* Creates the image without memory. */
+struct image *image_create(struct glint_device *device, const char *name, const struct image_desc *desc,
+                           struct glint_error *err);
+VkMemoryRequirements image_requirements(struct glint_device *device, const struct image *image);
+struct block *block_create(struct glint_device *device, const VkMemoryRequirements *need, const char *name,
+                           struct glint_error *err);
+/* Binds and makes the views. A block frees itself with its last image. */
+bool image_bind(struct image *image, struct glint_device *device, struct block *block, struct glint_error *err);
+void image_destroy(struct image **image, struct glint_device *device);
+
+/* Barriers gathered for one step. */
+enum { BARRIERS_MAX = 64 };
+struct barriers {
+    VkImageMemoryBarrier2 images[BARRIERS_MAX];
+    uint32_t count;
+};
+enum image_access {
+    IMAGE_SHADER_READ, IMAGE_SHADER_WRITE, IMAGE_COPY_READ, IMAGE_COPY_WRITE, IMAGE_CLEAR
+};
+/* Notes that the next step accesses the image, and adds the barrier that this needs. */
+void image_access(struct image *image, enum image_access access, struct barriers *barriers);
+void barriers_record(struct barriers *barriers, struct glint_device *device);
+
+/* Records copies between tightly packed host memory and the image, barriers included. An upload of some layers (of
+   cube maps; 0, 1 for a plain image) discards the others with `discard`. */
+void image_record_upload(struct image *image, struct glint_device *device, const struct host_buffer *from,
+                         VkDeviceSize offset, uint32_t first_layer, uint32_t layers, bool discard);
+void image_record_readback(struct image *image, struct glint_device *device, const struct host_buffer *to,
+                           VkDeviceSize offset);
+/* Records filling with one value. */
+void image_record_clear(struct image *image, struct glint_device *device, double value);
+/* Makes device writes to host buffers visible to the host; last thing before a submit. */
+void record_host_barrier(struct glint_device *device);
+
+#endif

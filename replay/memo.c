@@ -1,0 +1,98 @@
+/* What each image's contents depend on, as a hash, and which passes therefore have to execute. An image whose stored
+   hash is the wanted one is left as it is, and then nothing that only it needs is read or computed. */
+#include "state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <xxhash.h>
+
+static uint64_t mix(uint64_t key, const void *data, size_t size) { return XXH3_64bits_withSeed(data, size, key); }
+static uint64_t mix_text(uint64_t key, const char *text) { return mix(key, text, strlen(text) + 1); }
+static uint64_t mix_number(uint64_t key, uint64_t number) { return mix(key, &number, sizeof number); }
+
+static size_t place_of(const struct run *run, const char *name) {
+    size_t i = 0;
+    while (i < run->graph.image_count && strcmp(run->graph.images[i].name, name) != 0) i++;
+    return i;
+}
+
+static uint64_t table_key(const struct glint_table *table) {
+    uint64_t key = mix_number(mix_text(1, table->name), ((uint64_t)table->width << 32) | table->height);
+    return mix(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
+}
+
+/* Of an image that no shader of this run makes. Images of a run folder are told apart by their pixels. */
+static bool given_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
+    const struct graph_image *image = &run->graph.images[i];
+    *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->desc.format), image->name);
+    if (image->source == SOURCE_NOTHING)
+        *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
+    else
+        *key = mix_number(*key, run->replay->serial);
+    if (image->row->size == GLINT_SIZE_CUBEMAPS && run->active)
+        *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
+    if (image->source != SOURCE_RUN) return true;
+    const struct glint_run_image *info = glint_run_find(run->inputs, image->name);
+    size_t size = (size_t)info->width * info->height * info->components * 4;
+    void *pixels = malloc(size);
+    bool ok = pixels ? glint_run_read(run->inputs, info, info->integer ? GLINT_U32 : GLINT_F32, pixels, err)
+                     : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
+    if (ok) *key = mix(*key, pixels, size);
+    free(pixels);
+    return ok;
+}
+
+static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
+    const struct glint_pass *pass = step->pass->pass;
+    if (!spirv_init(&step->spirv, step->pass->entry, err) ||
+        !constants_init(&step->constants, step->pass->entry, run->options->diagnostics, err))
+        return false;
+    uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
+    key = mix(key, step->constants.data, step->constants.count * sizeof(uint32_t));
+    key = mix(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));
+    key = mix(key, &run->block, sizeof run->block);
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_READ)
+            key = mix_number(mix_text(key, pass->rows[r].name), run->keys[place_of(run, pass->rows[r].name)]);
+    step->key = key;
+    return true;
+}
+
+static bool outdated(const struct run *run, size_t i) { return run->images[i]->key != run->keys[i]; }
+
+static void decide(struct run *run, struct step *step, size_t place) {
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        if (image->source == SOURCE_MADE && image->maker == place && run->needed[i] &&
+            (outdated(run, i) || run->options->no_cache))
+            step->execute = true;
+    }
+    for (size_t i = 0; step->execute && i < step->pass->pass->row_count; i++)
+        if (row_is_image(&step->pass->pass->rows[i])) run->needed[place_of(run, step->pass->pass->rows[i].name)] = true;
+}
+
+bool run_keys(struct run *run, struct glint_error *err) {
+    const struct graph *graph = &run->graph;
+    for (size_t i = 0; i < graph->image_count; i++) {
+        const struct graph_image *image = &graph->images[i];
+        run->needed[i] = image->wanted;
+        if (image->source == SOURCE_MADE && image->pass->host)
+            run->keys[i] = table_key(tables_find(&run->tables, image->name));
+        else if (image->source != SOURCE_MADE && !given_key(run, i, &run->keys[i], err))
+            return false;
+        if (image->source == SOURCE_RUN) run->needed[i] = true; /* it is among the run's images */
+    }
+    for (size_t p = 0; p < graph->pass_count; p++) {
+        struct step *step = &run->steps[p];
+        step->pass = &graph->passes[p];
+        if (!step->pass->runs || step->pass->pass->host) continue;
+        if (!step_key(run, step, err)) return false;
+        for (size_t i = 0; i < graph->image_count; i++)
+            if (graph->images[i].source == SOURCE_MADE && graph->images[i].maker == p)
+                run->keys[i] = mix_text(step->key, graph->images[i].name);
+    }
+    for (size_t p = graph->pass_count; p-- > 0;)
+        if (graph->passes[p].runs && !graph->passes[p].pass->host) decide(run, &run->steps[p], p);
+    return true;
+}

@@ -1,0 +1,32 @@
+/* A pipeline: one variant for each slot in it, with the values of its parameters. */
+#ifndef GLINT_REPLAY_PIPELINE_H
+#define GLINT_REPLAY_PIPELINE_H
+
+#include "glint/replay.h"
+
+struct pipeline_pass {
+    const struct glint_pass *pass;
+    double *values; /* one for each row; rows without a value hold 0 */
+    char *shader;   /* the user's file, or NULL */
+};
+
+struct glint_pipeline {
+    char *name;
+    struct pipeline_pass *passes; /* ordered by slot */
+    size_t count;
+};
+
+const struct pipeline_pass *pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
+bool row_is_parameter(const struct glint_row *row);
+
+/* Reads a preset's text; `where` names it in errors. Used by preset.c. */
+bool pipeline_set_number(struct glint_pipeline *pipeline, const char *slot, const char *parameter, double value,
+                         struct glint_error *err);
+
+/* The preset's JSON text by name or path; *where names the place. The caller frees both. NULL with an error. */
+char *preset_text(const char *preset, char **where, struct glint_error *err);
+
+/* A whole text file of at most `limit` bytes, NUL-terminated. The caller frees it. */
+char *file_text(const char *path, size_t limit, struct glint_error *err);
+
+#endif

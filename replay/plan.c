@@ -1,0 +1,99 @@
+/* The plan: facts about the frame, and the graph that follows from them. */
+#include "state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "timing.h"
+
+struct fact_source {
+    struct glint_replay *replay;
+    const struct glint_pipeline *pipeline;
+};
+
+/* The G-buffer is read once: what the survey needs together with what the passes will. */
+static bool read_gbuffer(struct glint_replay *replay, const struct glint_pipeline *pipeline, struct glint_error *err) {
+    struct channels *gbuffer = &replay->gbuffer;
+    size_t count;
+    const struct glint_row *rows = glint_capture_images(&count);
+    channels_finish(gbuffer);
+    gbuffer->part = glint_capture_find(replay->capture, "gbuffer");
+    if (!gbuffer->part)
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(replay->capture));
+    if (!channels_add_survey(gbuffer, err)) return false;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(rows[i].role, "gbuffer") != 0) continue;
+        bool read = false;
+        for (size_t p = 0; p < pipeline->count; p++)
+            for (size_t r = 0; r < pipeline->passes[p].pass->row_count; r++)
+                read |= pipeline->passes[p].pass->rows[r].kind == GLINT_ROW_READ &&
+                        strcmp(pipeline->passes[p].pass->rows[r].name, rows[i].name) == 0;
+        size_t before = gbuffer->count;
+        if (read && !channels_add_row(gbuffer, &rows[i], err)) return false;
+        for (size_t c = before; c < gbuffer->count; c++)
+            if (!glint_part_has_channel(gbuffer->part, gbuffer->names[c])) { /* optional, or the graph reports it */
+                while (gbuffer->count > before) free((char *)gbuffer->names[--gbuffer->count]);
+            }
+    }
+    return channels_read(gbuffer, replay->capture, err);
+}
+
+static bool survey(struct glint_replay *replay, const struct glint_pipeline *pipeline, struct glint_error *err) {
+    if (replay->surveyed) return true;
+    double start = now_seconds();
+    replay->survey = (struct glint_survey){0};
+    if (!read_gbuffer(replay, pipeline, err)) {
+        channels_finish(&replay->gbuffer);
+        return false;
+    }
+    survey_channels(&replay->gbuffer, &replay->survey);
+    survey_capture_parts(replay->capture, &replay->survey);
+    replay->surveyed = true;
+    replay->seconds[PHASE_READ] += now_seconds() - start;
+    return true;
+}
+
+static bool holds(void *user, const char *fact, char *reason, size_t size, bool *known, struct glint_error *err) {
+    struct fact_source *source = user;
+    return survey(source->replay, source->pipeline, err) &&
+           survey_fact(&source->replay->survey, fact, reason, size, known);
+}
+
+bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                  const struct glint_replay_options *options, const struct glint_run *inputs, struct graph *graph,
+                  struct glint_error *err) {
+    if (!replay->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
+    struct fact_source source = {replay, pipeline};
+    return graph_init(graph, &(struct graph_inputs){pipeline, options, replay->capture, inputs, {holds, &source}}, err);
+}
+
+bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                       const struct glint_replay_options *options, const struct glint_plan_entry **entries,
+                       size_t *count, struct glint_error *err) {
+    static const struct glint_replay_options defaults;
+    struct graph graph = {0};
+    struct glint_run *inputs = NULL;
+    bool ok = false;
+    if (!options) options = &defaults;
+    if (options->inputs && !(inputs = glint_run_open(options->inputs, err))) return false;
+    if (!replay_graph(replay, pipeline, options, inputs, &graph, err)) goto done;
+    free(replay->plan);
+    replay->plan = calloc(graph.pass_count + 1, sizeof *replay->plan);
+    if (!replay->plan) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        goto done;
+    }
+    for (size_t i = 0; i < graph.pass_count; i++) {
+        replay->plan[i] = (struct glint_plan_entry){.pass = graph.passes[i].pass, .runs = graph.passes[i].runs};
+        memcpy(replay->plan[i].reason, graph.passes[i].reason, sizeof replay->plan[i].reason);
+    }
+    *entries = replay->plan;
+    *count = graph.pass_count;
+    ok = true;
+done:
+    channels_finish(&replay->gbuffer);
+    graph_finish(&graph);
+    glint_run_close(&inputs);
+    return ok;
+}

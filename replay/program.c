@@ -1,0 +1,188 @@
+/* Compute programs, made from a pass's rows: a row's line number is its binding or constant id. */
+#include "program.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <xxhash.h>
+
+static uint32_t value_bits(const struct glint_row *row, double value) {
+    uint32_t bits;
+    if (row->type == GLINT_VALUE_FLOAT) {
+        float f = (float)value;
+        memcpy(&bits, &f, sizeof bits);
+    } else if (row->type == GLINT_VALUE_UINT)
+        bits = (uint32_t)value;
+    else
+        bits = (uint32_t)(int32_t)value;
+    return bits;
+}
+
+static bool add_constant(struct constants *constants, uint32_t id, uint32_t bits) {
+    uint32_t i = constants->count;
+    if (i == CONSTANTS_MAX) return false;
+    constants->entries[i] = (VkSpecializationMapEntry){id, i * (uint32_t)sizeof bits, sizeof bits};
+    constants->data[i] = bits;
+    constants->count++;
+    return true;
+}
+
+bool constants_init(struct constants *constants, const struct pipeline_pass *entry, bool diagnostics,
+                    struct glint_error *err) {
+    *constants = (struct constants){.push_count = 1};
+    const struct glint_pass *pass = entry->pass;
+    bool fits = add_constant(constants, 0, diagnostics);
+    for (size_t i = 0; i < pass->row_count && fits; i++) {
+        uint32_t bits = row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], entry->values[i]) : 0;
+        if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
+            fits = add_constant(constants, pass->rows[i].id, bits);
+        else if (pass->rows[i].kind == GLINT_ROW_PUSH && (fits = constants->push_count < PUSH_BYTES_MAX / 4))
+            constants->push[constants->push_count++] = bits;
+    }
+    return fits || glint_fail(err, GLINT_ERROR_LIMIT, "%s/%s: more than %d constants or %d bytes of push constants",
+                              pass->slot, pass->variant, CONSTANTS_MAX - 1, PUSH_BYTES_MAX);
+}
+
+static VkResult create_sampler(struct glint_device *device, VkFilter filter, const char *name, VkSampler *sampler) {
+    const VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                      .magFilter = filter,
+                                      .minFilter = filter,
+                                      .mipmapMode = filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                                               : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                      .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .maxLod = VK_LOD_CLAMP_NONE};
+    VkResult result = vkCreateSampler(device->device, &info, NULL, sampler);
+    if (result == VK_SUCCESS) device_set_name(device, VK_OBJECT_TYPE_SAMPLER, (uint64_t)(uintptr_t)*sampler, name);
+    return result;
+}
+
+bool programs_init(struct programs *programs, struct glint_device *device, struct glint_error *err) {
+    VkResult result = create_sampler(device, VK_FILTER_LINEAR, "linear_clamp", &programs->linear);
+    if (result == VK_SUCCESS) result = create_sampler(device, VK_FILTER_NEAREST, "nearest_clamp", &programs->nearest);
+    const VkDescriptorSetLayoutBinding bindings[] = {
+        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
+        {1, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->linear},
+        {2, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->nearest},
+    };
+    const VkDescriptorSetLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 3, .pBindings = bindings};
+    if (result == VK_SUCCESS) result = vkCreateDescriptorSetLayout(device->device, &info, NULL, &programs->frame);
+    if (result != VK_SUCCESS) return vk_fail(err, "creating the samplers", result);
+    device_set_name(device, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
+    return true;
+}
+
+static void program_destroy(struct program *program, struct glint_device *device) {
+    vkDestroyPipeline(device->device, program->pipeline, NULL);
+    vkDestroyPipelineLayout(device->device, program->layout, NULL);
+    vkDestroyDescriptorSetLayout(device->device, program->images, NULL);
+    free(program);
+}
+
+void programs_finish(struct programs *programs, struct glint_device *device) {
+    for (struct program *program = programs->first, *next; program; program = next) {
+        next = program->next;
+        program_destroy(program, device);
+    }
+    vkDestroyDescriptorSetLayout(device->device, programs->frame, NULL);
+    vkDestroySampler(device->device, programs->linear, NULL);
+    vkDestroySampler(device->device, programs->nearest, NULL);
+    *programs = (struct programs){0};
+}
+
+static VkResult create_layouts(struct program *program, struct glint_device *device, VkDescriptorSetLayout frame,
+                               const struct glint_pass *pass, const struct constants *constants, const char *name) {
+    VkDescriptorSetLayoutBinding bindings[64];
+    uint32_t count = 0;
+    for (size_t i = 0; i < pass->row_count && count < 64; i++) {
+        enum glint_row_kind kind = pass->rows[i].kind;
+        if (kind != GLINT_ROW_READ && kind != GLINT_ROW_WRITE && kind != GLINT_ROW_DIAGNOSTIC) continue;
+        bindings[count++] = (VkDescriptorSetLayoutBinding){
+            pass->rows[i].id,
+            kind == GLINT_ROW_READ ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1,
+            VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    }
+    const VkDescriptorSetLayoutCreateInfo set = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
+    VkResult result = vkCreateDescriptorSetLayout(device->device, &set, NULL, &program->images);
+    if (result != VK_SUCCESS) return result;
+    device_set_name(device, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)program->images, name);
+    const VkDescriptorSetLayout sets[] = {program->images, frame};
+    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, constants->push_count * 4};
+    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .setLayoutCount = 2,
+                                               .pSetLayouts = sets,
+                                               .pushConstantRangeCount = 1,
+                                               .pPushConstantRanges = &push};
+    result = vkCreatePipelineLayout(device->device, &layout, NULL, &program->layout);
+    if (result != VK_SUCCESS) return result;
+    device_set_name(device, VK_OBJECT_TYPE_PIPELINE_LAYOUT, (uint64_t)(uintptr_t)program->layout, name);
+    return VK_SUCCESS;
+}
+
+static VkResult create_pipeline(struct program *program, struct glint_device *device, const struct spirv *spirv,
+                                const struct constants *constants, const char *name) {
+    const VkShaderModuleCreateInfo module_info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv->bytes, .pCode = spirv->words};
+    VkShaderModule module;
+    VkResult result = vkCreateShaderModule(device->device, &module_info, NULL, &module);
+    if (result != VK_SUCCESS) return result;
+    device_set_name(device, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)(uintptr_t)module, name);
+    const VkSpecializationInfo values = {constants->count, constants->entries, constants->count * sizeof(uint32_t),
+                                         constants->data};
+    const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                        .module = module,
+                                                        .pName = "main",
+                                                        .pSpecializationInfo = &values},
+                                              .layout = program->layout};
+    result = vkCreateComputePipelines(device->device, device->cache, 1, &info, NULL, &program->pipeline);
+    vkDestroyShaderModule(device->device, module, NULL);
+    if (result == VK_SUCCESS)
+        device_set_name(device, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)program->pipeline, name);
+    return result;
+}
+
+struct program *programs_get(struct programs *programs, struct glint_device *device, const struct glint_pass *pass,
+                             const struct spirv *spirv, const struct constants *constants, struct glint_error *err) {
+    enum { KEPT = 256 };
+    char name[128];
+    snprintf(name, sizeof name, "%s/%s", pass->slot, pass->variant);
+    uint64_t key = XXH3_64bits_withSeed(constants->data, constants->count * sizeof(uint32_t), spirv->hash);
+    key ^= XXH3_64bits(name, strlen(name));
+    size_t count = 0;
+    for (struct program **at = &programs->first; *at; at = &(*at)->next, count++) {
+        struct program *found = *at;
+        if (found->key == key) { /* to the front, so that the end is what was not used for longest */
+            *at = found->next;
+            found->next = programs->first;
+            return programs->first = found;
+        }
+        if (count == KEPT) {
+            for (struct program *old = found->next, *next; old; old = next) {
+                next = old->next;
+                program_destroy(old, device);
+            }
+            found->next = NULL;
+        }
+    }
+    struct program *program = calloc(1, sizeof *program);
+    if (!program) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", name);
+        return NULL;
+    }
+    program->key = key;
+    VkResult result = create_layouts(program, device, programs->frame, pass, constants, name);
+    if (result == VK_SUCCESS) result = create_pipeline(program, device, spirv, constants, name);
+    if (result != VK_SUCCESS) {
+        vk_fail(err, name, result);
+        program_destroy(program, device);
+        return NULL;
+    }
+    program->next = programs->first;
+    return programs->first = program;
+}

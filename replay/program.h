@@ -1,0 +1,41 @@
+/* Compute programs: descriptor layout, pipeline layout and pipeline of a pass, kept while they may be used again. */
+#ifndef GLINT_REPLAY_PROGRAM_H
+#define GLINT_REPLAY_PROGRAM_H
+
+#include "device.h"
+#include "pipeline.h"
+#include "shader.h"
+
+enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64 };
+
+/* Values of a pass's parameters as the shader takes them. */
+struct constants {
+    VkSpecializationMapEntry entries[CONSTANTS_MAX];
+    uint32_t data[CONSTANTS_MAX];
+    uint32_t count;
+    uint32_t push[PUSH_BYTES_MAX / 4]; /* dispatch index first */
+    uint32_t push_count;
+};
+bool constants_init(struct constants *constants, const struct pipeline_pass *pass, bool diagnostics,
+                    struct glint_error *err);
+
+struct program {
+    uint64_t key;
+    VkDescriptorSetLayout images;
+    VkPipelineLayout layout;
+    VkPipeline pipeline;
+    struct program *next;
+};
+
+struct programs {
+    struct program *first;
+    VkDescriptorSetLayout frame; /* set 1 */
+    VkSampler linear, nearest;
+};
+bool programs_init(struct programs *programs, struct glint_device *device, struct glint_error *err);
+void programs_finish(struct programs *programs, struct glint_device *device);
+/* Finds or makes the program of a pass. */
+struct program *programs_get(struct programs *programs, struct glint_device *device, const struct glint_pass *pass,
+                             const struct spirv *spirv, const struct constants *constants, struct glint_error *err);
+
+#endif

@@ -1,0 +1,66 @@
+/* Images back in host memory. */
+#include "readback.h"
+
+#include <string.h>
+
+#include <Imath/half.h>
+
+#include "timing.h"
+
+static VkDeviceSize aligned(VkDeviceSize size) { return (size + 15) & ~(VkDeviceSize)15; }
+
+bool readback_images(struct glint_replay *replay, struct image *const *images, size_t count, struct host_buffer *buffer,
+                     VkDeviceSize *offsets, struct glint_error *err) {
+    double start = now_seconds();
+    VkDeviceSize size = 0;
+    for (size_t i = 0; i < count; i++) {
+        offsets[i] = size;
+        size += aligned(image_bytes(&images[i]->desc));
+    }
+    if (buffer->size < size) {
+        host_buffer_finish(buffer, replay->device);
+        if (!host_buffer_init(buffer, replay->device, HOST_BUFFER_READBACK, size, "readback", err)) return false;
+    }
+    if (!device_begin(replay->device, err)) return false;
+    for (size_t i = 0; i < count; i++) image_record_readback(images[i], replay->device, buffer, offsets[i]);
+    record_host_barrier(replay->device);
+    bool ok = device_submit(replay->device, "reading images back", err);
+    replay->seconds[PHASE_READBACK] += now_seconds() - start;
+    return ok;
+}
+
+size_t images_of_pass(const struct glint_replay *replay, const struct glint_pass *pass, struct image **images,
+                      size_t capacity) {
+    size_t count = 0;
+    for (size_t r = 0; r < pass->row_count; r++)
+        for (struct image *image = replay->images; image && count < capacity; image = image->next)
+            if (image->listed && image->info.pass == pass && image->info.row == &pass->rows[r]) images[count++] = image;
+    return count;
+}
+
+bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *info, enum glint_type type,
+                             void *out, struct glint_error *err) {
+    struct image *image = replay->images;
+    while (image && &image->info != info) image = image->next;
+    if (!image || !image->listed)
+        return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
+    const size_t value_bytes = format_bytes(image->desc.format) / info->components;
+    const bool uint = format_is_uint(image->desc.format);
+    const bool same = uint ? type == (value_bytes == 1 ? GLINT_U8 : GLINT_U32)
+                           : type == (value_bytes == 2 ? GLINT_F16 : GLINT_F32);
+    if (!same && type != (uint ? GLINT_U32 : GLINT_F32))
+        return glint_fail(err, GLINT_ERROR_USAGE, "image %s is %s: it can be read as its own type or as %s", info->name,
+                          format_name(image->desc.format), uint ? "uint" : "float");
+    struct host_buffer buffer = {0};
+    VkDeviceSize offset;
+    bool ok = readback_images(replay, &image, 1, &buffer, &offset, err);
+    const size_t count = (size_t)info->width * info->height * info->components;
+    if (ok && same)
+        memcpy(out, buffer.map, count * value_bytes);
+    else if (ok && uint)
+        for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ((const uint8_t *)buffer.map)[i];
+    else if (ok)
+        for (size_t i = 0; i < count; i++) ((float *)out)[i] = imath_half_to_float(((const uint16_t *)buffer.map)[i]);
+    host_buffer_finish(&buffer, replay->device);
+    return ok;
+}

@@ -1,0 +1,74 @@
+/* What run.json says of a run, but for its files: made when the run ends, since pipeline and options are the caller's. */
+#include "state.h"
+
+#include <string.h>
+
+#include "timing.h"
+
+static json_t *parameter(const struct glint_row *row, double value) {
+    if (row->choices) return json_string(row->choices[(size_t)value]);
+    if (row->type == GLINT_VALUE_BOOL) return json_boolean(value != 0);
+    return row->type == GLINT_VALUE_FLOAT ? json_real(value) : json_integer((json_int_t)value);
+}
+
+static json_t *pass_record(const struct run *run, size_t p) {
+    const struct graph_pass *pass = &run->graph.passes[p];
+    const struct glint_pass_result *result = &run->replay->results[p];
+    json_t *object = json_object(), *parameters = json_object();
+    for (size_t r = 0; r < pass->pass->row_count; r++)
+        if (row_is_parameter(&pass->pass->rows[r]))
+            json_object_set_new(parameters, pass->pass->rows[r].name,
+                                parameter(&pass->pass->rows[r], pass->entry->values[r]));
+    json_object_set_new(object, "slot", json_string(pass->pass->slot));
+    json_object_set_new(object, "variant", json_string(pass->pass->variant));
+    json_object_set_new(object, "ran", json_boolean(pass->runs));
+    json_object_set_new(object, "reason", json_string(result->reason));
+    json_object_set_new(object, "cached", json_boolean(result->cached));
+    if (pass->pass->host) json_object_set_new(object, "host", json_true());
+    if (pass->entry->shader) json_object_set_new(object, "shader", json_string(pass->entry->shader));
+    json_object_set_new(object, "parameters", parameters);
+    json_object_set_new(object, "images", json_array());
+    json_object_set_new(object, "time_ns",
+                        json_pack("{sIsIsIsI}", "n", (json_int_t)result->time.n, "min", (json_int_t)result->time.min_ns,
+                                  "median", (json_int_t)result->time.median_ns, "max", (json_int_t)result->time.max_ns));
+    return object;
+}
+
+static json_t *device_record(const struct glint_device_info *info) {
+    return json_pack("{ssssssssss}", "name", info->name, "type", info->type, "driver", info->driver, "driver_version",
+                     info->driver_version, "times_are", info->is_cpu ? "CPU times of a software device" : "GPU times");
+}
+
+static json_t *warnings(const struct run *run) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        if (image->source == SOURCE_NOTHING && !image->pass)
+            json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
+                                                     image->row->role, image->name, image->row->nothing));
+    }
+    const char *last = NULL;
+    uint32_t messages = glint_device_messages(run->replay->device, &last);
+    if (messages) json_array_append_new(list, json_sprintf("%u validation messages, the last: %s", messages, last));
+    return list;
+}
+
+json_t *run_record(const struct run *run) {
+    const struct glint_replay_options *options = run->options;
+    json_t *root = json_object(), *passes = json_array();
+    json_object_set_new(root, "format", json_integer(1));
+    json_object_set_new(root, "tool", json_pack("{ssss}", "name", "glint", "version", GLINT_VERSION));
+    json_object_set_new(root, "device", device_record(glint_device_get_info(run->replay->device)));
+    json_object_set_new(root, "preset", json_string(run->pipeline->name));
+    json_object_set_new(root, "resolution", json_pack("{s[ii]s[ii]}", "full", (int)run->sizes.full[0],
+                                                      (int)run->sizes.full[1], "half", (int)run->sizes.half[0],
+                                                      (int)run->sizes.half[1]));
+    json_object_set_new(root, "precision", json_string(options->float_precision ? "float" : "half"));
+    json_object_set_new(root, "diagnostics", json_boolean(options->diagnostics));
+    json_object_set_new(root, "inputs", options->inputs ? json_string(options->inputs) : json_null());
+    json_object_set_new(root, "active_cubemaps", json_integer((json_int_t)run->sizes.active));
+    for (size_t p = 0; p < run->graph.pass_count; p++) json_array_append_new(passes, pass_record(run, p));
+    json_object_set_new(root, "passes", passes);
+    json_object_set_new(root, "warnings", warnings(run));
+    return root;
+}

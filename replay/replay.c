@@ -1,0 +1,160 @@
+/* Replays: the order of a run's steps, and access to its results. */
+#include "state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "timing.h"
+
+bool report_progress(glint_progress progress, void *user, const char *what, double done, struct glint_error *err) {
+    return !progress || progress(user, what, done) || glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted at %s", what);
+}
+
+struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err) {
+    struct glint_replay *replay = calloc(1, sizeof *replay);
+    if (!replay) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        return NULL;
+    }
+    replay->device = device;
+    if (!programs_init(&replay->programs, device, err) ||
+        !host_buffer_init(&replay->frame, device, HOST_BUFFER_UNIFORM, sizeof(struct frame_block), "frame", err))
+        glint_replay_destroy(&replay);
+    return replay;
+}
+
+static void forget_results(struct glint_replay *replay) {
+    free(replay->results);
+    replay->results = NULL;
+    replay->result_count = 0;
+    json_decref(replay->record);
+    replay->record = NULL;
+    for (struct image *image = replay->images; image; image = image->next) image->listed = false;
+}
+
+void glint_replay_destroy(struct glint_replay **pointer) {
+    struct glint_replay *replay = *pointer;
+    *pointer = NULL;
+    if (!replay) return;
+    forget_results(replay);
+    channels_finish(&replay->gbuffer);
+    replay_drop_images(replay, true);
+    programs_finish(&replay->programs, replay->device);
+    host_buffer_finish(&replay->frame, replay->device);
+    host_buffer_finish(&replay->staging, replay->device);
+    free(replay->plan);
+    free(replay);
+}
+
+bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err) {
+    if (capture && !glint_capture_find(capture, "gbuffer"))
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing, and a replay needs it",
+                          glint_capture_path(capture));
+    replay->capture = capture;
+    replay->serial++;
+    replay->surveyed = false;
+    channels_finish(&replay->gbuffer);
+    forget_results(replay);
+    memset(replay->seconds, 0, sizeof replay->seconds);
+    return true;
+}
+
+static bool allocate_run(struct run *run, struct glint_error *err) {
+    size_t images = run->graph.image_count + 1, passes = run->graph.pass_count + 1;
+    run->images = calloc(images, sizeof *run->images);
+    run->keys = calloc(images, sizeof *run->keys);
+    run->needed = calloc(images, sizeof *run->needed);
+    run->steps = calloc(passes, sizeof *run->steps);
+    run->host_seconds = calloc(passes, sizeof *run->host_seconds);
+    return (run->images && run->keys && run->needed && run->steps && run->host_seconds) ||
+           glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+static bool store_results(struct run *run, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    size_t count = run->graph.pass_count;
+    replay->results = calloc(count + 1, sizeof *replay->results);
+    if (!replay->results) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t p = 0; p < count; p++) {
+        const struct graph_pass *pass = &run->graph.passes[p];
+        struct glint_pass_result *result = &replay->results[p];
+        *result = (struct glint_pass_result){.pass = pass->pass, .ran = pass->runs};
+        memcpy(result->reason, pass->reason, sizeof result->reason);
+        if (!pass->runs) continue;
+        if (pass->pass->host) {
+            uint64_t ns = (uint64_t)(run->host_seconds[p] * 1e9);
+            result->time = time_statistics(&ns, 1);
+        } else {
+            result->cached = !run->steps[p].execute;
+            result->time = time_statistics(run->steps[p].ns, run->steps[p].timed);
+        }
+    }
+    replay->result_count = count;
+    replay->record = run_record(run);
+    return replay->record || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+static bool run_all(struct run *run, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    const struct glint_replay_options *options = run->options;
+    if (options->inputs && !(run->inputs = glint_run_open(options->inputs, err))) return false;
+    if (!replay_graph(replay, run->pipeline, options, run->inputs, &run->graph, err)) return false;
+    double start;
+    if (!allocate_run(run, err) || !tables_init(&run->tables, &run->graph, replay->capture, run->host_seconds, err) ||
+        !run_sizes(run, err))
+        return false;
+    frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
+    if (!run_allocate(run, err) || !run_keys(run, err) || !run_upload(run, err)) return false;
+    start = now_seconds();
+    bool ok = run_prepare(run, err) && run_execute(run, err);
+    replay->seconds[PHASE_PASSES] += now_seconds() - start;
+    return ok && store_results(run, err);
+}
+
+bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                      const struct glint_replay_options *options, glint_progress progress, void *user,
+                      struct glint_error *err) {
+    static const struct glint_replay_options defaults;
+    struct run run = {.replay = replay,
+                      .pipeline = pipeline,
+                      .options = options ? options : &defaults,
+                      .progress = progress,
+                      .user = user};
+    forget_results(replay);
+    bool ok = run_all(&run, err);
+    channels_finish(&replay->gbuffer);
+    if (!ok) forget_results(replay);
+    run_release(&run);
+    if (ok) replay_drop_images(replay, false);
+    return ok;
+}
+
+const struct glint_pass_result *glint_replay_results(const struct glint_replay *replay, size_t *count) {
+    *count = replay->result_count;
+    return replay->results;
+}
+
+size_t glint_replay_image_count(const struct glint_replay *replay) {
+    size_t count = 0;
+    for (const struct image *image = replay->images; image; image = image->next) count += image->listed;
+    return count;
+}
+
+const struct glint_image *glint_replay_image(const struct glint_replay *replay, size_t i) {
+    for (const struct image *image = replay->images; image; image = image->next)
+        if (image->listed && i-- == 0) return &image->info;
+    return NULL;
+}
+
+const struct glint_image *glint_replay_find_image(const struct glint_replay *replay, const char *name) {
+    for (const struct image *image = replay->images; image; image = image->next)
+        if (image->listed && strcmp(image->name, name) == 0) return &image->info;
+    return NULL;
+}
+
+double glint_replay_seconds(const struct glint_replay *replay, const char *phase) {
+    static const char *const names[PHASES] = {"read", "upload", "passes", "readback", "write"};
+    for (size_t i = 0; i < PHASES; i++)
+        if (strcmp(names[i], phase) == 0) return replay->seconds[i];
+    return 0;
+}

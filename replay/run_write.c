@@ -1,0 +1,209 @@
+/* Run folders: one EXR a pass and run.json, which comes last and so says that the run is complete. */
+#include "readback.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "glint/exr.h"
+#include "timing.h"
+
+enum { IMAGES_MAX = 32, PATH_SIZE = 4096, CHANNELS = 4 };
+
+/* One EXR file, written by a worker while the next pass is read back. */
+struct job {
+    const struct glint_pass *pass;
+    struct host_buffer buffer;
+    struct image *images[IMAGES_MAX];
+    VkDeviceSize offsets[IMAGES_MAX];
+    size_t count;
+    char path[PATH_SIZE];
+    pthread_t thread;
+    bool started, ok;
+    struct glint_error err;
+    double seconds;
+};
+
+/* What one part needs while the file is written. */
+struct part_memory {
+    struct glint_exr_channel channels[CHANNELS];
+    struct glint_exr_attribute attributes[8];
+    char names[128];
+    uint32_t *widened;
+};
+
+static void split_channels(const struct glint_row *row, char *names, size_t size, const char *list[CHANNELS]) {
+    snprintf(names, size, "%s", row->channels);
+    char *rest = NULL, *word = strtok_r(names, " ", &rest);
+    for (size_t i = 0; i < CHANNELS && word; i++, word = strtok_r(NULL, " ", &rest)) list[i] = word;
+}
+
+static bool fill_part(const struct job *job, size_t i, struct part_memory *memory, struct glint_exr_part *part,
+                      struct glint_error *err) {
+    const struct image *image = job->images[i];
+    const struct glint_row *row = image->info.row;
+    const uint32_t components = image->info.components;
+    const size_t bytes = format_bytes(image->desc.format) / components;
+    const char *data = (const char *)job->buffer.map + job->offsets[i], *names[CHANNELS] = {"R", "G", "B", "A"};
+    split_channels(row, memory->names, sizeof memory->names, names);
+    if (bytes == 1) { /* EXR has no smaller integer than 32 bits */
+        const size_t texels = (size_t)image->info.width * image->info.height * components;
+        if (!(memory->widened = malloc(texels * sizeof(uint32_t))))
+            return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
+        for (size_t t = 0; t < texels; t++) memory->widened[t] = ((const uint8_t *)data)[t];
+        data = (const char *)memory->widened;
+    }
+    const size_t stored_bytes = bytes == 1 ? 4 : bytes;
+    for (uint32_t c = 0; c < components; c++)
+        memory->channels[c] = (struct glint_exr_channel){.name = names[c],
+                                                         .stored = format_is_uint(image->desc.format) ? GLINT_STORED_UINT
+                                                                   : bytes == 2 ? GLINT_STORED_HALF : GLINT_STORED_FLOAT,
+                                                         .data = data + c * stored_bytes,
+                                                         .x_stride_bytes = components * stored_bytes};
+    const char *const texts[][2] = {{"glint.image", image->name},     {"glint.slot", job->pass->slot},
+                                    {"glint.variant", job->pass->variant}, {"glint.unit", row->unit},
+                                    {"glint.meaning", row->help},     {"glint.channels", row->channels},
+                                    {"glint.format", format_name(image->desc.format)}};
+    const size_t text_count = sizeof texts / sizeof texts[0];
+    for (size_t t = 0; t < text_count; t++)
+        memory->attributes[t] =
+            (struct glint_exr_attribute){.name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
+    *part = (struct glint_exr_part){.name = image->name,
+                                    .width = image->info.width,
+                                    .height = image->info.height,
+                                    .channels = memory->channels,
+                                    .channel_count = components,
+                                    .attributes = memory->attributes,
+                                    .attribute_count = text_count,
+                                    .compression = GLINT_ZIP};
+    return true;
+}
+
+static void *write_file(void *argument) {
+    struct job *job = argument;
+    double start = now_seconds();
+    struct glint_exr_part parts[IMAGES_MAX] = {0};
+    struct part_memory *memory = calloc(job->count, sizeof *memory);
+    job->ok = memory || glint_fail(&job->err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
+    for (size_t i = 0; job->ok && i < job->count; i++) job->ok = fill_part(job, i, &memory[i], &parts[i], &job->err);
+    job->ok = job->ok && glint_exr_write(job->path, parts, job->count, 0, &job->err);
+    for (size_t i = 0; memory && i < job->count; i++) free(memory[i].widened);
+    free(memory);
+    job->seconds = now_seconds() - start;
+    return NULL;
+}
+
+static bool job_finish(struct job *job, struct glint_replay *replay, struct glint_error *err) {
+    if (!job->started) return true;
+    pthread_join(job->thread, NULL);
+    job->started = false;
+    replay->seconds[PHASE_WRITE] += job->seconds;
+    return job->ok || glint_fail(err, job->err.code, "%s", job->err.message);
+}
+
+static void job_start(struct job *job) {
+    job->started = pthread_create(&job->thread, NULL, write_file, job) == 0;
+    if (!job->started) write_file(job);
+}
+
+static json_t *image_record(const struct image *image, const char *file) {
+    const struct glint_row *row = image->info.row;
+    return json_pack("{ssssssssssss si si ss}", "name", image->name, "file", file, "part", image->name, "channels",
+                     row->channels, "unit", row->unit, "meaning", row->help, "width", (int)image->info.width, "height",
+                     (int)image->info.height, "format", format_name(image->desc.format));
+}
+
+/* Removes the files that an earlier run.json lists, and that file first: no mixture ever looks complete. */
+static bool remove_old(const char *folder, struct glint_error *err) {
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    json_t *root = json_load_file(path, 0, NULL), *pass, *image;
+    size_t p, i;
+    bool ok = unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    json_array_foreach(json_object_get(root, "passes"), p, pass) {
+        json_array_foreach(json_object_get(pass, "images"), i, image) {
+            const char *file = json_string_value(json_object_get(image, "file"));
+            size_t length = file ? strlen(file) : 0;
+            if (!ok || length < 5 || strchr(file, '/') || strcmp(file + length - 4, ".exr") != 0) continue;
+            snprintf(path, sizeof path, "%s/%s", folder, file);
+            unlink(path); /* listed once for each of its images */
+        }
+    }
+    json_decref(root);
+    return ok;
+}
+
+static bool write_json(const char *folder, const json_t *root, struct glint_error *err) {
+    char path[PATH_SIZE], temporary[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    if (snprintf(temporary, sizeof temporary, "%s/run.json.tmp-%ld", folder, (long)getpid()) >= (int)sizeof temporary)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    if (json_dump_file(root, temporary, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0 && rename(temporary, path) == 0)
+        return true;
+    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    unlink(temporary);
+    return false;
+}
+
+static bool finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err) {
+    char hash[33];
+    double start = now_seconds();
+    if (!glint_capture_hash(replay->capture, hash, err)) return false;
+    replay->seconds[PHASE_READ] += now_seconds() - start;
+    json_object_set_new(root, "capture", json_pack("{ssss}", "path", glint_capture_path(replay->capture), "xxh3_128", hash));
+    json_object_set_new(root, "seconds", json_pack("{sfsfsfsfsf}", "read", replay->seconds[PHASE_READ], "upload",
+                                                   replay->seconds[PHASE_UPLOAD], "passes", replay->seconds[PHASE_PASSES],
+                                                   "readback", replay->seconds[PHASE_READBACK], "write",
+                                                   replay->seconds[PHASE_WRITE]));
+    json_object_set_new(root, "peak_memory_bytes", json_integer((json_int_t)peak_memory_bytes()));
+    return true;
+}
+
+/* One pass: read back while the pass before it is still being written, then handed to the worker. */
+static bool write_pass(struct glint_replay *replay, size_t p, const char *folder, struct job *job, struct job *before,
+                       json_t *root, struct glint_error *err) {
+    const struct glint_pass_result *result = &replay->results[p];
+    char file[128];
+    job->pass = result->pass;
+    job->count = images_of_pass(replay, result->pass, job->images, IMAGES_MAX);
+    snprintf(file, sizeof file, "%02zu-%s.exr", p + 1, result->pass->slot);
+    if (snprintf(job->path, sizeof job->path, "%s/%s", folder, file) >= (int)sizeof job->path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    json_t *images = json_object_get(json_array_get(json_object_get(root, "passes"), p), "images");
+    for (size_t i = 0; i < job->count; i++) json_array_append_new(images, image_record(job->images[i], file));
+    bool read = readback_images(replay, job->images, job->count, &job->buffer, job->offsets, err);
+    if (!job_finish(before, replay, read ? err : NULL) || !read) return false;
+    job_start(job);
+    return true;
+}
+
+bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
+                        struct glint_error *err) {
+    if (!replay->record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
+    if (!remove_old(folder, err)) return false;
+    json_t *root = json_deep_copy(replay->record);
+    struct job *jobs = calloc(2, sizeof *jobs);
+    bool ok = (root && jobs) || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
+    size_t turn = 0;
+    struct image *first;
+    for (size_t p = 0; ok && p < replay->result_count; p++) {
+        if (!replay->results[p].ran || images_of_pass(replay, replay->results[p].pass, &first, 1) == 0) continue;
+        ok = report_progress(progress, user, replay->results[p].pass->slot, (double)p / (double)replay->result_count, err) &&
+             write_pass(replay, p, folder, &jobs[turn], &jobs[1 - turn], root, err);
+        turn = 1 - turn;
+    }
+    for (size_t j = 0; jobs && j < 2; j++) {
+        ok = job_finish(&jobs[j], replay, ok ? err : NULL) && ok;
+        host_buffer_finish(&jobs[j].buffer, replay->device);
+    }
+    ok = ok && finish_record(replay, root, err) && write_json(folder, root, err);
+    free(jobs);
+    json_decref(root);
+    return ok;
+}

@@ -1,0 +1,100 @@
+/* Sizes of images: from the capture, from tables, or from what is read instead of computed. */
+#include "state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Width and height of an image whose contents already exist; false for one that will be made on the device. */
+static bool existing_size(const struct run *run, const struct graph_image *image, uint32_t size[2]) {
+    const struct glint_table *table = tables_find(&run->tables, image->name);
+    size[0] = size[1] = 0;
+    if (image->source == SOURCE_MADE && table)
+        size[0] = table->width, size[1] = table->height;
+    else if (image->source == SOURCE_RUN) {
+        const struct glint_run_image *info = glint_run_find(run->inputs, image->name);
+        size[0] = info->width, size[1] = info->height;
+    } else if (image->source == SOURCE_ENGINE) {
+        char name[128];
+        snprintf(name, sizeof name, "engine.%.48s.%.48s", image->pass->slot, image->name);
+        const struct glint_part_info *part = glint_capture_find(run->replay->capture, name);
+        size[0] = part->width, size[1] = part->height;
+    } else
+        return false;
+    return true;
+}
+
+/* The list of active cube maps, from the table or from the run that replaces it. */
+static bool read_active(struct run *run, const struct graph_image *image, struct glint_error *err) {
+    const struct glint_table *table = tables_find(&run->tables, image->name);
+    uint32_t size[2];
+    if (!existing_size(run, image, size) || !size[0]) return true;
+    run->active = calloc((size_t)size[0] * size[1], sizeof *run->active);
+    if (!run->active) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (image->source == SOURCE_RUN)
+        return glint_run_read(run->inputs, glint_run_find(run->inputs, image->name), GLINT_U32, run->active, err);
+    if (table && table->texels.u && format_is_uint(image->row->format))
+        memcpy(run->active, table->texels.u, (size_t)size[0] * sizeof *run->active);
+    else
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: expected a table of a pass or of a run", image->name);
+    return true;
+}
+
+bool run_sizes(struct run *run, struct glint_error *err) {
+    struct glint_capture *capture = run->replay->capture;
+    struct frame_sizes *sizes = &run->sizes;
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"), *sky = glint_capture_find(capture, "sky");
+    if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
+    *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
+                                  .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
+                                  .sky_face = sky ? sky->width : 0};
+    const struct glint_part_info **parts;
+    size_t count;
+    if (!cubemap_parts(capture, &parts, &count, err)) return false;
+    if (count) sizes->cube_face = parts[0]->width;
+    free(parts);
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        uint32_t size[2];
+        if (!existing_size(run, image, size)) continue;
+        if (image->row->size == GLINT_SIZE_CHAIN) sizes->chain = size[0], sizes->active = size[1];
+        if (image->row->size == GLINT_SIZE_ACTIVE) sizes->active = size[0];
+        if (strcmp(image->name, "active_index") == 0 && !read_active(run, image, err)) return false;
+    }
+    for (uint32_t i = 0; run->active && i < sizes->active; i++)
+        if (run->active[i] >= count)
+            return glint_fail(err, GLINT_ERROR_FORMAT, "image active_index: place %u names cube map %u, but %s has %zu", i,
+                              run->active[i], glint_capture_path(capture), count);
+    return true;
+}
+
+bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
+                        struct glint_error *err) {
+    const struct frame_sizes *sizes = &run->sizes;
+    const struct glint_row *row = image->row;
+    bool cube = row->size == GLINT_SIZE_CUBEMAPS || row->size == GLINT_SIZE_SKY;
+    *desc = (struct image_desc){row->format, 1, 1, cube ? 6 : 0};
+    if (run->options->float_precision) desc->format = format_widened(row->format);
+    if (image->source == SOURCE_NOTHING) return true;
+    uint32_t expected[2] = {0, 0}, found[2];
+    switch (row->size) {
+    case GLINT_SIZE_FULL: expected[0] = sizes->full[0], expected[1] = sizes->full[1]; break;
+    case GLINT_SIZE_HALF: expected[0] = sizes->half[0], expected[1] = sizes->half[1]; break;
+    case GLINT_SIZE_CUBEMAPS:
+        expected[0] = expected[1] = sizes->cube_face;
+        desc->layers = 6 * (sizes->active ? sizes->active : 1);
+        break;
+    case GLINT_SIZE_SKY: expected[0] = expected[1] = sizes->sky_face; break;
+    case GLINT_SIZE_ACTIVE: expected[0] = sizes->active, expected[1] = 1; break;
+    case GLINT_SIZE_CHAIN: expected[0] = sizes->chain, expected[1] = sizes->active; break;
+    }
+    if (existing_size(run, image, found) && (found[0] != expected[0] || found[1] != expected[1]))
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u, found %u x %u",
+                          image->source == SOURCE_RUN ? run->options->inputs : glint_capture_path(run->replay->capture),
+                          image->name, expected[0], expected[1], found[0], found[1]);
+    if (!expected[0] || !expected[1])
+        desc->layers = cube ? 6 : 0; /* nothing is active: a stand-in */
+    else
+        desc->width = expected[0], desc->height = expected[1];
+    return true;
+}

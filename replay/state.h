@@ -1,0 +1,100 @@
+/* What a replay keeps between calls, and what one run works on. */
+#ifndef GLINT_REPLAY_STATE_H
+#define GLINT_REPLAY_STATE_H
+
+#include <jansson.h>
+
+#include "frame_block.h"
+#include "graph.h"
+#include "image.h"
+#include "program.h"
+#include "survey.h"
+#include "tables.h"
+
+enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE, PHASES };
+
+struct glint_replay {
+    struct glint_device *device;
+    struct glint_capture *capture;
+    uint64_t serial; /* of the load: contents of another capture never pass for this one's */
+    struct glint_survey survey;
+    bool surveyed;
+    struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
+    struct image *images;    /* kept between runs while their descriptions stay */
+    struct programs programs;
+    struct host_buffer frame, staging;
+    struct glint_plan_entry *plan;
+    struct glint_pass_result *results;
+    size_t *result_places; /* in the whole pipeline's order, counted from 1 */
+    size_t result_count;
+    json_t *record; /* of the last run, for run.json; NULL before the first */
+    double seconds[PHASES];
+};
+
+/* One pass of a run on the device. */
+struct step {
+    const struct graph_pass *pass;
+    struct spirv spirv;
+    struct constants constants;
+    struct program *program;
+    VkDescriptorSet set;
+    uint64_t key;
+    bool execute;
+    uint64_t *ns; /* one for each timed round */
+    size_t timed;
+};
+
+struct run {
+    struct glint_replay *replay;
+    const struct glint_pipeline *pipeline;
+    const struct glint_replay_options *options;
+    struct glint_run *inputs;
+    struct graph graph;
+    struct tables tables;
+    double *host_seconds; /* one for each pass */
+    struct frame_sizes sizes;
+    struct frame_block block;
+    uint32_t *active; /* the capture's cube maps that take part, sizes.active of them */
+    struct image **images; /* beside graph.images */
+    uint64_t *keys;        /* what the images' contents will depend on */
+    bool *needed;          /* read or wanted by what will be executed */
+    struct step *steps;    /* beside graph.passes */
+    VkDescriptorPool pool;
+    VkDescriptorSet frame_set;
+    VkQueryPool queries;
+    glint_progress progress;
+    void *user;
+};
+
+/* plan.c: survey, graph. */
+bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                  const struct glint_replay_options *options, const struct glint_run *inputs, struct graph *graph,
+                  struct glint_error *err);
+
+/* sizes.c */
+bool run_sizes(struct run *run, struct glint_error *err);
+bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
+                        struct glint_error *err);
+
+/* allocate.c: images and their memory. */
+bool run_allocate(struct run *run, struct glint_error *err);
+void replay_drop_images(struct glint_replay *replay, bool all);
+
+/* memo.c: keys of images and steps, and which steps have to execute. */
+bool run_keys(struct run *run, struct glint_error *err);
+
+/* upload.c: fills the images that no shader makes. */
+bool run_upload(struct run *run, struct glint_error *err);
+
+/* execute.c */
+bool run_prepare(struct run *run, struct glint_error *err);
+bool run_execute(struct run *run, struct glint_error *err);
+void run_release(struct run *run);
+
+/* record.c: what run.json says of a run. */
+json_t *run_record(const struct run *run);
+
+bool replay_staging(struct glint_replay *replay, VkDeviceSize size, struct glint_error *err);
+bool report_progress(glint_progress progress, void *user, const char *what, double done, struct glint_error *err);
+
+#endif

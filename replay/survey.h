@@ -1,0 +1,29 @@
+/* The survey of a G-buffer that is already in memory, and the facts that NEEDS rows ask for. */
+#ifndef GLINT_REPLAY_SURVEY_H
+#define GLINT_REPLAY_SURVEY_H
+
+#include "glint/replay.h"
+
+/* Channels of one part, decoded to interleaved floats. */
+struct channels {
+    const struct glint_part_info *part;
+    const char **names; /* point into rows and literals */
+    size_t count;
+    float *data; /* NULL before they are read */
+};
+bool channels_add(struct channels *channels, const char *name, size_t length, struct glint_error *err);
+/* Adds the channels of a capture row ("R G B -"). */
+bool channels_add_row(struct channels *channels, const struct glint_row *row, struct glint_error *err);
+/* The channel's place; count when it is not among them. */
+size_t channels_find(const struct channels *channels, const char *name, size_t length);
+bool channels_read(struct channels *channels, struct glint_capture *capture, struct glint_error *err);
+void channels_finish(struct channels *channels);
+bool channels_add_survey(struct channels *channels, struct glint_error *err);
+
+/* Over channels that hold at least the survey's. */
+void survey_channels(const struct channels *channels, struct glint_survey *survey);
+void survey_capture_parts(const struct glint_capture *capture, struct glint_survey *survey);
+/* Whether a NEEDS row's fact holds; *known is false when there is no such fact. */
+bool survey_fact(const struct glint_survey *survey, const char *fact, char *reason, size_t size, bool *known);
+
+#endif

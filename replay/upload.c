@@ -1,0 +1,242 @@
+/* Fills the images that no shader makes: decoded capture parts, tables, images of a run folder, "nothing". Pixels go
+   straight into mapped staging memory in the image's format. */
+#include "state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <Imath/half.h>
+
+#include "parallel.h"
+#include "timing.h"
+
+bool replay_staging(struct glint_replay *replay, VkDeviceSize size, struct glint_error *err) {
+    if (replay->staging.size >= size) return true;
+    host_buffer_finish(&replay->staging, replay->device);
+    return host_buffer_init(&replay->staging, replay->device, HOST_BUFFER_UPLOAD, size, "staging", err);
+}
+
+/* Conversion of interleaved 32-bit values to an image's texels. */
+struct packing {
+    const uint32_t *from; /* float or uint bits */
+    size_t stride;        /* values a pixel */
+    size_t at[4];         /* value of each component; SIZE_MAX: `missing` */
+    float missing;
+    enum glint_format format;
+    void *to;
+    size_t width;
+};
+
+static void pack_rows(void *user, size_t first, size_t last) {
+    const struct packing *p = user;
+    const size_t components = format_components(p->format), begin = first * p->width, end = last * p->width;
+    uint32_t missing;
+    memcpy(&missing, &p->missing, sizeof missing);
+    for (size_t c = 0; c < components; c++) {
+        const uint32_t *from = p->at[c] == SIZE_MAX ? &missing : p->from + p->at[c] + begin * p->stride;
+        const size_t stride = p->at[c] == SIZE_MAX ? 0 : p->stride;
+        const size_t bytes = format_bytes(p->format) / components;
+        if (bytes == 1)
+            for (size_t i = begin; i < end; i++, from += stride) ((uint8_t *)p->to)[i * components + c] = (uint8_t)*from;
+        else if (bytes == 2)
+            for (size_t i = begin; i < end; i++, from += stride) {
+                float value;
+                memcpy(&value, from, sizeof value);
+                ((uint16_t *)p->to)[i * components + c] = imath_float_to_half(value);
+            }
+        else
+            for (size_t i = begin; i < end; i++, from += stride) ((uint32_t *)p->to)[i * components + c] = *from;
+    }
+}
+
+static void pack(struct packing *packing, uint32_t width, uint32_t height) {
+    packing->width = width;
+    parallel_rows(height, pack_rows, packing);
+}
+
+static bool submit(struct run *run, struct glint_error *err) {
+    return device_submit(run->replay->device, "uploading images", err);
+}
+
+static bool to_upload(const struct run *run, size_t i) {
+    return run->needed[i] && run->images[i]->key != run->keys[i];
+}
+
+static void place_components(struct packing *packing, const struct channels *channels, const struct glint_row *row) {
+    size_t c = 0;
+    for (size_t i = 0; i < 4; i++) packing->at[i] = SIZE_MAX;
+    for (const char *at = row->source; *at && c < 4; c++) {
+        size_t length = strcspn(at, " "), found = channels_find(channels, at, length);
+        if (found < channels->count) packing->at[c] = found;
+        at += length + (at[length] == ' ');
+    }
+}
+
+/* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
+static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role, struct channels *channels,
+                        uint32_t first, uint32_t layers, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    struct glint_capture *capture = replay->capture;
+    double start = now_seconds();
+    VkDeviceSize offset = 0;
+    channels->part = part;
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || strcmp(image->row->role, role) != 0) continue;
+        const struct image_desc *desc = &run->images[i]->desc;
+        if (part->width != desc->width || part->height != desc->height * layers)
+            return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %u x %u, found %u x %u",
+                              glint_capture_path(capture), part->name, desc->width, desc->height * layers, part->width,
+                              part->height);
+        if (!channels->data && !channels_add_row(channels, image->row, err)) return false;
+        offset += ((VkDeviceSize)part->width * part->height * format_bytes(desc->format) + 15) & ~(VkDeviceSize)15;
+    }
+    for (size_t c = 0; !channels->data && c < channels->count; c++) /* optional ones that this part lacks */
+        if (!glint_part_has_channel(part, channels->names[c])) {
+            free((char *)channels->names[c]);
+            channels->names[c--] = channels->names[--channels->count];
+        }
+    if (!channels->data && channels->count && !channels_read(channels, capture, err)) return false;
+    replay->seconds[PHASE_READ] += now_seconds() - start;
+    start = now_seconds();
+    if (!replay_staging(replay, offset, err) || !device_begin(replay->device, err)) return false;
+    offset = 0;
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || strcmp(image->row->role, role) != 0) continue;
+        struct packing packing = {.from = (const uint32_t *)channels->data,
+                                  .stride = channels->count,
+                                  .missing = (float)image->row->nothing,
+                                  .format = run->images[i]->desc.format,
+                                  .to = (char *)replay->staging.map + offset};
+        place_components(&packing, channels, image->row);
+        run->images[i]->key = 0; /* until all of it is there */
+        pack(&packing, part->width, part->height);
+        image_record_upload(run->images[i], replay->device, &replay->staging, offset, first, layers, first == 0);
+        offset += ((VkDeviceSize)part->width * part->height * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
+    }
+    bool ok = submit(run, err);
+    replay->seconds[PHASE_UPLOAD] += now_seconds() - start;
+    return ok;
+}
+
+static bool upload_cubemaps(struct run *run, const char *role, struct glint_error *err) {
+    const struct glint_part_info **parts;
+    size_t count;
+    if (!cubemap_parts(run->replay->capture, &parts, &count, err)) return false;
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < run->sizes.active; i++) {
+        struct channels channels = {0};
+        ok = report_progress(run->progress, run->user, parts[run->active[i]]->name, (double)i / run->sizes.active * 0.2, err) &&
+             upload_part(run, parts[run->active[i]], role, &channels, 6 * i, 6, err);
+        channels_finish(&channels);
+    }
+    free(parts);
+    return ok;
+}
+
+/* Values that are in memory already: tables and images of runs or of the engine. */
+static bool upload_values(struct run *run, size_t i, const void *values, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    const struct image_desc *desc = &run->images[i]->desc;
+    const uint32_t height = desc->height * (desc->layers ? desc->layers : 1);
+    if (!replay_staging(replay, image_bytes(desc), err) || !device_begin(replay->device, err)) return false;
+    run->images[i]->key = 0;
+    struct packing packing = {.from = values,
+                              .stride = format_components(desc->format),
+                              .at = {0, 1, 2, 3},
+                              .format = desc->format,
+                              .to = replay->staging.map};
+    pack(&packing, desc->width, height);
+    image_record_upload(run->images[i], replay->device, &replay->staging, 0, 0, desc->layers ? desc->layers : 1, true);
+    return submit(run, err);
+}
+
+static bool upload_from_run(struct run *run, size_t i, struct glint_error *err) {
+    const struct glint_run_image *info = glint_run_find(run->inputs, run->graph.images[i].name);
+    const struct image_desc *desc = &run->images[i]->desc;
+    if (info->components != format_components(desc->format) || info->integer != format_is_uint(desc->format))
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u %s channels, found %u %s", run->options->inputs,
+                          info->name, format_components(desc->format), format_is_uint(desc->format) ? "uint" : "float",
+                          info->components, info->integer ? "uint" : "float");
+    void *values = malloc((size_t)info->width * info->height * info->components * 4);
+    bool ok = values ? glint_run_read(run->inputs, info, info->integer ? GLINT_U32 : GLINT_F32, values, err)
+                     : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", info->name);
+    ok = ok && upload_values(run, i, values, err);
+    free(values);
+    return ok;
+}
+
+static bool upload_from_engine(struct run *run, size_t i, struct glint_error *err) {
+    const struct graph_image *image = &run->graph.images[i];
+    const struct image_desc *desc = &run->images[i]->desc;
+    char name[128];
+    struct glint_row row = *image->row;
+    row.source = image->row->channels; /* the engine names them as the declaration does */
+    struct channels channels = {0};
+    snprintf(name, sizeof name, "engine.%.48s.%.48s", image->pass->slot, image->name);
+    channels.part = glint_capture_find(run->replay->capture, name);
+    size_t values = (size_t)desc->width * desc->height * format_components(desc->format);
+    void *data = malloc(values * 4);
+    bool ok = data || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
+    ok = ok && channels_add_row(&channels, &row, err);
+    if (ok && channels.count != format_components(desc->format))
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, "part %s: image %s declares %zu channels for %u components", name,
+                        image->name, channels.count, format_components(desc->format));
+    ok = ok && glint_capture_read_raw(run->replay->capture, channels.part, channels.names, channels.count,
+                                      format_is_uint(desc->format) ? GLINT_U32 : GLINT_F32, data, 0, err);
+    ok = ok && upload_values(run, i, data, err);
+    channels_finish(&channels);
+    free(data);
+    return ok;
+}
+
+static bool upload_given(struct run *run, size_t i, struct glint_error *err) {
+    const struct graph_image *image = &run->graph.images[i];
+    const struct glint_table *table = tables_find(&run->tables, image->name);
+    if (image->source == SOURCE_RUN) return upload_from_run(run, i, err);
+    if (image->source == SOURCE_ENGINE) return upload_from_engine(run, i, err);
+    if (image->source == SOURCE_MADE && table && table->width && table->height)
+        return upload_values(run, i, table->texels.u, err);
+    if (!device_begin(run->replay->device, err)) return false;
+    image_record_clear(run->images[i], run->replay->device, image->row->nothing);
+    return submit(run, err);
+}
+
+/* Captures fill several images from one part; the first image met brings the others along. */
+static bool upload_captured(struct run *run, const struct graph_image *image, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    const char *role = image->row->role;
+    if (image->row->size == GLINT_SIZE_CUBEMAPS) return upload_cubemaps(run, role, err);
+    struct channels own = {0}, *channels = &own;
+    if (strcmp(role, "gbuffer") == 0 && replay->gbuffer.data) channels = &replay->gbuffer;
+    bool ok = upload_part(run, glint_capture_find(replay->capture, role), role, channels, 0,
+                          image->row->size == GLINT_SIZE_SKY ? 6 : 1, err);
+    channels_finish(&own);
+    return ok;
+}
+
+bool run_upload(struct run *run, struct glint_error *err) {
+    bool ok = true;
+    for (size_t i = 0; ok && i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        bool table = image->source == SOURCE_MADE && image->pass->host;
+        if (!to_upload(run, i) || (image->source == SOURCE_MADE && !table)) continue;
+        bool stand_in = image->row->size == GLINT_SIZE_CUBEMAPS && run->sizes.active == 0;
+        if (image->source == SOURCE_CAPTURE && !stand_in) {
+            ok = report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, image, err);
+            for (size_t j = 0; ok && j < run->graph.image_count; j++)
+                if (run->graph.images[j].source == SOURCE_CAPTURE && run->needed[j] &&
+                    strcmp(run->graph.images[j].row->role, image->row->role) == 0)
+                    run->images[j]->key = run->keys[j];
+        } else {
+            double start = now_seconds();
+            ok = upload_given(run, i, err);
+            run->replay->seconds[image->source == SOURCE_MADE ? PHASE_UPLOAD : PHASE_READ] += now_seconds() - start;
+            if (ok) run->images[i]->key = run->keys[i];
+        }
+    }
+    channels_finish(&run->replay->gbuffer);
+    return ok;
+}
