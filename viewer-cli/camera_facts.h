@@ -1,0 +1,16 @@
+/* A capture's camera in words that people use: position, direction, field of view, planes. */
+#ifndef GLINT_VIEWER_CAMERA_FACTS_H
+#define GLINT_VIEWER_CAMERA_FACTS_H
+
+#include "glint/capture.h"
+
+struct camera_facts {
+    double position[3], forward[3]; /* world */
+    double fov_x_deg, fov_y_deg;
+    double near, far; /* units; +inf when there is no far plane */
+};
+
+struct camera_facts camera_facts(const struct glint_frame *frame);
+const char *axis_name(enum glint_axis axis);
+
+#endif

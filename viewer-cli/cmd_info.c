@@ -1,0 +1,203 @@
+/* glint info: what a capture holds. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "args.h"
+#include "camera_facts.h"
+#include "info_tables.h"
+#include "progress.h"
+#include "table.h"
+
+struct arguments {
+    const char *path;
+    bool json, headers;
+};
+
+enum { KEY_HEADERS = 256 };
+
+static const struct argp_option options[] = {
+    {"headers", KEY_HEADERS, NULL, 0, "Read no pixels: no ranges, no survey", 0},
+    {"json", 'j', NULL, 0, "Print JSON", 0},
+    {0},
+};
+static const struct example examples[] = {
+    {"glint info street.exr", "parts, channels with their ranges, camera, cube maps"},
+    {"glint info run/05-screen_trace.exr", "any other EXR file: parts and ranges"},
+    {"glint info street.exr --json | jq .camera.position", "one fact for a script"},
+    {0},
+};
+
+extern const struct command cmd_info;
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'j':
+        a->json = true;
+        return 0;
+    case KEY_HEADERS:
+        a->headers = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->path) argp_error(state, "one file at a time: %s and %s", a->path, arg);
+        a->path = arg;
+        return 0;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "which file?");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static json_t *channels_json(const struct channel_table *all, const char *part) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < all->count; i++) {
+        const struct channel_row *row = &all->rows[i];
+        if (strcmp(row->part, part) != 0) continue;
+        json_t *channel = json_pack("{s:s, s:s, s:s, s:s, s:s}", "name", row->channel, "stored", row->stored, "storage",
+                                    row->storage, "encoding", row->encoding, "unit", row->unit);
+        const struct channel_stats *s = &row->stats;
+        if (row->has_stats)
+            json_object_set_new(channel, "range",
+                                json_pack("{s:o, s:o, s:o, s:I, s:I}", "min", json_number(s->min), "max",
+                                          json_number(s->max), "mean", json_number(stats_mean(s)), "nan",
+                                          (json_int_t)s->nan, "inf", (json_int_t)s->inf));
+        json_array_append_new(list, channel);
+    }
+    return list;
+}
+
+static json_t *numbers_json(const double *v, size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_number(v[i]));
+    return list;
+}
+
+static json_t *camera_json(const struct glint_frame *frame) {
+    const struct camera_facts c = camera_facts(frame);
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "position", numbers_json(c.position, 3), "forward",
+                     numbers_json(c.forward, 3), "fov_x_deg", json_number(c.fov_x_deg), "fov_y_deg",
+                     json_number(c.fov_y_deg), "near", json_number(c.near), "far", json_number(c.far), "up",
+                     axis_name(frame->up));
+}
+
+static json_t *part_json(const struct glint_part_info *part, const struct channel_table *all) {
+    json_t *json =
+        json_pack("{s:s, s:s?, s:I, s:I, s:b, s:o}", "name", part->name, "role", part->role ? part->role->name : NULL,
+                  "width", (json_int_t)part->width, "height", (json_int_t)part->height, "previous", part->previous,
+                  "channels", channels_json(all, part->name));
+    if (part->sibling[0]) json_object_set_new(json, "sibling", json_string(part->sibling));
+    if (part->has_cubemap)
+        json_object_set_new(
+            json, "cubemap",
+            json_pack("{s:o, s:b, s:f, s:s, s:I}", "center", numbers_json(part->cubemap.center, 3), "outdoor",
+                      part->cubemap.outdoor, "fade", part->cubemap.fade > 0 ? part->cubemap.fade : 1.0, "inner",
+                      cubemap_volume_name(part->cubemap.inner), "age_frames", (json_int_t)part->cubemap.age_frames));
+    return json;
+}
+
+static json_t *survey_json(const struct glint_survey *survey) {
+    json_t *bins = json_array();
+    for (int i = 0; i < GLINT_SURVEY_BINS; i++)
+        json_array_append_new(bins, json_integer((json_int_t)survey->roughness[i]));
+    return json_pack("{s:I, s:I, s:I, s:o}", "pixels", (json_int_t)survey->pixels, "sky", (json_int_t)survey->sky,
+                     "reflecting", (json_int_t)survey->reflecting, "roughness", bins);
+}
+
+/* `survey` is NULL when no pixel was read. */
+static enum status print_capture(const struct arguments *a, struct glint_capture *capture,
+                                 const struct channel_table *all, const struct glint_survey *survey) {
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    if (a->json) {
+        json_t *parts = json_array();
+        for (size_t i = 0; i < glint_capture_part_count(capture); i++)
+            json_array_append_new(parts, part_json(glint_capture_part(capture, i), all));
+        return print_json(json_pack("{s:s, s:b, s:I, s:o, s:o, s:b, s:b, s:o, s:f, s:o*}", "file", a->path, "capture",
+                                    1, "frame", (json_int_t)frame->number, "camera", camera_json(frame), "parts", parts,
+                                    "has_previous", frame->has_previous, "fog", frame->has_fog, "jitter_px",
+                                    numbers_json(frame->jitter_px, 2), "metres_per_unit",
+                                    frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "survey",
+                                    survey ? survey_json(survey) : NULL));
+    }
+    struct stat file = {0};
+    stat(a->path, &file);
+    printf("%s: capture, %s\n", a->path, bytes_text((uint64_t)file.st_size));
+    info_print_camera(frame);
+    if (survey) info_print_survey(survey);
+    putchar('\n');
+    info_print_parts(capture);
+    putchar('\n');
+    info_print_channels(all);
+    info_print_cubemaps(capture);
+    return STATUS_DONE;
+}
+
+static enum status print_exr(const struct arguments *a, const struct glint_exr *exr, const struct channel_table *all) {
+    size_t count = glint_exr_part_count(exr);
+    if (a->json) {
+        json_t *parts = json_array();
+        for (size_t i = 0; i < count; i++) {
+            const struct glint_exr_part_info *part = glint_exr_part(exr, i);
+            json_array_append_new(parts, json_pack("{s:s, s:I, s:I, s:o}", "name", part->name, "width",
+                                                   (json_int_t)part->width, "height", (json_int_t)part->height,
+                                                   "channels", channels_json(all, part->name)));
+        }
+        return print_json(json_pack("{s:s, s:b, s:o}", "file", a->path, "capture", 0, "parts", parts));
+    }
+    printf("%s: an EXR file that is no capture, %zu part%s\n\n", a->path, count, count == 1 ? "" : "s");
+    info_print_channels(all);
+    return STATUS_DONE;
+}
+
+/* A file without a G-buffer is shown as what it is, any EXR file; one with it must be a capture. */
+static bool is_capture(const char *path) {
+    struct glint_exr *exr = glint_exr_open(path, NULL, NULL);
+    bool found = false;
+    for (size_t i = 0; exr && i < glint_exr_part_count(exr) && !found; i++)
+        found = !strcmp(glint_exr_part(exr, i)->name, "gbuffer");
+    glint_exr_close(&exr);
+    return found;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    command_parse(&cmd_info, argc, argv, &a);
+    struct glint_error err = {0};
+    struct channel_table all = {0};
+    struct glint_survey survey = {0};
+    struct progress progress;
+    struct glint_capture *capture = NULL;
+    struct glint_exr *exr = NULL;
+    bool ok = false;
+    progress_begin(&progress);
+    if (is_capture(a.path)) {
+        capture = glint_capture_open(a.path, NULL, &err);
+        ok = capture && channels_of_capture(&all, capture, !a.headers, progress_report, &progress, &err) &&
+             (a.headers || glint_survey_capture(capture, &survey, &err));
+    } else {
+        exr = glint_exr_open(a.path, NULL, &err);
+        ok = exr && channels_of_exr(&all, exr, !a.headers, progress_report, &progress, &err);
+    }
+    progress_end(&progress);
+    enum status status = !ok       ? command_fail(&cmd_info, &err)
+                         : capture ? print_capture(&a, capture, &all, a.headers ? NULL : &survey)
+                                   : print_exr(&a, exr, &all);
+    channel_table_finish(&all);
+    glint_capture_close(&capture);
+    glint_exr_close(&exr);
+    return status;
+}
+
+const struct command cmd_info = {
+    .name = "info",
+    .arguments = "F",
+    .summary = "what a capture or any EXR file holds",
+    .description =
+        "Shows a capture's camera, what its pixels call for (sky, reflecting pixels, roughness), its parts, channels "
+        "with type, encoding, unit and range, and its cube maps. Any other EXR file is listed as it is.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};

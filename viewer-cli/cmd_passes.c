@@ -1,0 +1,244 @@
+/* glint passes: the handbook of passes, from their declarations. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "nearest.h"
+#include "pass_names.h"
+#include "table.h"
+
+struct arguments {
+    bool json, markdown;
+    const char *what;
+};
+
+static const struct argp_option options[] = {
+    {"json", 'j', NULL, 0, "Print JSON", 0},
+    {"markdown", 'm', NULL, 0, "Print the handbook as Markdown", 0},
+    {0},
+};
+static const struct example examples[] = {
+    {"glint passes", "list all slots and variants"},
+    {"glint passes screen_trace", "images and parameters of every variant of a slot"},
+    {"glint passes cubemap_trace/march", "one variant"},
+    {"glint passes --markdown > passes.md", "the whole handbook"},
+    {0},
+};
+
+extern const struct command cmd_passes;
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'j':
+        a->json = true;
+        return 0;
+    case 'm':
+        a->markdown = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->what) argp_error(state, "one slot at a time: %s and %s", a->what, arg);
+        a->what = arg;
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* "screen_trace" takes every variant, "screen_trace/linear" one, NULL all. */
+static bool selected(const struct glint_pass *pass, const char *what) {
+    if (!what) return true;
+    size_t slot = strcspn(what, "/");
+    if (strlen(pass->slot) != slot || memcmp(pass->slot, what, slot) != 0) return false;
+    return !what[slot] || !strcmp(pass->variant, what + slot + 1);
+}
+
+static const char *slot_title(const struct glint_pass *pass) {
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (pass->rows[i].kind == GLINT_ROW_SLOT) return pass->rows[i].name;
+    return "";
+}
+
+static void print_tables(struct table *table, bool markdown) {
+    if (table_is_empty(table)) return;
+    (markdown ? table_print_markdown : table_print)(table, stdout);
+    putchar('\n');
+}
+
+static void print_inputs(const struct glint_pass *pass, bool markdown) {
+    static const char *const titles[] = {"<reads", "<from", "<unit", "<meaning", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < pass->row_count; i++) {
+        if (pass->rows[i].kind != GLINT_ROW_READ) continue;
+        const char *slot = "nowhere yet";
+        const struct glint_row *image = image_find(pass->rows[i].name, &slot);
+        table_cell(table, "%s", pass->rows[i].name);
+        table_cell(table, "%s", slot);
+        table_cell(table, "%s", image ? image->unit : "");
+        table_cell(table, "%s", image ? image->help : "");
+    }
+    print_tables(table, markdown);
+    table_destroy(&table);
+}
+
+static void print_outputs(const struct glint_pass *pass, bool markdown) {
+    static const char *const titles[] = {"<writes",  "<size", "<format",  "<channels",
+                                         ">nothing", "<unit", "<meaning", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (!row_is_output(row)) continue;
+        table_cell(table, "%s", row->name);
+        table_cell(table, "%s", size_name(row->size));
+        table_cell(table, "%s", format_name(row->format));
+        table_cell(table, "%s", row->channels);
+        table_cell(table, "%s", value_text(row, row->nothing));
+        table_cell(table, "%s", row->unit);
+        table_cell(table, "%s%s", row->help, row->kind == GLINT_ROW_DIAGNOSTIC ? " (with --diagnostics)" : "");
+    }
+    print_tables(table, markdown);
+    table_destroy(&table);
+}
+
+static void print_parameters(const struct glint_pass *pass, bool markdown) {
+    static const char *const titles[] = {"<parameter", "<type",   ">default", "<range",
+                                         "<unit",      "<source", "<help",    NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (!row_is_parameter(row)) continue;
+        table_cell(table, "%s.%s", pass->slot, row->name);
+        table_cell(table, "%s", row_type(row));
+        table_cell(table, "%s", value_text(row, row->initial));
+        char *names = row->choices ? join_names("", row->choices) : NULL;
+        if (names) table_cell(table, "%s", names);
+        else if (row->type == GLINT_VALUE_BOOL) table_cell(table, "off, on");
+        else table_cell(table, "%s … %s", value_text(row, row->lowest), value_text(row, row->highest));
+        free(names);
+        table_cell(table, "%s", strcmp(row->unit, "1") ? row->unit : "");
+        table_cell(table, "%s", row->source);
+        table_cell(table, "%s", row->help);
+    }
+    print_tables(table, markdown);
+    table_destroy(&table);
+}
+
+static void print_pass(const struct glint_pass *pass, const char *previous_slot, bool markdown) {
+    if (!previous_slot || strcmp(previous_slot, pass->slot) != 0)
+        printf(markdown ? "## `%s`\n\n%s.\n\n" : "%s: %s\n\n", pass->slot, slot_title(pass));
+    printf(markdown ? "### `%s/%s`\n\n%s. Source: %s.\n\n" : "%s/%s: %s (source: %s)\n\n", pass->slot, pass->variant,
+           pass->title, pass->source);
+    bool any = false;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        if (pass->rows[i].kind != GLINT_ROW_NEEDS) continue;
+        printf("%s%s", any ? ", " : "Needed only when the capture shows: ", pass->rows[i].name);
+        any = true;
+    }
+    if (any) fputs(markdown ? ".\n\n" : "\n\n", stdout);
+    print_inputs(pass, markdown);
+    print_outputs(pass, markdown);
+    print_parameters(pass, markdown);
+}
+
+static json_t *image_json(const struct glint_row *row, const char *slot) {
+    json_t *image = json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:b}", "name", row->name, "unit", row->unit, "meaning",
+                              row->help, "from", slot, "format", format_name(row->format), "size", size_name(row->size),
+                              "diagnostic", row->kind == GLINT_ROW_DIAGNOSTIC);
+    if (row->channels) json_object_set_new(image, "channels", json_string(row->channels));
+    return image;
+}
+
+static json_t *parameter_json(const struct glint_pass *pass, const struct glint_row *row) {
+    json_t *p = json_pack("{s:s++, s:s, s:s, s:s, s:s}", "name", pass->slot, ".", row->name, "type", row_type(row),
+                          "unit", row->unit, "source", row->source, "help", row->help);
+    if (row->kind == GLINT_ROW_CHOICE) {
+        json_t *choices = json_array();
+        for (size_t i = 0; row->choices[i]; i++) json_array_append_new(choices, json_string(row->choices[i]));
+        json_object_set_new(p, "choices", choices);
+        json_object_set_new(p, "default", json_string(value_text(row, row->initial)));
+    } else {
+        json_object_set_new(
+            p, "default", row->type == GLINT_VALUE_BOOL ? json_boolean(row->initial != 0) : json_number(row->initial));
+        json_object_set_new(p, "lowest", json_number(row->lowest));
+        json_object_set_new(p, "highest", json_number(row->highest));
+    }
+    return p;
+}
+
+static json_t *pass_json(const struct glint_pass *pass) {
+    json_t *reads = json_array(), *writes = json_array(), *parameters = json_array(), *needs = json_array();
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        const char *slot = "";
+        if (row->kind == GLINT_ROW_READ) {
+            const struct glint_row *image = image_find(row->name, &slot);
+            json_array_append_new(reads, image ? image_json(image, slot) : json_pack("{s:s}", "name", row->name));
+        } else if (row_is_output(row)) json_array_append_new(writes, image_json(row, pass->slot));
+        else if (row_is_parameter(row)) json_array_append_new(parameters, parameter_json(pass, row));
+        else if (row->kind == GLINT_ROW_NEEDS) json_array_append_new(needs, json_string(row->name));
+    }
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o}", "slot", pass->slot, "variant", pass->variant,
+                     "slot_title", slot_title(pass), "title", pass->title, "source", pass->source, "host",
+                     pass->host != NULL, "needs", needs, "reads", reads, "writes", writes, "parameters", parameters);
+}
+
+static void print_list(const struct glint_pass *passes, size_t count) {
+    static const char *const titles[] = {"<slot", "<variant", "<what it does", "<source", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < count; i++) {
+        table_cell(table, "%s", passes[i].slot);
+        table_cell(table, "%s", passes[i].variant);
+        table_cell(table, "%s", passes[i].title);
+        table_cell(table, "%s", passes[i].source);
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+static bool known(const char *what, struct glint_error *err) {
+    size_t slot = strcspn(what, "/");
+    if (!check_slot(what, slot, err)) return false;
+    if (!what[slot]) return true;
+    char assignment[160];
+    snprintf(assignment, sizeof assignment, "%.*s=%.80s", (int)slot, what, what + slot + 1);
+    return check_use(assignment, err) && strcmp(what + slot + 1, "none") != 0;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    command_parse(&cmd_passes, argc, argv, &a);
+    struct glint_error err = {0};
+    if (a.what && !known(a.what, &err)) return command_fail(&cmd_passes, &err);
+    size_t count = 0;
+    const struct glint_pass *passes = glint_passes(&count);
+    if (a.json) {
+        json_t *list = json_array();
+        for (size_t i = 0; i < count; i++)
+            if (selected(&passes[i], a.what)) json_array_append_new(list, pass_json(&passes[i]));
+        return print_json(json_pack("{s:o}", "passes", list));
+    }
+    if (!a.what && !a.markdown) {
+        print_list(passes, count);
+        return STATUS_DONE;
+    }
+    if (a.markdown && !a.what) puts("# Passes\n\nMade by `glint passes --markdown` from the declarations.\n");
+    const char *slot = NULL;
+    for (size_t i = 0; i < count; i++) {
+        if (!selected(&passes[i], a.what)) continue;
+        print_pass(&passes[i], slot, a.markdown);
+        slot = passes[i].slot;
+    }
+    return STATUS_DONE;
+}
+
+const struct command cmd_passes = {
+    .name = "passes",
+    .arguments = "[SLOT[/VARIANT]]",
+    .summary = "the handbook of passes",
+    .description =
+        "Lists the passes. With a slot or a variant: which images it reads and writes, with unit and meaning, "
+        "and every parameter with default, range, unit and source, as replay --set takes it.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};

@@ -1,0 +1,248 @@
+/* glint replay: runs the passes on captures, writes every image, says what each pass took. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "pass_names.h"
+#include "pipeline_args.h"
+#include "progress.h"
+#include "table.h"
+
+struct arguments {
+    struct pipeline_args pipeline;
+    struct list captures;
+    const char *out;
+    bool json;
+};
+
+enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE };
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",      'o',             "RUN",  0, "Folder for the run: run.json and one EXR a pass. With several captures, "
+        "RUN/NAME for each. Without it nothing is written, only measured", 0},
+    PIPELINE_OPTIONS,
+    {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds (default 1)", 0},
+    {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before them (default 1)", 0},
+    {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
+    {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches; changes no other bit", 0},
+    {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed", 0},
+    {"json",        'j',             NULL,   0, "Print JSON", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint replay street.exr -o run", "all passes of the preset mafia3, every image written"},
+    {"glint replay street.exr --repeat 20", "times only, median of 20 rounds"},
+    {"glint replay street.exr -o run --set screen_trace.steps=64", "with another step count"},
+    {"glint replay street.exr -o end --passes upscale,compose --inputs run", "only the end of the pipeline"},
+    {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "with a shader of your own"},
+    {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME"},
+    {0},
+};
+static const char *const precisions[] = {"half", "float", NULL};
+
+extern const struct command cmd_replay;
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    struct glint_replay_options *r = &a->pipeline.replay;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case KEY_REPEAT:
+        r->repeat = arg_uint("repeat", arg, 1, 100000, state);
+        return 0;
+    case KEY_WARMUP:
+        r->warmup = arg_uint("warmup", arg, 1, 100000, state);
+        return 0;
+    case KEY_PRECISION:
+        r->float_precision = arg_choice("precision", arg, precisions, state) == 1;
+        return 0;
+    case KEY_DIAGNOSTICS:
+        r->diagnostics = true;
+        return 0;
+    case KEY_NO_CACHE:
+        r->no_cache = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        list_add(&a->captures, arg, state);
+        return 0;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "which capture?");
+        return 0;
+    }
+    return pipeline_args_parse(key, arg, state, &a->pipeline);
+}
+
+static const char *const phases[] = {"read", "upload", "passes", "readback", "write"};
+
+static double milliseconds(uint64_t ns) {
+    return (double)ns * 1e-6;
+}
+
+static void print_passes(const struct glint_pass_result *results, size_t count) {
+    static const char *const titles[] = {"<slot", "<variant", ">median ms", ">min", ">max", "<", NULL};
+    struct table *table = table_create(titles);
+    double total = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_pass_result *r = &results[i];
+        bool timed = r->ran && r->time.n > 0;
+        table_cell(table, "%s", r->pass->slot);
+        table_cell(table, "%s", r->pass->variant);
+        if (timed) {
+            table_cell(table, "%.3f", milliseconds(r->time.median_ns));
+            table_cell(table, "%.3f", milliseconds(r->time.min_ns));
+            table_cell(table, "%.3f", milliseconds(r->time.max_ns));
+            total += milliseconds(r->time.median_ns);
+        } else
+            for (int k = 0; k < 3; k++) table_cell(table, "%s", "–");
+        table_cell(table, "%s", !r->ran ? r->reason : r->cached ? "unchanged" : r->pass->host ? "on the host" : "");
+    }
+    const char *const last[] = {"together", "", NULL, "", "", ""};
+    for (int k = 0; k < 6; k++)
+        if (last[k]) table_cell(table, "%s", last[k]);
+        else table_cell(table, "%.3f", total);
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+static void print_run(const char *capture, const char *folder, const struct glint_replay *replay,
+                      const struct glint_device_info *device) {
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    printf("%s on %s%s\n\n", capture, device->name,
+           device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+    print_passes(results, count);
+    putchar('\n');
+    for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
+        printf("%s%s %s", i ? ", " : "", phases[i], time_text(glint_replay_seconds(replay, phases[i])));
+    putchar('\n');
+    if (folder) printf("run: %s\n", folder);
+    else puts("nothing written (-o RUN keeps the images)");
+}
+
+static json_t *run_json(const char *capture, const char *folder, const struct glint_replay *replay,
+                        const struct glint_device_info *device) {
+    json_t *passes = json_array(), *seconds = json_object();
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_pass_result *r = &results[i];
+        json_array_append_new(passes, json_pack("{s:s, s:s, s:b, s:b, s:s, s:{s:I, s:I, s:I, s:I}}", "slot",
+                                                r->pass->slot, "variant", r->pass->variant, "ran", r->ran, "cached",
+                                                r->cached, "reason", r->reason, "time_ns", "n", (json_int_t)r->time.n,
+                                                "min", (json_int_t)r->time.min_ns, "median",
+                                                (json_int_t)r->time.median_ns, "max", (json_int_t)r->time.max_ns));
+    }
+    for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
+        json_object_set_new(seconds, phases[i], json_number(glint_replay_seconds(replay, phases[i])));
+    return json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o}", "capture", capture, "run", folder, "device", "name",
+                     device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes, "seconds", seconds);
+}
+
+/* RUN, or RUN/NAME when there are several captures; malloc'd. */
+static char *run_folder(const struct arguments *a, const char *capture, struct glint_error *err) {
+    char *folder = NULL;
+    const char *base = strrchr(capture, '/') ? strrchr(capture, '/') + 1 : capture;
+    size_t length = strlen(base);
+    if (length > 4 && !strcmp(base + length - 4, ".exr")) length -= 4;
+    int failed = a->captures.count == 1 ? asprintf(&folder, "%s", a->out)
+                                        : asprintf(&folder, "%s/%.*s", a->out, (int)length, base);
+    if (failed < 0) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        return NULL;
+    }
+    if (a->captures.count > 1 && mkdir(a->out, 0777) != 0 && errno != EEXIST) {
+        glint_fail(err, GLINT_ERROR_IO, "%s: %s", a->out, strerror(errno));
+        free(folder);
+        return NULL;
+    }
+    return folder;
+}
+
+struct job {
+    const struct arguments *a;
+    struct glint_device *device;
+    struct glint_replay *replay;
+    struct glint_pipeline *pipeline;
+    json_t *runs; /* NULL: tables */
+};
+
+static bool replay_one(const struct job *job, const char *path, const char *folder, struct glint_error *err) {
+    struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
+    struct progress progress;
+    struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    if (!capture) return false;
+    progress_begin(&progress);
+    bool ok = glint_replay_load(job->replay, capture, err) &&
+              glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
+              (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err));
+    progress_end(&progress);
+    const struct glint_device_info *device = glint_device_get_info(job->device);
+    if (ok && job->runs) json_array_append_new(job->runs, run_json(path, folder, job->replay, device));
+    else if (ok) print_run(path, folder, job->replay, device);
+    glint_replay_load(job->replay, NULL, NULL);
+    glint_capture_close(&capture);
+    return ok;
+}
+
+/* Every capture is tried; one that fails does not keep the others from being replayed, Ctrl-C does. */
+static enum status replay_all(const struct job *job) {
+    const struct list *captures = &job->a->captures;
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < captures->count && status != STATUS_INTERRUPTED; i++) {
+        struct glint_error err = {0};
+        char *folder = job->a->out ? run_folder(job->a, captures->items[i], &err) : NULL;
+        bool ok = (folder || !job->a->out) && replay_one(job, captures->items[i], folder, &err);
+        free(folder);
+        if (!ok) {
+            enum status failed = command_fail(&cmd_replay, &err);
+            if (failed > status) status = failed;
+        }
+        if (!job->runs && ok && i + 1 < captures->count) putchar('\n');
+    }
+    return status;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    command_parse(&cmd_replay, argc, argv, &a);
+    struct job job = {.a = &a};
+    struct glint_error err = {0};
+    struct glint_device_options device_options = {.select = a.pipeline.device};
+    enum status status;
+    job.pipeline = pipeline_args_create(&a.pipeline, &err);
+    if (job.pipeline) job.device = glint_device_create(&device_options, &err);
+    if (job.device) job.replay = glint_replay_create(job.device, &err);
+    if (job.replay) {
+        if (a.json) job.runs = json_array();
+        status = replay_all(&job);
+        if (job.runs && print_json(json_pack("{s:o}", "runs", job.runs)) != STATUS_DONE) status = STATUS_CHECK;
+    } else status = command_fail(&cmd_replay, &err);
+    glint_replay_destroy(&job.replay);
+    glint_device_destroy(&job.device);
+    glint_pipeline_destroy(&job.pipeline);
+    pipeline_args_finish(&a.pipeline);
+    list_free(&a.captures);
+    return status;
+}
+
+const struct command cmd_replay = {
+    .name = "replay",
+    .arguments = "F... -o RUN",
+    .summary = "run the passes on captures, write every image",
+    .description =
+        "Runs a preset's reflection passes on captures and writes every intermediate image into a run folder: "
+        "run.json and one EXR a pass. Ends with the time of each pass: median, least and largest of the "
+        "timed rounds.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};

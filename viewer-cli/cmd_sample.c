@@ -1,0 +1,288 @@
+/* glint sample: a capture written by the stand-in engine. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "args.h"
+#include "glint/samples.h"
+#include "nearest.h"
+#include "progress.h"
+#include "table.h"
+
+struct arguments {
+    const char *scene, *out;
+    bool list, json;
+    struct glint_sample_options sample;
+};
+
+enum {
+    KEY_SIZE = 256,
+    KEY_CUBE_SIZE,
+    KEY_FRAMES,
+    KEY_FIRST_FRAME,
+    KEY_PROBES,
+    KEY_ENCODING,
+    KEY_TRUTH,
+    KEY_LIGHT,
+    KEY_CAMERA,
+    KEY_FOV,
+    KEY_OFFSET,
+    KEY_COMPRESSION,
+    KEY_THREADS,
+    KEY_DEPTH,
+    KEY_NORMAL,
+    KEY_ROUGHNESS,
+    KEY_MOTION,
+    KEY_COLOR
+};
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",      'o',             "FILE",  0, "The capture to write; a shot gets .NNNN before the suffix", 0},
+    {"list",        'l',             NULL,    0, "List the scenes", 0},
+    {"json",        'j',             NULL,    0, "With --list: print JSON", 0},
+    {"size",        KEY_SIZE,        "WxH",   0, "Picture size (default 1280x720)", 0},
+    {"cube-size",   KEY_CUBE_SIZE,   "N",     0, "Face size of the cube maps (default 256)", 0},
+    {"frames",      KEY_FRAMES,      "N",     0, "Length of the shot; its captures share their cube maps (default 1)", 0},
+    {"first-frame", KEY_FIRST_FRAME, "N",     0, "Number of the first frame (default 0)", 0},
+    {"probes",      KEY_PROBES,      "KIND",  0, "What the cube maps hold. imperfect, as games have them: static "
+        "objects only, simplified, metals as diffuse; perfect: the very scene; auto: placed by the sampler, for glTF files", 0},
+    {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays a pixel into truth.* (default 0: leave it out)", 0},
+    {"light",       KEY_LIGHT,       "N",     0, "Rays a point for indirect light (default: the scene's)", 0},
+    {"camera",      KEY_CAMERA,      "ex,ey,ez,tx,ty,tz", 0, "Where the camera is, and a point that it looks at", 0},
+    {"fov",         KEY_FOV,         "DEG",   0, "Vertical field of view in degrees (default: the scene's)", 0},
+    {"offset",      KEY_OFFSET,      "x,y,z", 0, "Move every stored position, in double; the scene is not rendered again", 0},
+    {"encoding",    KEY_ENCODING,    "WHAT=NAME,...", 0, "Several encodings at once: depth, normal, vertex_normal, normal_space, roughness, motion, color", 0},
+    {"depth",       KEY_DEPTH,       "NAME",  0, "How depth is stored: ", 0},
+    {"normal",      KEY_NORMAL,      "NAME",  0, "How normals are stored: ", 0},
+    {"roughness",   KEY_ROUGHNESS,   "NAME",  0, "How roughness is stored: ", 0},
+    {"motion",      KEY_MOTION,      "NAME",  0, "How motion vectors are stored: ", 0},
+    {"color",       KEY_COLOR,       "NAME",  0, "How colour is stored: ", 0},
+    {"compression", KEY_COMPRESSION, "NAME",  0, "Compression of the file: ", 0},
+    {"threads",     KEY_THREADS,     "N",     0, "Threads (default: one for each core)", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint sample --list", "what scenes there are"},
+    {"glint sample street -o street.exr --truth 64", "a wet street at dusk, with the path traced truth beside it"},
+    {"glint sample room -o room.exr --frames 8 --size 640x360", "a shot: room.0000.exr to room.0007.exr"},
+    {"glint sample scene.glb -o scene.exr --camera 0,1.7,5,0,1,0 --probes auto", "your own glTF scene"},
+    {"glint sample room -o room.exr --encoding depth=reversed,normal=octahedral", "dumped as another engine would"},
+    {0},
+};
+static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
+static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
+
+extern const struct command cmd_sample;
+
+static const char *encoding_of_key(int key) {
+    switch (key) {
+    case KEY_DEPTH:
+        return "depth";
+    case KEY_NORMAL:
+        return "normal";
+    case KEY_ROUGHNESS:
+        return "roughness";
+    case KEY_MOTION:
+        return "motion";
+    case KEY_COLOR:
+        return "color";
+    }
+    return NULL;
+}
+
+static char *values(int key) {
+    if (key == KEY_COMPRESSION) return join_names("", compressions);
+    const char *which = encoding_of_key(key);
+    if (!which) return NULL;
+    const char *names[32] = {0};
+    for (int i = 0; i < 31 && (names[i] = glint_encoding_name(which, i)) != NULL; i++) continue;
+    return join_names("", names);
+}
+
+static void set_encoding(struct glint_encodings *e, const char *what, const char *name, struct argp_state *state) {
+    static const char *const kinds[] = {"depth",     "normal", "vertex_normal", "normal_space",
+                                        "roughness", "motion", "color",         NULL};
+    int kind = arg_choice("encoding", what, kinds, state);
+    const char *which = kind == 2 ? "normal" : what; /* vertex normals are stored as normals are */
+    const char *names[32] = {0};
+    for (int i = 0; i < 31 && (names[i] = glint_encoding_name(which, i)) != NULL; i++) continue;
+    int value = arg_choice(what, name, names, state);
+    switch (kind) {
+    case 0:
+        e->depth = (enum glint_depth_encoding)value;
+        break;
+    case 1:
+        e->normal = (enum glint_normal_encoding)value;
+        break;
+    case 2:
+        e->vertex_normal = (enum glint_normal_encoding)value;
+        break;
+    case 3:
+        e->normal_space = (enum glint_normal_space)value;
+        break;
+    case 4:
+        e->roughness = (enum glint_roughness_encoding)value;
+        break;
+    case 5:
+        e->motion = (enum glint_motion_encoding)value;
+        break;
+    case 6:
+        e->color = (enum glint_color_encoding)value;
+        break;
+    }
+}
+
+static void set_encodings(struct glint_encodings *e, char *text, struct argp_state *state) {
+    for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;) {
+        char *equals = strchr(piece, '=');
+        if (!equals) {
+            argp_error(state, "--encoding=%s: expected WHAT=NAME, such as depth=reversed", piece);
+            return;
+        }
+        *equals = '\0';
+        set_encoding(e, piece, equals + 1, state);
+    }
+}
+
+static error_t parse_scene(int key, char *arg, struct argp_state *state, struct arguments *a) {
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case 'l':
+        a->list = true;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->scene) argp_error(state, "one scene at a time: %s and %s", a->scene, arg);
+        a->scene = arg;
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->list && !a->scene) argp_error(state, "which scene? --list shows them");
+        if (!a->list && !a->out) argp_error(state, "where to? -o FILE");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    struct glint_sample_options *s = &a->sample;
+    double numbers[6];
+    switch (key) {
+    case KEY_SIZE:
+        arg_size("size", arg, &s->width, &s->height, state);
+        return 0;
+    case KEY_CUBE_SIZE:
+        s->cube_size = arg_uint("cube-size", arg, 4, 4096, state);
+        return 0;
+    case KEY_FRAMES:
+        s->frames = arg_uint("frames", arg, 1, 9999, state);
+        return 0;
+    case KEY_FIRST_FRAME:
+        s->first_frame = arg_uint("first-frame", arg, 0, 9999, state);
+        return 0;
+    case KEY_PROBES:
+        s->probes_given = true;
+        s->probes = (enum glint_probes)arg_choice("probes", arg, probes, state);
+        return 0;
+    case KEY_TRUTH:
+        s->truth_samples = arg_uint("truth", arg, 0, 1 << 20, state);
+        return 0;
+    case KEY_LIGHT:
+        s->light_samples = arg_uint("light", arg, 1, 1 << 20, state);
+        return 0;
+    case KEY_CAMERA:
+        arg_numbers("camera", arg, numbers, 6, state);
+        s->camera_given = true;
+        memcpy(s->eye, numbers, sizeof s->eye);
+        memcpy(s->target, numbers + 3, sizeof s->target);
+        return 0;
+    case KEY_FOV:
+        arg_numbers("fov", arg, numbers, 1, state);
+        if (!(numbers[0] >= 0.1 && numbers[0] <= 170)) argp_error(state, "--fov=%s: expected 0.1 to 170 degrees", arg);
+        s->fov_y_rad = numbers[0] * (3.14159265358979323846 / 180);
+        return 0;
+    case KEY_OFFSET:
+        arg_numbers("offset", arg, s->offset, 3, state);
+        return 0;
+    case KEY_COMPRESSION:
+        s->compression = (enum glint_compression)arg_choice("compression", arg, compressions, state);
+        return 0;
+    case KEY_THREADS:
+        s->threads = arg_uint("threads", arg, 1, 1024, state);
+        return 0;
+    case KEY_ENCODING:
+        set_encodings(&s->encodings, arg, state);
+        return 0;
+    }
+    if (encoding_of_key(key)) {
+        set_encoding(&s->encodings, encoding_of_key(key), arg, state);
+        return 0;
+    }
+    return parse_scene(key, arg, state, a);
+}
+
+static enum status list_scenes(bool json) {
+    size_t count = 0;
+    const struct glint_sample *scenes = glint_samples(&count);
+    if (json) {
+        json_t *list = json_array();
+        for (size_t i = 0; i < count; i++)
+            json_array_append_new(list, json_pack("{s:s, s:s}", "name", scenes[i].name, "summary", scenes[i].summary));
+        return print_json(json_pack("{s:o}", "scenes", list));
+    }
+    static const char *const titles[] = {"<scene", "<what it shows", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < count; i++) {
+        table_cell(table, "%s", scenes[i].name);
+        table_cell(table, "%s", scenes[i].summary);
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+    return STATUS_DONE;
+}
+
+/* A name without a dot must be a built-in scene; a file is left to the sampler to open. */
+static bool known_scene(const char *scene) {
+    size_t count = 0;
+    const struct glint_sample *scenes = glint_samples(&count);
+    struct nearest near = nearest_to(scene);
+    for (size_t i = 0; i < count; i++) {
+        if (!strcmp(scenes[i].name, scene)) return true;
+        nearest_offer(&near, scenes[i].name);
+    }
+    if (strpbrk(scene, "./")) return true;
+    command_note(&cmd_sample, "there is no scene %s%s; glint sample --list shows them", scene, nearest_text(&near));
+    return false;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    command_parse(&cmd_sample, argc, argv, &a);
+    if (a.list) return list_scenes(a.json);
+    if (!known_scene(a.scene)) return STATUS_USAGE;
+    struct glint_error err = {0};
+    struct progress progress;
+    progress_begin(&progress);
+    bool ok = glint_sample_write(a.scene, a.out, &a.sample, progress_report, &progress, &err);
+    progress_end(&progress);
+    return ok ? STATUS_DONE : command_fail(&cmd_sample, &err);
+}
+
+const struct command cmd_sample = {
+    .name = "sample",
+    .arguments = "NAME|SCENE.glb -o FILE",
+    .summary = "write a capture with the stand-in engine",
+    .description =
+        "Renders a built-in scene or a glTF file and dumps it as an engine would: G-buffer, lit colour, cube "
+        "maps, sky, camera, and on request the path traced truth. The same options give the same bytes.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .values = values,
+    .run = run,
+};

@@ -1,0 +1,94 @@
+/* glint validate: every rule of FORMAT.md, every violation. */
+#include <stdlib.h>
+
+#include "args.h"
+#include "glint/capture.h"
+
+struct arguments {
+    bool json;
+    struct list files;
+};
+
+static const struct argp_option options[] = {
+    {"json", 'j', NULL, 0, "Print JSON", 0},
+    {0},
+};
+static const struct example examples[] = {
+    {"glint validate street.exr", "check one capture, pixels included"},
+    {"glint validate shots/*.exr --json", "check many for a script"},
+    {0},
+};
+
+extern const struct command cmd_validate;
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'j':
+        a->json = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        list_add(&a->files, arg, state);
+        return 0;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "which capture?");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+struct listing {
+    json_t *json; /* NULL: print as they come */
+};
+
+static void on_violation(void *user, const char *rule, const char *message) {
+    struct listing *listing = user;
+    if (listing->json) json_array_append_new(listing->json, json_pack("{s:s, s:s}", "rule", rule, "message", message));
+    else printf("%s  [%s]\n", message, rule);
+}
+
+static enum status validate(const char *path, json_t *files) {
+    struct listing listing = {files ? json_array() : NULL};
+    struct glint_error err = {0};
+    size_t violations = 0;
+    if (!glint_capture_validate(path, NULL, on_violation, &listing, &violations, &err)) {
+        json_decref(listing.json);
+        return command_fail(&cmd_validate, &err);
+    }
+    if (files)
+        json_array_append_new(
+            files, json_pack("{s:s, s:b, s:o}", "file", path, "valid", violations == 0, "violations", listing.json));
+    else if (violations) printf("%s: %zu violation%s\n", path, violations, violations == 1 ? "" : "s");
+    else printf("%s: valid\n", path);
+    return violations ? STATUS_CHECK : STATUS_DONE;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    command_parse(&cmd_validate, argc, argv, &a);
+    json_t *files = a.json ? json_array() : NULL;
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < a.files.count; i++) {
+        enum status one = validate(a.files.items[i], files);
+        if (one > status) status = one;
+    }
+    if (files) {
+        enum status printed = print_json(json_pack("{s:o}", "files", files));
+        if (printed > status) status = printed;
+    }
+    list_free(&a.files);
+    return status;
+}
+
+const struct command cmd_validate = {
+    .name = "validate",
+    .arguments = "F...",
+    .summary = "check captures against every rule of the format",
+    .description =
+        "Checks captures against every rule of FORMAT.md, pixels included, and lists all violations with the "
+        "rule that each one breaks. The exit status is 1 when there is any.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};

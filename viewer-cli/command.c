@@ -1,0 +1,106 @@
+/* How a command reads its arguments (argp) and reports what went wrong. */
+#include "command.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct parsing {
+    const struct command *command;
+    void *input;
+};
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    const struct parsing *parsing = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+    case ARGP_KEY_FINI:
+    case ARGP_KEY_SUCCESS:
+        return 0;
+    }
+    state->input = parsing->input;
+    error_t result = parsing->command->parse(key, arg, state);
+    state->input = (void *)parsing;
+    return result;
+}
+
+char *command_option_help(const struct command *command, const struct argp_option *option) {
+    const char *doc = option->doc ? option->doc : "";
+    char *values = command->values && option->key ? command->values(option->key) : NULL;
+    char *text = NULL;
+    if (!values) return strdup(doc);
+    if (asprintf(&text, "%s%s", doc, values) < 0) text = NULL;
+    free(values);
+    return text;
+}
+
+static const struct argp_option *option_by_key(const struct command *command, int key) {
+    for (const struct argp_option *o = command->options; o->name || o->key || o->doc; o++)
+        if (o->key == key) return o;
+    return NULL;
+}
+
+static char *examples_text(const struct command *command) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    if (!f) return NULL;
+    fprintf(f, "%s\n\nExamples:\n", command->description);
+    for (const struct example *e = command->examples; e->line; e++) fprintf(f, "  %s\n      %s\n", e->line, e->what);
+    fclose(f);
+    return text;
+}
+
+/* argp shows the wrapped table's text through this: options get their run-time values, the end gets the examples. */
+static char *filter(int key, const char *text, void *input) {
+    const struct parsing *parsing = input;
+    if (!parsing) return (char *)text;
+    const struct command *command = parsing->command;
+    if (key == ARGP_KEY_HELP_POST_DOC) return examples_text(command);
+    const struct argp_option *option = key > 0 && key < ARGP_KEY_HELP_PRE_DOC ? option_by_key(command, key) : NULL;
+    return option && text ? command_option_help(command, option) : (char *)text;
+}
+
+void command_parse(const struct command *command, int argc, char **argv, void *input) {
+    struct parsing parsing = {command, input};
+    char name[64], doc[512];
+    snprintf(name, sizeof name, "glint %s", command->name);
+    snprintf(doc, sizeof doc, "%s.\v-", command->summary); /* what follows \v is replaced by the filter */
+    doc[0] = (char)toupper((unsigned char)doc[0]);
+    struct argp argp = {.options = command->options,
+                        .parser = parse,
+                        .args_doc = command->arguments,
+                        .doc = doc,
+                        .help_filter = filter};
+    char *first = argv[0];
+    argv[0] = name;
+    error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &parsing);
+    argv[0] = first;
+    if (failed) {
+        fprintf(stderr, "glint %s: %s\n", command->name, strerror(failed));
+        exit(STATUS_USAGE);
+    }
+}
+
+enum status command_fail(const struct command *command, const struct glint_error *err) {
+    fprintf(stderr, "glint %s: %s\n", command->name, err->message[0] ? err->message : "failed without a message");
+    switch (err->code) {
+    case GLINT_ERROR_USAGE:
+        return STATUS_USAGE;
+    case GLINT_ERROR_INTERRUPTED:
+        return STATUS_INTERRUPTED;
+    default:
+        return STATUS_CHECK;
+    }
+}
+
+void command_note(const struct command *command, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    fprintf(stderr, "glint %s: ", command->name);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+    va_end(args);
+}

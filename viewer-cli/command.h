@@ -1,0 +1,54 @@
+/* What a command of glint is: one table entry, from which --help, the man page and the completion derive. */
+#ifndef GLINT_VIEWER_COMMAND_H
+#define GLINT_VIEWER_COMMAND_H
+
+#include <argp.h>
+#include <stddef.h>
+
+#include "glint/common.h"
+
+enum status { STATUS_DONE = 0, STATUS_CHECK = 1, STATUS_USAGE = 2, STATUS_INTERRUPTED = 130 };
+
+struct example {
+    const char *line, *what;
+};
+
+struct command {
+    const char *name;
+    const char *arguments;   /* "F… -o RUN" */
+    const char *summary;     /* one line for the list of commands */
+    const char *description; /* a paragraph or two */
+    const struct argp_option *options;
+    argp_parser_t parse;
+    const struct example *examples; /* ends with a NULL line */
+    /* Text that is known only at run time (names of encodings, scenes, views), appended to an option's help; malloc'd,
+       NULL for none. May be NULL. */
+    char *(*values)(int key);
+    enum status (*run)(int argc, char **argv);
+};
+
+/* Every command, in the order in which help lists them. */
+extern const struct command *const commands[];
+extern const size_t command_count;
+const struct command *command_find(const char *name);
+
+/* Parses argv[1…] into `input`, which the command's parse function finds in state->input. Options may stand anywhere.
+   A usage error prints a message and exits with 2, --help exits with 0. */
+void command_parse(const struct command *command, int argc, char **argv, void *input);
+
+/* An option's help with its run-time values, malloc'd. */
+char *command_option_help(const struct command *command, const struct argp_option *option);
+
+/* Prints "glint COMMAND: message" and returns the exit status that its code asks for. */
+enum status command_fail(const struct command *command, const struct glint_error *err);
+/* The same without the status, for what does not stop the command. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void command_note(const struct command *command, const char *format, ...);
+
+/* The man page (mdoc) and bash's completion, written to stdout from the same tables. */
+void print_man_page(void);
+void print_completion(void);
+
+#endif

@@ -1,0 +1,17 @@
+/* The commands of glint: add one here, in its own cmd_NAME.c, and in meson.build. */
+#include "command.h"
+
+#include <string.h>
+
+extern const struct command cmd_sample, cmd_info, cmd_validate, cmd_plan, cmd_replay, cmd_view, cmd_passes, cmd_devices;
+
+const struct command *const commands[] = {
+    &cmd_sample, &cmd_info, &cmd_validate, &cmd_plan, &cmd_replay, &cmd_view, &cmd_passes, &cmd_devices,
+};
+const size_t command_count = sizeof commands / sizeof *commands;
+
+const struct command *command_find(const char *name) {
+    for (size_t i = 0; i < command_count; i++)
+        if (!strcmp(commands[i]->name, name)) return commands[i];
+    return NULL;
+}

@@ -1,0 +1,151 @@
+/* What glint info prints for people. */
+#include "info_tables.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "camera_facts.h"
+#include "table.h"
+
+/* "cubemap" of "cubemap.003", with the number; the whole name and -1 otherwise. */
+static size_t stem_length(const char *part) {
+    size_t length = strlen(part), digits = 0;
+    while (digits < length && strchr("0123456789", part[length - 1 - digits])) digits++;
+    return digits == 3 && length > 4 && part[length - 4] == '.' ? length - 4 : length;
+}
+
+static bool same_group(const struct channel_row *a, const struct channel_row *b) {
+    size_t n = stem_length(a->part);
+    return n == stem_length(b->part) && !strncmp(a->part, b->part, n) && !strcmp(a->channel, b->channel);
+}
+
+static void print_channel(struct table *table, const struct channel_table *all, size_t first) {
+    struct channel_row row = all->rows[first];
+    size_t parts = 1;
+    for (size_t i = first + 1; i < all->count; i++) {
+        if (!same_group(&row, &all->rows[i])) continue;
+        stats_merge(&row.stats, &all->rows[i].stats);
+        parts++;
+    }
+    if (parts > 1) table_cell(table, "%.*s.NNN × %zu", (int)stem_length(row.part), row.part, parts);
+    else table_cell(table, "%s", row.part);
+    table_cell(table, "%s", row.channel);
+    table_cell(table, "%s%s%s", row.stored, *row.storage && strcmp(row.storage, row.stored) ? " of " : "",
+               strcmp(row.storage, row.stored) ? row.storage : "");
+    table_cell(table, "%s", row.encoding);
+    table_cell(table, "%s", strcmp(row.unit, "1") ? row.unit : "");
+    const struct channel_stats *s = &row.stats;
+    bool finite = row.has_stats && s->count > s->nan + s->inf;
+    table_cell(table, "%s", finite ? number_text(s->min) : "");
+    table_cell(table, "%s", finite ? number_text(s->max) : "");
+    table_cell(table, "%s", finite ? number_text(stats_mean(s)) : "");
+    for (int k = 0; k < 2; k++) {
+        uint64_t n = k ? s->inf : s->nan;
+        if (row.has_stats && n) table_cell(table, "%llu", (unsigned long long)n);
+        else table_cell(table, "%s", row.has_stats ? "–" : "");
+    }
+}
+
+void info_print_channels(const struct channel_table *all) {
+    static const char *const titles[] = {"<part", "<channel", "<stored", "<encoding", "<unit", ">min",
+                                         ">max",  ">mean",    ">NaN",    ">Inf",      NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < all->count; i++) {
+        bool seen = false;
+        for (size_t k = 0; k < i && !seen; k++) seen = same_group(&all->rows[k], &all->rows[i]);
+        if (!seen) print_channel(table, all, i);
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+/* Parts of one stem and size are one line. */
+static bool same_kind(const struct glint_part_info *a, const struct glint_part_info *b) {
+    size_t n = stem_length(a->name);
+    return a->index >= 0 && b->index >= 0 && n == stem_length(b->name) && !strncmp(a->name, b->name, n) &&
+           a->width == b->width && a->height == b->height && !strcmp(a->sibling, b->sibling);
+}
+
+void info_print_parts(const struct glint_capture *capture) {
+    static const char *const titles[] = {"<part", ">size", "<what it is", NULL};
+    struct table *table = table_create(titles);
+    size_t count = glint_capture_part_count(capture);
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        size_t alike = 1;
+        bool seen = false;
+        for (size_t k = 0; k < count; k++) {
+            bool same = k != i && same_kind(part, glint_capture_part(capture, k));
+            seen = seen || (same && k < i);
+            alike += same;
+        }
+        if (seen) continue;
+        if (alike > 1) table_cell(table, "%.*s.NNN × %zu", (int)stem_length(part->name), part->name, alike);
+        else table_cell(table, "%s", part->name);
+        table_cell(table, "%u × %u", part->width, part->height);
+        const char *meaning = part->role ? part->role->meaning : "not known to this version; kept";
+        table_cell(table, "%.*s%s%s%s", (int)strcspn(meaning, ":;"), meaning,
+                   part->previous ? ", one frame earlier" : "", part->sibling[0] ? "; stored in " : "", part->sibling);
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+const char *cubemap_volume_name(enum glint_volume volume) {
+    static const char *const names[] = {"none", "box", "sphere", "hull"};
+    return (size_t)volume < 4 ? names[volume] : "?";
+}
+
+void info_print_cubemaps(const struct glint_capture *capture) {
+    static const char *const titles[] = {"<cube map", ">face",         ">x",    ">y", ">z",
+                                         "<where",    "<inner volume", ">fade", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        if (!part->has_cubemap) continue;
+        table_cell(table, "%s", part->name);
+        table_cell(table, "%u", part->width);
+        for (int k = 0; k < 3; k++) table_cell(table, "%.3f", part->cubemap.center[k]);
+        table_cell(table, "%s", part->cubemap.outdoor ? "outdoor" : "indoor");
+        table_cell(table, "%s", cubemap_volume_name(part->cubemap.inner));
+        table_cell(table, "%s", number_text(part->cubemap.fade > 0 ? part->cubemap.fade : 1));
+    }
+    if (!table_is_empty(table)) {
+        putchar('\n');
+        table_print(table, stdout);
+    }
+    table_destroy(&table);
+}
+
+void info_print_camera(const struct glint_frame *frame) {
+    const struct camera_facts c = camera_facts(frame);
+    printf("frame %u, camera at (%.3f, %.3f, %.3f) looking along (%.3f, %.3f, %.3f)\n", frame->number, c.position[0],
+           c.position[1], c.position[2], c.forward[0], c.forward[1], c.forward[2]);
+    printf("field of view %.1f° × %.1f°, near %s, far %s, %s metres per unit, %s up\n", c.fov_x_deg, c.fov_y_deg,
+           number_text(c.near), number_text(c.far),
+           number_text(frame->metres_per_unit > 0 ? frame->metres_per_unit : 1), axis_name(frame->up));
+    printf("%s; exposure %s; %s\n",
+           !frame->has_previous ? "no previous frame"
+           : frame->cut         ? "after a cut"
+                                : "has the previous frame",
+           number_text(frame->exposure > 0 ? frame->exposure : 1), frame->has_fog ? "fog" : "no fog");
+}
+
+void info_print_survey(const struct glint_survey *survey) {
+    double all = survey->pixels ? (double)survey->pixels : 1, most = 1;
+    printf("%.1f %% sky, %.1f %% reflecting", 100 * (double)survey->sky / all, 100 * (double)survey->reflecting / all);
+    if (survey->reflecting == 0) {
+        puts(": nothing to trace");
+        return;
+    }
+    puts("; reflecting pixels by roughness:");
+    for (int i = 0; i < GLINT_SURVEY_BINS; i++)
+        if ((double)survey->roughness[i] > most) most = (double)survey->roughness[i];
+    for (int i = 0; i < GLINT_SURVEY_BINS; i++) {
+        double share = (double)survey->roughness[i] / (double)survey->reflecting;
+        int length = (int)(40 * (double)survey->roughness[i] / most + 0.5);
+        printf("  %.1f to %.1f %6.1f %% ", 0.1 * i, 0.1 * (i + 1), 100 * share);
+        for (int k = 0; k < length; k++) fputs("█", stdout);
+        putchar('\n');
+    }
+}

@@ -1,0 +1,17 @@
+/* What glint info prints for people. */
+#ifndef GLINT_VIEWER_INFO_TABLES_H
+#define GLINT_VIEWER_INFO_TABLES_H
+
+#include "channels.h"
+#include "glint/replay.h"
+
+void info_print_camera(const struct glint_frame *frame);
+/* Parts and channels that differ by their number alone are one line each. */
+void info_print_parts(const struct glint_capture *capture);
+void info_print_channels(const struct channel_table *all);
+/* Nothing when the capture has no cube maps. */
+void info_print_cubemaps(const struct glint_capture *capture);
+void info_print_survey(const struct glint_survey *survey);
+const char *cubemap_volume_name(enum glint_volume volume);
+
+#endif

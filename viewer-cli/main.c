@@ -1,0 +1,77 @@
+/* glint: finds the command and hands over to it. */
+#include "command.h"
+
+#include <errno.h>
+#include <locale.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "nearest.h"
+
+static void print_help(FILE *out) {
+    fputs("Usage: glint COMMAND [OPTION...] [ARGUMENT...]\n"
+          "Replays captured frames' reflection passes offline, and shows every image in between.\n\nCommands:\n",
+          out);
+    for (size_t i = 0; i < command_count; i++) fprintf(out, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
+    fputs("\nglint COMMAND --help explains a command, with examples. glint --version prints the version.\n"
+          "Start with:\n"
+          "  glint sample street -o street.exr\n"
+          "  glint replay street.exr -o run\n"
+          "  glint view run -o street.png\n",
+          out);
+}
+
+static enum status unknown_command(const char *name) {
+    struct nearest near = nearest_to(name);
+    for (size_t i = 0; i < command_count; i++) nearest_offer(&near, commands[i]->name);
+    fprintf(stderr, "glint: there is no command %s%s; glint --help lists them\n", name, nearest_text(&near));
+    return STATUS_USAGE;
+}
+
+static enum status help_command(int argc, char **argv) {
+    if (argc < 2) {
+        print_help(stdout);
+        return STATUS_DONE;
+    }
+    const struct command *command = command_find(argv[1]);
+    if (!command) return unknown_command(argv[1]);
+    char name[] = "help", option[] = "--help";
+    return command->run(2, (char *[]){name, option, NULL});
+}
+
+static enum status dispatch(int argc, char **argv) {
+    if (argc < 2) {
+        print_help(stderr);
+        return STATUS_USAGE;
+    }
+    const char *first = argv[1];
+    if (!strcmp(first, "--help") || !strcmp(first, "-h") || !strcmp(first, "-?")) return help_command(1, argv);
+    if (!strcmp(first, "help")) return help_command(argc - 1, argv + 1);
+    if (!strcmp(first, "--version") || !strcmp(first, "-V")) {
+        puts("glint " GLINT_VERSION);
+        return STATUS_DONE;
+    }
+    /* Not for people: the build makes the man page and the completion with these. */
+    if (!strcmp(first, "--man") || !strcmp(first, "--completion")) {
+        (first[2] == 'm' ? print_man_page : print_completion)();
+        return STATUS_DONE;
+    }
+    if (first[0] == '-') {
+        fprintf(stderr, "glint: unknown option %s; options stand after the command (glint --help)\n", first);
+        return STATUS_USAGE;
+    }
+    const struct command *command = command_find(first);
+    return command ? command->run(argc - 1, argv + 1) : unknown_command(first);
+}
+
+int main(int argc, char **argv) {
+    setlocale(LC_CTYPE, "");
+    argp_err_exit_status = STATUS_USAGE;
+    enum status status = dispatch(argc, argv);
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "glint: cannot write to stdout: %s\n", strerror(errno));
+        return status == STATUS_DONE ? STATUS_CHECK : (int)status;
+    }
+    return (int)status;
+}

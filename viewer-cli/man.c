@@ -1,0 +1,106 @@
+/* The man page and bash's completion, from the tables that --help shows. */
+#include "command.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Text in mdoc: control characters escaped, nothing taken for a macro, one sentence a line. */
+static void print_text(const char *text) {
+    bool start = true;
+    for (const char *p = text; *p; p++) {
+        if (start && (*p == '.' || *p == '\'')) fputs("\\&", stdout);
+        start = false;
+        if (*p == '\\') fputs("\\e", stdout);
+        else if (*p == '-') fputs("\\-", stdout);
+        else if (*p == '\n') {
+            /* mdoc paragraphs are macros; a blank line is not one */
+            while (p[1] == '\n') p++;
+            fputs("\n.Pp\n", stdout);
+            start = true;
+        } else if ((*p == '.' || *p == '?') && p[1] == ' ' && isupper((unsigned char)p[2])) {
+            printf("%c\n", *p);
+            p++;
+            start = true;
+        } else fputc(*p, stdout);
+    }
+    fputc('\n', stdout);
+}
+
+static bool ends(const struct argp_option *o) {
+    return !o->name && !o->key && !o->doc && !o->group;
+}
+
+/* .It Fl o , Fl -output Ns = Ns Ar FILE */
+static void print_option(const struct command *command, const struct argp_option *o) {
+    bool optional = o->flags & OPTION_ARG_OPTIONAL;
+    fputs(".It ", stdout);
+    if (o->key > 0 && o->key < 128 && isgraph(o->key)) printf("Fl %c%s", o->key, o->name ? " , " : "");
+    if (o->name) {
+        printf("Fl \\-%s", o->name);
+        if (o->arg) printf(optional ? " Ns Op = Ns Ar %s" : " Ns = Ns Ar %s", o->arg);
+    }
+    fputc('\n', stdout);
+    char *help = command_option_help(command, o);
+    print_text(help ? help : "");
+    free(help);
+}
+
+static void print_command(const struct command *command) {
+    printf(".Ss glint %s\n.Nm glint %s\n.Op Ar option ...\n.Ar ", command->name, command->name);
+    print_text(command->arguments[0] ? command->arguments : "\\&");
+    printf(".Pp\n");
+    print_text(command->description);
+    printf(".Bl -tag -width Ds\n");
+    for (const struct argp_option *o = command->options; !ends(o); o++)
+        if (o->name) print_option(command, o);
+    printf(".El\n.Pp\n");
+    for (const struct example *e = command->examples; e->line; e++) {
+        print_text(e->what);
+        printf(".Dl ");
+        print_text(e->line);
+    }
+}
+
+void print_man_page(void) {
+    printf(".\\\" Made by glint --man from the tables of --help.\n"
+           ".Dd November 21, 2026\n.Dt GLINT 1\n.Os\n"
+           ".Sh NAME\n.Nm glint\n.Nd replay captured frames' reflection passes offline\n"
+           ".Sh SYNOPSIS\n.Nm\n.Ar command\n.Op Ar option ...\n.Op Ar argument ...\n"
+           ".Nm\n.Fl \\-help | \\-version\n"
+           ".Sh DESCRIPTION\n"
+           "An engine dumps one frame (G\\-buffer, lit colour, cube maps, camera) into a multi\\-part OpenEXR file, a "
+           "capture.\n.Nm\n"
+           "runs any subset of the reflection passes on it with Vulkan and writes every intermediate image back.\n"
+           "Results go to standard output, messages to standard error; commands that report have\n.Fl \\-json .\n"
+           ".Sh COMMANDS\n");
+    for (size_t i = 0; i < command_count; i++) print_command(commands[i]);
+    printf(".Sh ENVIRONMENT\n.Bl -tag -width GLINT_VALIDATION\n"
+           ".It Ev GLINT_DEVICE\nThe device to use: its index or a part of its name.\n"
+           ".It Ev GLINT_PRESETS\nA folder with presets, searched before the installed one.\n"
+           ".It Ev GLINT_VALIDATION\n1 switches the Khronos validation layer on.\n"
+           ".It Ev OCIO\nThe OpenColorIO configuration for\n.Nm glint view .\n.El\n"
+           ".Sh EXIT STATUS\n.Bl -tag -width 130\n"
+           ".It 0\nDone.\n.It 1\nA check failed, or the input is bad.\n.It 2\nWrong usage.\n"
+           ".It 130\nInterrupted; files that were not complete are not there.\n.El\n"
+           ".Sh SEE ALSO\n.Xr exrheader 1 ,\n.Xr oiiotool 1\n");
+}
+
+void print_completion(void) {
+    printf("# bash completion for glint, made by glint --completion from the tables of --help\n"
+           "_glint() {\n    local word=${COMP_WORDS[COMP_CWORD]} options=\n    case ${COMP_WORDS[1]-} in\n");
+    for (size_t i = 0; i < command_count; i++) {
+        printf("    %s) options='", commands[i]->name);
+        for (const struct argp_option *o = commands[i]->options; !ends(o); o++)
+            if (o->name) printf("--%s%s ", o->name, o->arg ? "=" : "");
+        printf("--help' ;;\n");
+    }
+    printf("    esac\n    COMPREPLY=()\n    if [ \"$COMP_CWORD\" = 1 ]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W 'help");
+    for (size_t i = 0; i < command_count; i++) printf(" %s", commands[i]->name);
+    printf("' -- \"$word\")\n    elif [[ $word == -* ]]; then\n"
+           "        mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
+           "        [[ ${COMPREPLY[0]-} == *= ]] && compopt -o nospace\n    fi\n}\n"
+           "complete -o default -F _glint glint\n");
+}

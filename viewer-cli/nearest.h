@@ -1,0 +1,27 @@
+/* "did you mean …?": the known name that is nearest to one that is not known. */
+#ifndef GLINT_VIEWER_NEAREST_H
+#define GLINT_VIEWER_NEAREST_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct nearest {
+    const char *wanted, *best;
+    size_t distance;
+    char text[320];
+};
+
+struct nearest nearest_to(const char *wanted);
+/* The candidate must live as long as the answer is used. NULL is ignored. */
+void nearest_offer(struct nearest *nearest, const char *candidate);
+/* " (did you mean street?)", or "" when nothing is near. */
+const char *nearest_text(struct nearest *nearest);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

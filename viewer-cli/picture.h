@@ -1,0 +1,45 @@
+/* A picture of 8-bit RGBA, sRGB, rows from the top. */
+#ifndef GLINT_VIEWER_PICTURE_H
+#define GLINT_VIEWER_PICTURE_H
+
+#include <stdint.h>
+
+#include "glint/common.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct rgb {
+    uint8_t r, g, b;
+};
+static const struct rgb COLOR_BACKGROUND = {0x16, 0x18, 0x1d}, COLOR_TEXT = {0xe6, 0xe8, 0xeb},
+                        COLOR_INVALID = {0xff, 0x00, 0xff}, COLOR_SKY = {0xb4, 0xc6, 0xdc};
+
+struct picture {
+    uint32_t width, height;
+    uint8_t *rgba;
+};
+
+/* Filled with one colour. */
+bool picture_init(struct picture *picture, uint32_t width, uint32_t height, struct rgb color, struct glint_error *err);
+void picture_finish(struct picture *picture);
+void picture_set(struct picture *picture, uint32_t x, uint32_t y, struct rgb color);
+/* Mixes a colour in; outside the picture is nothing. */
+void picture_blend(struct picture *picture, int x, int y, struct rgb color, uint8_t coverage);
+void picture_fill(struct picture *picture, int x, int y, int width, int height, struct rgb color);
+/* Copies a whole picture to a place inside another. */
+void picture_paste(struct picture *to, const struct picture *from, uint32_t x, uint32_t y);
+
+/* These replace the picture. */
+bool picture_crop(struct picture *picture, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                  struct glint_error *err);
+bool picture_zoom(struct picture *picture, uint32_t factor, struct glint_error *err);
+/* Six faces below each other, +X −X +Y −Y +Z −Z as Vulkan orients them, become a horizontal cross with +Z in the middle;
+   several cubes become crosses below each other. */
+bool picture_cross(struct picture *picture, struct glint_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,51 @@
+/* The options that plan and replay share: which pipeline, on which device, which part of it. */
+#ifndef GLINT_VIEWER_PIPELINE_ARGS_H
+#define GLINT_VIEWER_PIPELINE_ARGS_H
+
+#include "args.h"
+#include "glint/replay.h"
+
+struct pipeline_args {
+    const char *preset; /* NULL: mafia3 */
+    const char *device;
+    struct list use, set, shader;
+    struct list passes, outputs, skip, force;
+    struct glint_replay_options replay; /* its lists are filled by pipeline_args_options */
+};
+
+enum {
+    KEY_USE = 512,
+    KEY_SET,
+    KEY_SHADER,
+    KEY_PASSES,
+    KEY_INPUTS,
+    KEY_OUTPUTS,
+    KEY_SKIP,
+    KEY_FORCE,
+    KEY_ALL,
+    KEY_DEVICE
+};
+
+/* clang-format off */
+#define PIPELINE_OPTIONS \
+    {"preset",  'p',         "NAME|FILE",      0, "The pipeline: a preset's name or a JSON file (default mafia3)", 0}, \
+    {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; none leaves the slot out", 0}, \
+    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter; glint passes SLOT lists them", 0}, \
+    {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead", 0}, \
+    {"passes",  KEY_PASSES,  "SLOT,...",       0, "Only these slots; what they need comes from --inputs", 0}, \
+    {"inputs",  KEY_INPUTS,  "RUN",            0, "A run to read missing images from", 0}, \
+    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, and what they need (default: all)", 0}, \
+    {"all",     KEY_ALL,     NULL,             0, "Run every pass, even one that has nothing to do", 0}, \
+    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these", 0}, \
+    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when they have nothing to do", 0}, \
+    {"device",  KEY_DEVICE,  "INDEX|NAME",     0, "The Vulkan device; glint devices lists them", 0}
+/* clang-format on */
+
+/* Reads one of PIPELINE_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */
+error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct pipeline_args *args);
+void pipeline_args_finish(struct pipeline_args *args);
+/* The pipeline that the arguments ask for; unknown names are errors that name the nearest known one. */
+struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err);
+struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);
+
+#endif
