@@ -11,10 +11,16 @@
 enum { FONT_PX = 13, LINE_PX = 20, MARGIN_PX = 10, LEAST_WIDTH_PX = 360 };
 
 static const char *const reasons[] = {
-#define REASON(name, text) text,
+#define REASON(name, text) #name,
 #include "../passes/shared/end_reasons.h"
 #undef REASON
 };
+
+/* "left screen" of left_screen: short enough for a narrow picture. */
+static void reason_label(uint32_t reason, char label[64]) {
+    snprintf(label, 64, "%s", reasons[reason]);
+    for (char *p = label; (p = strchr(p, '_')) != NULL;) *p = ' ';
+}
 
 /* Where the next item goes; items flow to the next line when the width is used up. */
 struct flow {
@@ -72,13 +78,12 @@ static void bar(struct flow *flow, const struct legend *l) {
 }
 
 static void shares(struct flow *flow, const struct legend *l) {
-    size_t names = sizeof reasons / sizeof *reasons;
     for (uint32_t i = 0; i < 257; i++) {
-        char label[160], number[32];
+        char label[96], name[64];
         if (l->shares[i] <= 0) continue;
-        snprintf(number, sizeof number, i == 255 ? "none" : i == 256 ? "others" : "%u", i);
-        bool named = l->kind == KIND_REASON && i < names;
-        snprintf(label, sizeof label, "%s  %.1f %%", named ? reasons[i] : number, l->shares[i] * 100);
+        if (l->kind == KIND_REASON && i < sizeof reasons / sizeof *reasons) reason_label(i, name);
+        else snprintf(name, sizeof name, i == 255 ? "none" : i == 256 ? "others" : "%u", i);
+        snprintf(label, sizeof label, "%s  %.1f %%", name, l->shares[i] * 100);
         item(flow, i == 255 ? COLOR_BACKGROUND : colormap_category(l->kind == KIND_REASON ? i : i + 1), label);
     }
 }
