@@ -1,0 +1,97 @@
+/* What a stranger's bytes are put through: everything that the library does with a file. */
+#define _GNU_SOURCE
+#include "hostile.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "fixture.h"
+
+const struct glint_limits hostile_limits = {
+    .file_bytes = 1 << 24, .memory_bytes = 32 << 20, .width = 1024, .parts = 64};
+
+/* A failure must name a code and a reason; what a program would do without them, nobody knows. */
+static bool told(bool ok, const struct glint_error *err) {
+    if (!ok && (err->code == GLINT_OK || !err->message[0])) abort();
+    return ok;
+}
+
+static bool read_part(struct glint_capture *capture, const struct glint_part_info *part, struct glint_error *err) {
+    const size_t pixels = (size_t)part->width * part->height;
+    bool ok = true;
+    for (size_t c = 0; c < part->channel_count && ok; c++) {
+        const char *names[] = {part->channels[c].name, NULL};
+        const bool integer = part->channels[c].stored == GLINT_STORED_UINT;
+        void *out = malloc(pixels * 8);
+        if (!out) abort();
+        ok = told(glint_capture_read_raw(capture, part, names, 2, integer ? GLINT_U32 : GLINT_F32, out, 2, err), err);
+        const bool packed = integer && part->encodings.motion == GLINT_MOTION_PACKED16;
+        if (ok && (!integer || packed)) {
+            *err = (struct glint_error){0};
+            if (!told(glint_capture_read(capture, part, names, 1, GLINT_F16, out, 2, err), err) && !packed) ok = false;
+        }
+        free(out);
+    }
+    return ok;
+}
+
+static void ignore(void *user, const char *rule, const char *message) {
+    (void)user;
+    if (!rule[0] || !message[0] || strchr(message, '\n')) abort();
+}
+
+bool hostile_use(const char *path, struct glint_error *err) {
+    struct glint_error other = {0};
+    size_t violations = 0;
+    told(glint_capture_validate(path, &hostile_limits, ignore, NULL, &violations, &other), &other);
+    struct glint_capture *capture = glint_capture_open(path, &hostile_limits, err);
+    bool ok = told(capture != NULL, err);
+    for (size_t i = 0; capture && i < glint_capture_part_count(capture); i++)
+        if (!read_part(capture, glint_capture_part(capture, i), err)) ok = false;
+    glint_capture_close(&capture);
+    return ok;
+}
+
+bool hostile_use_bytes(const void *bytes, size_t size, struct glint_error *err) {
+    char path[64];
+    const int fd = memfd_create("hostile", 0);
+    if (fd < 0) abort();
+    for (size_t done = 0; done < size;) {
+        const ssize_t got = write(fd, (const char *)bytes + done, size - done);
+        if (got <= 0) abort();
+        done += (size_t)got;
+    }
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    const bool ok = hostile_use(path, err);
+    close(fd);
+    return ok;
+}
+
+static uint32_t pick(uint32_t seed, uint32_t n, uint32_t below) {
+    return (uint32_t)(fixture_noise(seed, n) * below);
+}
+
+size_t hostile_damage(uint8_t *bytes, size_t size, uint32_t seed) {
+    static const uint32_t words[] = {0,           1,           0x7fffffffu, 0x80000000u, 0xffffffffu, 0x00010000u,
+                                     0x7f800000u, 0xff800000u, 0x7fc00000u, 255,         65536 * 6,   0xfffffff0u};
+    const uint32_t hits = 1 + pick(seed, 0, 4);
+    for (uint32_t h = 0; h < hits; h++) {
+        /* Two of three in the headers, where structure is. */
+        const uint32_t span = (uint32_t)(pick(seed, 10 + h, 3) && size > 16384 ? 16384 : size);
+        const uint32_t at = pick(seed, 20 + h, span), kind = pick(seed, 30 + h, 6);
+        const uint32_t word = words[pick(seed, 40 + h, sizeof words / sizeof *words)];
+        if (kind == 0) bytes[at] ^= (uint8_t)(1u << pick(seed, 50 + h, 8));
+        if (kind == 1) bytes[at] = (uint8_t)pick(seed, 50 + h, 256);
+        if (kind == 2 && at + 4 <= size) memcpy(bytes + at, &word, 4);
+        if (kind == 3 && at + 8 <= size) memcpy(bytes + at, &(uint64_t){(uint64_t)word << 32 | word}, 8);
+        if (kind == 4) { /* a stretch from elsewhere */
+            const uint32_t from = pick(seed, 50 + h, (uint32_t)size), left = (uint32_t)size - (from > at ? from : at);
+            memmove(bytes + at, bytes + from, pick(seed, 60 + h, left < 64 ? left : 64));
+        }
+        if (kind == 5 && h + 1 == hits && pick(seed, 70, 4) == 0) return pick(seed, 80, (uint32_t)size);
+    }
+    return size;
+}

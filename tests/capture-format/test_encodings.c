@@ -1,0 +1,579 @@
+/* One scene under every depth, normal, roughness, motion and colour encoding, in the storage formats that engines use,
+   decodes to the same values. The encoders here are written from FORMAT.md's formulas in the other direction, in double;
+   every bound is half a step of the storage format times the derivative of the decoder, plus the rounding of the float
+   that the reader returns (and, for 8-bit formats that the file keeps as half, the half's own rounding). */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include "fixture.h"
+
+enum { COUNT = FIX_W * FIX_H };
+static struct fixture fixture;
+static const double NEAR = 0.1, FAR = 500;
+
+/* ---- storage formats: a value to what the engine keeps of it, and half its step there ---- */
+
+struct storage {
+    const char *name;
+    enum glint_type type;
+    int bits; /* of a fixed-point format, or 0 */
+    bool is_signed;
+};
+static const struct storage D16 = {"D16", GLINT_UNORM16, 16, false}, D24 = {"D24", GLINT_F32, 24, false},
+                            D32F = {"D32F", GLINT_F32, 0, true}, R16F = {"R16F", GLINT_F16, 0, true},
+                            R32F = {"R32F", GLINT_F32, 0, true}, UNORM8 = {"R8", GLINT_UNORM8, 8, false},
+                            UNORM10 = {"R10G10B10A2", GLINT_F32, 10, false},
+                            UNORM16 = {"R16", GLINT_UNORM16, 16, false}, SNORM8 = {"R8_SNORM", GLINT_SNORM8, 8, true},
+                            SNORM16 = {"R16_SNORM", GLINT_SNORM16, 16, true};
+
+/* Largest difference between `v` and what the file returns before decoding. */
+static double half_step(const struct storage *s, double v) {
+    if (s->type == GLINT_F16) return fmax(fabs(v) * ldexp(1, -11), ldexp(1, -25));
+    if (s->bits == 0) return fabs(v) * ldexp(1, -24);
+    const double top = s->is_signed ? ldexp(1, s->bits - 1) - 1 : ldexp(1, s->bits) - 1;
+    /* The code's value is stored as half (8 bits) or float. */
+    const double kept = s->bits == 8 ? ldexp(1, -11) : ldexp(1, -24);
+    return 0.5 / top + fabs(v) * kept;
+}
+
+static uint16_t to_half(double v) {
+    /* By search through the ordered positive halves: independent of the library's bit tricks. */
+    uint16_t low = 0, high = 0x7c00;
+    const double a = fabs(v);
+    while (high - low > 1) {
+        const uint16_t mid = (uint16_t)((low + high) / 2);
+        const int e = mid >> 10;
+        const double value = e ? ldexp(1024 + (mid & 1023), e - 25) : ldexp(mid & 1023, -24);
+        if (value <= a) low = mid;
+        else high = mid;
+    }
+    const int e = low >> 10, e2 = (low + 1) >> 10;
+    const double below = e ? ldexp(1024 + (low & 1023), e - 25) : ldexp(low & 1023, -24);
+    const double above = e2 ? ldexp(1024 + ((low + 1) & 1023), e2 - 25) : ldexp((low + 1) & 1023, -24);
+    const uint16_t nearest = a - below > above - a || (a - below == above - a && (low & 1)) ? (uint16_t)(low + 1) : low;
+    return (uint16_t)(nearest | (signbit(v) ? 0x8000 : 0));
+}
+
+static void store(const struct storage *s, double v, size_t i, void *out) {
+    if (s->type == GLINT_F16) ((uint16_t *)out)[i] = to_half(v);
+    else if (s->type == GLINT_UNORM8) ((uint8_t *)out)[i] = (uint8_t)lround(v * 255);
+    else if (s->type == GLINT_SNORM8) ((int8_t *)out)[i] = (int8_t)lround(v * 127);
+    else if (s->type == GLINT_UNORM16) ((uint16_t *)out)[i] = (uint16_t)lround(v * 65535);
+    else if (s->type == GLINT_SNORM16) ((int16_t *)out)[i] = (int16_t)lround(v * 32767);
+    else if (s->bits) ((float *)out)[i] = (float)(nearbyint(v * (ldexp(1, s->bits) - 1)) / (ldexp(1, s->bits) - 1));
+    else ((float *)out)[i] = (float)v;
+}
+
+/* ---- a capture with some of gbuffer's channels (or lit's) replaced ---- */
+
+static double bits[3][COUNT]; /* room for any type */
+
+static struct glint_capture *dump(const char *path, const char *part_name, const struct glint_encodings *encodings,
+                                  const char *const *names, size_t count, enum glint_type type, const char *storage,
+                                  const struct glint_frame *frame) {
+    struct glint_error err = {0};
+    struct glint_writer *writer = glint_writer_create(path, NULL, &err);
+    bool ok = writer && glint_writer_set_frame(writer, frame, &err);
+    for (int p = 0; ok && p <= FIXTURE_PREVIOUS_GBUFFER; p++) {
+        struct fixture_channels channels;
+        struct glint_part part = fixture_part(&fixture, (enum fixture_part)p, &channels);
+        if (!strcmp(part.name, part_name)) {
+            part.encodings = *encodings;
+            size_t kept = 0;
+            for (size_t c = 0; c < part.channel_count; c++) {
+                bool drop = false;
+                for (size_t i = 0; i < count; i++) {
+                    if (strcmp(channels.all[c].name, names[i])) continue;
+                    channels.all[c] =
+                        (struct glint_channel){.name = names[i], .type = type, .data = bits[i], .storage = storage};
+                }
+                if (encodings->normal == GLINT_NORMAL_OCTAHEDRAL) drop |= !strcmp(channels.all[c].name, "normal.Z");
+                if (encodings->vertex_normal == GLINT_NORMAL_OCTAHEDRAL)
+                    drop |= !strcmp(channels.all[c].name, "vertexNormal.Z");
+                if (!drop) channels.all[kept++] = channels.all[c];
+            }
+            part.channel_count = kept;
+        }
+        ok = glint_writer_add_part(writer, &part, &err);
+    }
+    ok = ok && glint_writer_finish(writer, &err);
+    glint_writer_destroy(&writer);
+    struct glint_capture *capture = ok ? glint_capture_open(path, NULL, &err) : NULL;
+    if (!capture) fail_msg("%s", err.message);
+    return capture;
+}
+
+static void decoded(struct glint_capture *capture, const char *part, const char *const *names, size_t count,
+                    float *out) {
+    struct glint_error err = {0};
+    if (!glint_capture_read(capture, glint_capture_find(capture, part), names, count, GLINT_F32, out, 0, &err))
+        fail_msg("%s", err.message);
+}
+
+static void close_and_remove(struct glint_capture **capture, const char *path) {
+    glint_capture_close(capture);
+    unlink(path);
+}
+
+/* ---- depth ---- */
+
+enum projection { FINITE, FINITE_REVERSED, INFINITE_REVERSED };
+
+/* Rows 2 and 3 of a projection for view z in front of sign `s` onto NDC [lo, 1]. */
+static void project(double m[16], enum projection p, double s, double lo) {
+    /* ndc(t) = A s + B / t; solved for the two ends. */
+    const double near_ndc = p == FINITE ? lo : 1, far_ndc = p == FINITE ? 1 : lo;
+    const double inv_far = p == INFINITE_REVERSED ? 0 : 1 / FAR;
+    const double b = (near_ndc - far_ndc) / (1 / NEAR - inv_far);
+    m[11] = b;
+    m[10] = s * (far_ndc - b * inv_far);
+    m[14] = s;
+}
+
+static double stored_depth(enum glint_depth_encoding e, const double m[16], bool symmetric, double t) {
+    if (e == GLINT_DEPTH_VIEW_LINEAR) return t;
+    if (e == GLINT_DEPTH_LOGARITHMIC) return isinf(t) ? 1 : log(t / NEAR) / log(FAR / NEAR);
+    if (e == GLINT_DEPTH_LOGARITHMIC_REVERSED) return isinf(t) ? 0 : 1 - log(t / NEAR) / log(FAR / NEAR);
+    if (isinf(t)) return e == GLINT_DEPTH_DEVICE ? 1 : 0;
+    const double z = t * m[14], ndc = (m[10] * z + m[11]) / (m[14] * z);
+    return symmetric ? (ndc + 1) / 2 : ndc;
+}
+
+static void check_depth(enum glint_depth_encoding e, enum projection p, const struct storage *s, double sign,
+                        enum glint_clip_z clip_z, const char *part) {
+    char path[512];
+    static float out[COUNT];
+    static const char *const names[] = {"depth.Z"};
+    struct glint_frame frame = fixture_frame();
+    const bool symmetric = clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE;
+    struct glint_camera *camera = !strcmp(part, "gbuffer") ? &frame.camera : &frame.previous;
+    frame.clip_z = clip_z;
+    project(frame.camera.view_to_clip, FINITE, -1, symmetric ? -1 : 0);
+    project(frame.previous.view_to_clip, FINITE, -1, symmetric ? -1 : 0);
+    project(camera->view_to_clip, p, sign, symmetric ? -1 : 0);
+    for (size_t i = 0; i < COUNT; i++)
+        store(s, stored_depth(e, camera->view_to_clip, symmetric, (double)fixture.gbuffer[17 * i]), i, bits[0]);
+    const struct glint_encodings encodings = {.depth = e};
+    struct glint_capture *capture =
+        dump(fixture_path(path, "depth.exr"), part, &encodings, names, 1, s->type, s->name, &frame);
+    decoded(capture, part, names, 1, out);
+    for (size_t i = 0; i < COUNT; i++) {
+        const double t = (double)fixture.gbuffer[17 * i], unit = frame.metres_per_unit;
+        if (isinf(t)) {
+            assert_true(isinf(out[i]) && out[i] > 0);
+            continue;
+        }
+        const double v = stored_depth(e, camera->view_to_clip, symmetric, t), step = half_step(s, v);
+        /* Both neighbours of the stored value: the decoder is not linear over a step of a coarse format. */
+        double bound = 0;
+        for (int side = -1; side <= 1; side += 2) {
+            const double moved = v + side * step;
+            double back = moved;
+            if (e == GLINT_DEPTH_LOGARITHMIC) back = NEAR * pow(FAR / NEAR, moved);
+            if (e == GLINT_DEPTH_LOGARITHMIC_REVERSED) back = NEAR * pow(FAR / NEAR, 1 - moved);
+            if (e == GLINT_DEPTH_DEVICE || e == GLINT_DEPTH_REVERSED || e == GLINT_DEPTH_REVERSED_INFINITE) {
+                const double *m = camera->view_to_clip, ndc = symmetric ? 2 * moved - 1 : moved;
+                back = m[11] / (ndc - m[10] / m[14]);
+                if (back <= 0 || (e == GLINT_DEPTH_DEVICE ? moved >= 1 : moved <= 0)) back = INFINITY;
+            }
+            bound = fmax(bound, fabs(back - t));
+        }
+        /* One float rounding of the result, and the double arithmetic's cancellation near the far plane. */
+        bound = bound * 1.000001 + t * (ldexp(1, -24) + t / NEAR * 1e-15);
+        if (isinf(bound)) continue;
+        if (!(fabs((double)out[i] / unit - t) <= bound))
+            fail_msg("%s as %s, %s, sign %g: %.9g decoded to %.9g, bound %.3g", glint_encoding_name("depth", (int)e),
+                     s->name, part, sign, t, (double)out[i] / unit, bound);
+    }
+    close_and_remove(&capture, path);
+}
+
+static void depth(void **state) {
+    (void)state;
+    const struct storage *fixed[] = {&D16, &D24, &D32F};
+    for (size_t i = 0; i < 3; i++)
+        for (double sign = -1; sign <= 1; sign += 2)
+            for (int z = 0; z < 2; z++) {
+                const enum glint_clip_z clip_z = z ? GLINT_CLIP_Z_MINUS_ONE_TO_ONE : GLINT_CLIP_Z_ZERO_TO_ONE;
+                check_depth(GLINT_DEPTH_DEVICE, FINITE, fixed[i], sign, clip_z, "gbuffer");
+                check_depth(GLINT_DEPTH_REVERSED, FINITE_REVERSED, fixed[i], sign, clip_z, "gbuffer");
+                check_depth(GLINT_DEPTH_REVERSED_INFINITE, INFINITE_REVERSED, fixed[i], sign, clip_z, "gbuffer");
+            }
+    for (size_t i = 0; i < 3; i++) {
+        check_depth(GLINT_DEPTH_LOGARITHMIC, FINITE, fixed[i], -1, GLINT_CLIP_Z_ZERO_TO_ONE, "gbuffer");
+        check_depth(GLINT_DEPTH_LOGARITHMIC_REVERSED, FINITE, fixed[i], -1, GLINT_CLIP_Z_ZERO_TO_ONE, "gbuffer");
+    }
+    check_depth(GLINT_DEPTH_VIEW_LINEAR, FINITE, &R32F, -1, GLINT_CLIP_Z_ZERO_TO_ONE, "gbuffer");
+    check_depth(GLINT_DEPTH_VIEW_LINEAR, FINITE, &R16F, -1, GLINT_CLIP_Z_ZERO_TO_ONE, "gbuffer");
+    /* The previous frame's depth goes by the previous camera. */
+    check_depth(GLINT_DEPTH_REVERSED, FINITE_REVERSED, &D32F, -1, GLINT_CLIP_Z_ZERO_TO_ONE, "previous.gbuffer");
+}
+
+/* ---- normals ---- */
+
+static void check_normals(enum glint_normal_encoding e, enum glint_normal_space space, const struct storage *s,
+                          const char *family, const char *part) {
+    char path[512], names[3][32];
+    const char *pointers[3];
+    static float out[3 * COUNT];
+    const size_t at = strcmp(family, "normal") ? 13 : 1;
+    const struct glint_frame frame = fixture_frame();
+    const double *m = strcmp(part, "gbuffer") ? frame.previous.world_to_view : frame.camera.world_to_view;
+    for (int a = 0; a < 3; a++) {
+        snprintf(names[a], sizeof names[a], "%s.%c", family, "XYZ"[a]);
+        pointers[a] = names[a];
+    }
+    for (size_t i = 0; i < COUNT; i++) {
+        const float *w = fixture.gbuffer + 17 * i + at;
+        double n[3];
+        for (int a = 0; a < 3; a++)
+            n[a] = space == GLINT_SPACE_WORLD
+                       ? (double)w[a]
+                       : m[4 * a] * (double)w[0] + m[4 * a + 1] * (double)w[1] + m[4 * a + 2] * (double)w[2];
+        if (e == GLINT_NORMAL_OCTAHEDRAL) {
+            const double l1 = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
+            double x = n[0] / l1, y = n[1] / l1;
+            if (n[2] < 0) {
+                const double fx = (1 - fabs(y)) * copysign(1, x), fy = (1 - fabs(x)) * copysign(1, y);
+                x = fx;
+                y = fy;
+            }
+            n[0] = (x + 1) / 2;
+            n[1] = (y + 1) / 2;
+        } else if (e == GLINT_NORMAL_UNORM) {
+            for (int a = 0; a < 3; a++) n[a] = (n[a] + 1) / 2;
+        }
+        for (int a = 0; a < 3; a++) store(s, e == GLINT_NORMAL_OCTAHEDRAL && a == 2 ? 0 : n[a], i, bits[a]);
+    }
+    struct glint_encodings encodings = {.normal_space = space};
+    if (at == 1) encodings.normal = e;
+    else encodings.vertex_normal = e;
+    /* The other family is in world space then, which this test does not look at. */
+    struct glint_capture *capture = dump(fixture_path(path, "normal.exr"), part, &encodings, pointers,
+                                         e == GLINT_NORMAL_OCTAHEDRAL ? 2 : 3, s->type, s->name, &frame);
+    assert_true(glint_part_has_channel(glint_capture_find(capture, part), names[2]));
+    decoded(capture, part, pointers, 3, out);
+    /* Half a step on each component turns a unit normal by at most √3 half steps (1 for signed, 2 for unorm, whose scale
+       is 2). The octahedral map stretches angles by at most 2√3 · 2: at the middle of a face |n| = 1/√3 of its L1 norm,
+       the map's slope is 3 there and less elsewhere; both components err. */
+    const double stretch = e == GLINT_NORMAL_SIGNED ? sqrt(3) : e == GLINT_NORMAL_UNORM ? 2 * sqrt(3) : 2 * 3 * sqrt(2);
+    const double bound = stretch * half_step(s, 1) + 4 * ldexp(1, -23);
+    for (size_t i = 0; i < COUNT; i++) {
+        double cross = 0, length = 0;
+        for (int a = 0; a < 3; a++) {
+            const double d = (double)out[3 * i + (size_t)a] - (double)fixture.gbuffer[17 * i + at + (size_t)a];
+            cross += d * d;
+            length += (double)out[3 * i + (size_t)a] * (double)out[3 * i + (size_t)a];
+        }
+        assert_true(fabs(length - 1) < 1e-6);
+        if (!(sqrt(cross) <= bound))
+            fail_msg("%s as %s, space %d: off by %.3g, bound %.3g", glint_encoding_name("normal", (int)e), s->name,
+                     (int)space, sqrt(cross), bound);
+    }
+    close_and_remove(&capture, path);
+}
+
+static void normals(void **state) {
+    (void)state;
+    static const char *const families[] = {"normal", "vertexNormal"};
+    for (int space = 0; space < 2; space++)
+        for (int f = 0; f < 2; f++) {
+            const enum glint_normal_space in = space ? GLINT_SPACE_VIEW : GLINT_SPACE_WORLD;
+            const struct storage *any[] = {&SNORM8, &SNORM16, &R16F, &R32F};
+            const struct storage *positive[] = {&UNORM8, &UNORM10, &UNORM16, &R16F, &R32F};
+            for (size_t i = 0; i < 4; i++) check_normals(GLINT_NORMAL_SIGNED, in, any[i], families[f], "gbuffer");
+            for (size_t i = 0; i < 5; i++) {
+                check_normals(GLINT_NORMAL_UNORM, in, positive[i], families[f], "gbuffer");
+                check_normals(GLINT_NORMAL_OCTAHEDRAL, in, positive[i], families[f], "gbuffer");
+            }
+        }
+    check_normals(GLINT_NORMAL_OCTAHEDRAL, GLINT_SPACE_VIEW, &UNORM16, "normal", "previous.gbuffer");
+}
+
+/* ---- roughness ---- */
+
+static double stored_roughness(enum glint_roughness_encoding e, double r) {
+    switch (e) {
+    case GLINT_ROUGHNESS_PERCEPTUAL:
+        return r;
+    case GLINT_ROUGHNESS_ALPHA:
+        return r * r;
+    case GLINT_ROUGHNESS_GLOSS:
+        return 1 - r;
+    case GLINT_ROUGHNESS_POWER:
+        return 2 / pow(r, 4) - 2;
+    }
+    return NAN;
+}
+
+static double back_to_roughness(enum glint_roughness_encoding e, double v) {
+    switch (e) {
+    case GLINT_ROUGHNESS_PERCEPTUAL:
+        return v;
+    case GLINT_ROUGHNESS_ALPHA:
+        return sqrt(fmax(v, 0));
+    case GLINT_ROUGHNESS_GLOSS:
+        return 1 - v;
+    case GLINT_ROUGHNESS_POWER:
+        return pow(2 / (fmax(v, 0) + 2), 0.25);
+    }
+    return NAN;
+}
+
+static void check_roughness(enum glint_roughness_encoding e, const struct storage *s) {
+    char path[512];
+    static float out[COUNT];
+    static const char *const names[] = {"material.roughness"};
+    /* A power that half can hold: below r = 0.0743 it is past 65504. */
+    const double lowest = e == GLINT_ROUGHNESS_POWER ? 0.08 : 0;
+    double r[COUNT];
+    for (size_t i = 0; i < COUNT; i++) {
+        r[i] = fmax((double)fixture.gbuffer[17 * i + 4], lowest);
+        store(s, stored_roughness(e, r[i]), i, bits[0]);
+    }
+    const struct glint_encodings encodings = {.roughness = e};
+    const struct glint_frame frame = fixture_frame();
+    struct glint_capture *capture =
+        dump(fixture_path(path, "roughness.exr"), "gbuffer", &encodings, names, 1, s->type, s->name, &frame);
+    decoded(capture, "gbuffer", names, 1, out);
+    for (size_t i = 0; i < COUNT; i++) {
+        const double v = stored_roughness(e, r[i]), step = half_step(s, v);
+        const double bound =
+            fmax(fabs(back_to_roughness(e, v + step) - r[i]), fabs(back_to_roughness(e, v - step) - r[i])) +
+            3 * ldexp(1, -24); /* float square roots and the subtraction */
+        if (!(fabs((double)out[i] - r[i]) <= bound))
+            fail_msg("%s as %s: %.9g decoded to %.9g, bound %.3g", glint_encoding_name("roughness", (int)e), s->name,
+                     r[i], (double)out[i], bound);
+    }
+    close_and_remove(&capture, path);
+}
+
+static void roughness(void **state) {
+    (void)state;
+    const struct storage *all[] = {&UNORM8, &UNORM16, &R16F, &R32F};
+    for (size_t i = 0; i < 4; i++)
+        for (int e = 0; e < 3; e++) check_roughness((enum glint_roughness_encoding)e, all[i]);
+    check_roughness(GLINT_ROUGHNESS_POWER, &R16F);
+    check_roughness(GLINT_ROUGHNESS_POWER, &R32F);
+}
+
+/* ---- motion ---- */
+
+static void check_motion(enum glint_motion_encoding e, const struct storage *s, enum glint_clip_y clip_y) {
+    char path[512];
+    static float out[2 * COUNT];
+    static const char *const names[] = {"motion.X", "motion.Y"};
+    struct glint_frame frame = fixture_frame();
+    frame.clip_y = clip_y;
+    /* What one uv is in the stored numbers. */
+    double scale[2] = {1, 1};
+    if (e == GLINT_MOTION_NDC) scale[0] = 2, scale[1] = clip_y == GLINT_CLIP_Y_UP ? -2 : 2;
+    if (e == GLINT_MOTION_PIXELS) scale[0] = FIX_W, scale[1] = FIX_H;
+    if (e == GLINT_MOTION_PACKED16) scale[0] = scale[1] = 32767 / frame.motion_range;
+    for (size_t i = 0; i < COUNT; i++)
+        for (int a = 0; a < 2; a++) {
+            const double v = scale[a] * (double)fixture.gbuffer[17 * i + 10 + (size_t)a];
+            if (e == GLINT_MOTION_PACKED16) ((uint16_t *)bits[a])[i] = (uint16_t)lround(v + 32768);
+            else store(s, v, i, bits[a]);
+        }
+    const struct glint_encodings encodings = {.motion = e};
+    struct glint_capture *capture = dump(fixture_path(path, "motion.exr"), "gbuffer", &encodings, names, 2,
+                                         e == GLINT_MOTION_PACKED16 ? GLINT_U16 : s->type, s->name, &frame);
+    decoded(capture, "gbuffer", names, 2, out);
+    for (size_t i = 0; i < COUNT; i++)
+        for (int a = 0; a < 2; a++) {
+            const double uv = (double)fixture.gbuffer[17 * i + 10 + (size_t)a], v = uv * scale[a];
+            const double step = e == GLINT_MOTION_PACKED16 ? 0.5 : half_step(s, v);
+            const double bound = step / fabs(scale[a]) * 1.000001 + fabs(uv) * ldexp(1, -23);
+            if (!(fabs((double)out[2 * i + (size_t)a] - uv) <= bound))
+                fail_msg("%s as %s: %.9g decoded to %.9g, bound %.3g", glint_encoding_name("motion", (int)e), s->name,
+                         uv, (double)out[2 * i + (size_t)a], bound);
+        }
+    close_and_remove(&capture, path);
+}
+
+static void motion(void **state) {
+    (void)state;
+    const struct storage *all[] = {&R16F, &R32F};
+    for (int y = 0; y < 2; y++)
+        for (size_t i = 0; i < 2; i++)
+            for (int e = 0; e < 4; e++)
+                check_motion((enum glint_motion_encoding)e, all[i], y ? GLINT_CLIP_Y_DOWN : GLINT_CLIP_Y_UP);
+}
+
+/* ---- colour ---- */
+
+static double stored_color(enum glint_color_encoding e, double c, double pre_exposure) {
+    if (e == GLINT_COLOR_PRE_EXPOSED) return c * pre_exposure;
+    if (e == GLINT_COLOR_LINEAR) return c;
+    const double a = fabs(c), v = a <= 0.0031308 ? a * 12.92 : 1.055 * pow(a, 1 / 2.4) - 0.055;
+    return copysign(v, c);
+}
+
+static double back_to_color(enum glint_color_encoding e, double v, double pre_exposure) {
+    if (e == GLINT_COLOR_PRE_EXPOSED) return v / pre_exposure;
+    if (e == GLINT_COLOR_LINEAR) return v;
+    const double a = fabs(v);
+    return copysign(a <= 0.04045 ? a / 12.92 : pow((a + 0.055) / 1.055, 2.4), v);
+}
+
+static void check_color(enum glint_color_encoding e, const struct storage *s, double brightest) {
+    char path[512];
+    static float out[3 * COUNT];
+    static const char *const names[] = {"R", "G", "B"};
+    const struct glint_frame frame = fixture_frame();
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t c = 0; c < 3; c++)
+            store(s, stored_color(e, brightest * (double)fixture.color[4 * i + c], frame.pre_exposure), i, bits[c]);
+    const struct glint_encodings encodings = {.color = e};
+    struct glint_capture *capture =
+        dump(fixture_path(path, "color.exr"), "lit", &encodings, names, 3, s->type, s->name, &frame);
+    decoded(capture, "lit", names, 3, out);
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const double linear = brightest * (double)fixture.color[4 * i + c];
+            const double v = stored_color(e, linear, frame.pre_exposure), step = half_step(s, v);
+            /* Single precision powf is good to about an ulp; its argument's rounding is stretched by 2.4. The two
+               sRGB segments meet within 4e-8 of each other. */
+            const double bound = fmax(fabs(back_to_color(e, v + step, frame.pre_exposure) - linear),
+                                      fabs(back_to_color(e, v - step, frame.pre_exposure) - linear)) *
+                                     1.000001 +
+                                 linear * 6 * ldexp(1, -24) + (e == GLINT_COLOR_SRGB ? 4e-8 : 0);
+            if (!(fabs((double)out[3 * i + c] - linear) <= bound))
+                fail_msg("%s as %s: %.9g decoded to %.9g, bound %.3g", glint_encoding_name("color", (int)e), s->name,
+                         linear, (double)out[3 * i + c], bound);
+        }
+    close_and_remove(&capture, path);
+}
+
+static void color(void **state) {
+    (void)state;
+    const struct storage *all[] = {&R16F, &R32F};
+    for (size_t i = 0; i < 2; i++)
+        for (int e = 0; e < 3; e++) check_color((enum glint_color_encoding)e, all[i], 30);
+    check_color(GLINT_COLOR_SRGB, &UNORM8, 1);
+    check_color(GLINT_COLOR_SRGB, &UNORM10, 1);
+    check_color(GLINT_COLOR_LINEAR, &UNORM16, 1);
+}
+
+/* ---- lengths and halves ---- */
+
+static void lengths_are_metres(void **state) {
+    (void)state;
+    char path[512];
+    static float out[6 * FIX_CUBE * FIX_CUBE];
+    struct glint_error err = {0};
+    if (!fixture_write(&fixture, fixture_path(path, "lengths.exr"), FIXTURE_PARTS, NULL, &err))
+        fail_msg("%s", err.message);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    decoded(capture, "cubemap.000", (const char *const[]){"distance.Z"}, 1, out);
+    for (size_t i = 0; i < 6 * FIX_CUBE * FIX_CUBE; i++) {
+        const float expected = fixture.cube[5 * i + 4];
+        if (isinf(expected)) assert_true(isinf(out[i]) && out[i] > 0);
+        else assert_true(fabs((double)out[i] - 0.01 * (double)expected) <= 0.01 * (double)expected * ldexp(1, -24));
+    }
+    close_and_remove(&capture, path);
+}
+
+static void every_half_keeps_its_bits(void **state) {
+    (void)state;
+    char path[512];
+    static uint16_t in[65536], back[2 * 65536];
+    static float wide[65536];
+    for (uint32_t i = 0; i < 65536; i++) in[i] = (uint16_t)i;
+    const struct glint_channel channel = {.name = "any", .type = GLINT_F16, .data = in};
+    const struct glint_part part = {
+        .name = "engine.halves", .width = 256, .height = 256, .channels = &channel, .channel_count = 1};
+    struct glint_error err = {0};
+    struct glint_writer *writer = glint_writer_create(fixture_path(path, "half.exr"), NULL, &err);
+    const struct glint_frame frame = fixture_frame();
+    bool ok = writer && glint_writer_set_frame(writer, &frame, &err) && glint_writer_add_part(writer, &part, &err);
+    for (int p = 0; ok && p <= FIXTURE_LIT; p++) {
+        struct fixture_channels channels;
+        const struct glint_part other = fixture_part(&fixture, (enum fixture_part)p, &channels);
+        ok = glint_writer_add_part(writer, &other, &err);
+    }
+    ok = ok && glint_writer_finish(writer, &err);
+    glint_writer_destroy(&writer);
+    struct glint_capture *capture = ok ? glint_capture_open(path, NULL, &err) : NULL;
+    if (!capture) fail_msg("%s", err.message);
+    const struct glint_part_info *info = glint_capture_find(capture, "engine.halves");
+    const char *const names[] = {"any", NULL};
+    if (!glint_capture_read(capture, info, names, 2, GLINT_F16, back, 0, &err)) fail_msg("%s", err.message);
+    for (uint32_t i = 0; i < 65536; i++) assert_true(back[2 * i] == in[i] && back[2 * i + 1] == 0);
+    if (!glint_capture_read(capture, info, names, 1, GLINT_F32, wide, 0, &err)) fail_msg("%s", err.message);
+    for (uint32_t i = 0; i < 65536; i++) {
+        const int e = (int)(i >> 10 & 31), f = (int)(i & 1023);
+        const double value = e == 31 ? (f ? NAN : INFINITY) : e ? ldexp(1024 + f, e - 25) : ldexp(f, -24);
+        if (isnan(value)) assert_true(isnan(wide[i]));
+        else assert_true((double)wide[i] == (i & 0x8000 ? -value : value));
+    }
+    close_and_remove(&capture, path);
+}
+
+/* Each 8- and 16-bit value comes back as the nearest to its own code. */
+static void every_code_comes_back(void **state) {
+    (void)state;
+    static const enum glint_type types[] = {GLINT_UNORM8, GLINT_SNORM8, GLINT_UNORM16, GLINT_SNORM16};
+    static uint8_t small[65536];
+    static uint16_t large[65536];
+    static float out[65536];
+    for (size_t t = 0; t < 4; t++) {
+        char path[512];
+        struct glint_error err = {0};
+        for (uint32_t i = 0; i < 65536; i++) small[i] = (uint8_t)i, large[i] = (uint16_t)i;
+        const struct glint_channel channel = {
+            .name = "any", .type = types[t], .data = t < 2 ? (void *)small : (void *)large};
+        const struct glint_part part = {
+            .name = "engine.codes", .width = 256, .height = 256, .channels = &channel, .channel_count = 1};
+        struct glint_writer *writer = glint_writer_create(fixture_path(path, "codes.exr"), NULL, &err);
+        const struct glint_frame frame = fixture_frame();
+        bool ok = writer && glint_writer_set_frame(writer, &frame, &err) && glint_writer_add_part(writer, &part, &err);
+        for (int p = 0; ok && p <= FIXTURE_LIT; p++) {
+            struct fixture_channels channels;
+            const struct glint_part other = fixture_part(&fixture, (enum fixture_part)p, &channels);
+            ok = glint_writer_add_part(writer, &other, &err);
+        }
+        ok = ok && glint_writer_finish(writer, &err);
+        glint_writer_destroy(&writer);
+        struct glint_capture *capture = ok ? glint_capture_open(path, NULL, &err) : NULL;
+        if (!capture) fail_msg("%s", err.message);
+        decoded(capture, "engine.codes", (const char *const[]){"any"}, 1, out);
+        for (uint32_t i = 0; i < 65536; i++) {
+            const long code = t == 0   ? (long)(uint8_t)i
+                              : t == 1 ? (long)(int8_t)i
+                              : t == 2 ? (long)(uint16_t)i
+                                       : (long)(int16_t)i;
+            const long top = t == 0 ? 255 : t == 1 ? 127 : t == 2 ? 65535 : 32767;
+            assert_int_equal(lround((double)out[i] * (double)top), code < -top ? -top : code);
+        }
+        close_and_remove(&capture, path);
+    }
+}
+
+static int setup(void **state) {
+    (void)state;
+    fixture_init(&fixture);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(depth),
+        cmocka_unit_test(normals),
+        cmocka_unit_test(roughness),
+        cmocka_unit_test(motion),
+        cmocka_unit_test(color),
+        cmocka_unit_test(lengths_are_metres),
+        cmocka_unit_test(every_half_keeps_its_bits),
+        cmocka_unit_test(every_code_comes_back),
+    };
+    return cmocka_run_group_tests(tests, setup, NULL);
+}
