@@ -40,14 +40,29 @@ static bool chunk_fail(struct job *job, size_t index, enum glint_code code, cons
     return false;
 }
 
-/* The compressions that ZIP's share is too small to make fast: through OpenEXRCore. */
-static bool unpack_other(struct job *job, struct worker *worker, const exr_chunk_info_t *chunk) {
+/* ---- compressions that glint leaves to OpenEXRCore ---- */
+
+static exr_result_t take_unpacked(exr_decode_pipeline_t *pipe) {
+    struct worker *worker = pipe->decoding_user_data;
+    if (!pipe->unpacked_buffer) return EXR_ERR_CORRUPT_CHUNK;
+    memcpy(worker->unpacked, pipe->unpacked_buffer, pipe->chunk.unpacked_size);
+    return EXR_ERR_SUCCESS;
+}
+
+static bool unpack_foreign(struct job *job, struct worker *worker, const exr_chunk_info_t *chunk) {
     exr_decode_pipeline_t pipe = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_const_context_t context = job->exr->context;
     if (exr_decoding_initialize(context, (int)job->part, chunk, &pipe)) return false;
-    const bool ok = exr_decoding_run(context, (int)job->part, &pipe) == EXR_ERR_SUCCESS && pipe.unpacked_buffer &&
-                    pipe.unpacked_alloc_size >= chunk->unpacked_size;
-    if (ok) memcpy(worker->unpacked, pipe.unpacked_buffer, chunk->unpacked_size);
+    /* The default routines want to see channel pointers; the unpacking that would use them is replaced. */
+    for (int i = 0; i < pipe.channel_count; i++) {
+        pipe.channels[i].decode_to_ptr = worker->unpacked;
+        pipe.channels[i].user_pixel_stride = pipe.channels[i].bytes_per_element;
+        pipe.channels[i].user_line_stride = pipe.channels[i].bytes_per_element * pipe.channels[i].width;
+    }
+    bool ok = exr_decoding_choose_default_routines(context, (int)job->part, &pipe) == EXR_ERR_SUCCESS;
+    pipe.decoding_user_data = worker;
+    pipe.unpack_and_convert_fn = take_unpacked;
+    ok = ok && exr_decoding_run(context, (int)job->part, &pipe) == EXR_ERR_SUCCESS;
     exr_decoding_destroy(context, &pipe);
     return ok;
 }
@@ -91,7 +106,7 @@ static bool read_chunk(void *user, uint32_t w, size_t index) {
         if (!read_packed(job, worker, &chunk, index)) return false;
         if (!glint_zip_unpack(worker->zip, worker->packed, chunk.packed_size, worker->scratch, worker->unpacked, bytes))
             return chunk_fail(job, index, GLINT_ERROR_FORMAT, "damaged ZIP data");
-    } else if (part->compression == EXR_COMPRESSION_NONE || !unpack_other(job, worker, &chunk)) {
+    } else if (part->compression == EXR_COMPRESSION_NONE || !unpack_foreign(job, worker, &chunk)) {
         return chunk_fail(job, index, GLINT_ERROR_FORMAT, "damaged compressed data");
     }
     const uint8_t *planes[GLINT_EXR_MAX_WANTED];

@@ -83,6 +83,128 @@ static void frame_comes_back_bit_for_bit(void **state) {
     unlink(path);
 }
 
+/* ---- single values ---- */
+
+static void lengths_are_metres(void **state) {
+    (void)state;
+    char path[512];
+    static float out[6 * FIX_CUBE * FIX_CUBE];
+    struct glint_error err = {0};
+    struct glint_capture *capture = open_all(fixture_path(path, "lengths.exr"));
+    const char *const names[] = {"distance.Z"};
+    if (!glint_capture_read(capture, glint_capture_find(capture, "cubemap.000"), names, 1, GLINT_F32, out, 0, &err))
+        fail_msg("%s", err.message);
+    for (size_t i = 0; i < 6 * FIX_CUBE * FIX_CUBE; i++) {
+        const double metres = 0.01 * (double)fixture.cube[5 * i + 4];
+        if (isinf(metres)) assert_true(isinf(out[i]) && out[i] > 0);
+        else assert_true(fabs((double)out[i] - metres) <= metres * ldexp(1, -24)); /* one rounding to float */
+    }
+    glint_capture_close(&capture);
+    unlink(path);
+}
+
+/* A capture with one 256 x 256 channel `engine.any` / `any` of 65536 values. */
+static struct glint_capture *with_values(const char *path, enum glint_type type, const void *values) {
+    const struct glint_channel channel = {.name = "any", .type = type, .data = values};
+    const struct glint_part part = {
+        .name = "engine.any", .width = 256, .height = 256, .channels = &channel, .channel_count = 1};
+    const struct glint_frame frame = fixture_frame();
+    struct glint_error err = {0};
+    struct glint_writer *writer = glint_writer_create(path, NULL, &err);
+    bool ok = writer && glint_writer_set_frame(writer, &frame, &err) && glint_writer_add_part(writer, &part, &err);
+    for (int p = 0; ok && p <= FIXTURE_LIT; p++) {
+        struct fixture_channels channels;
+        const struct glint_part other = fixture_part(&fixture, (enum fixture_part)p, &channels);
+        ok = glint_writer_add_part(writer, &other, &err);
+    }
+    ok = ok && glint_writer_finish(writer, &err);
+    glint_writer_destroy(&writer);
+    struct glint_capture *capture = ok ? glint_capture_open(path, NULL, &err) : NULL;
+    if (!capture) fail_msg("%s", err.message);
+    return capture;
+}
+
+static void read_values(struct glint_capture *capture, size_t count, enum glint_type type, void *out) {
+    struct glint_error err = {0};
+    const char *const names[] = {"any", NULL};
+    const struct glint_part_info *part = glint_capture_find(capture, "engine.any");
+    if (!glint_capture_read(capture, part, names, count, type, out, 0, &err)) fail_msg("%s", err.message);
+}
+
+static void every_half_keeps_its_bits(void **state) {
+    (void)state;
+    char path[512];
+    static uint16_t in[65536], back[2 * 65536];
+    static float wide[65536];
+    for (uint32_t i = 0; i < 65536; i++) in[i] = (uint16_t)i;
+    struct glint_capture *capture = with_values(fixture_path(path, "half.exr"), GLINT_F16, in);
+    read_values(capture, 2, GLINT_F16, back);
+    for (uint32_t i = 0; i < 65536; i++) assert_true(back[2 * i] == in[i] && back[2 * i + 1] == 0);
+    read_values(capture, 1, GLINT_F32, wide);
+    for (uint32_t i = 0; i < 65536; i++) {
+        const int e = (int)(i >> 10 & 31), f = (int)(i & 1023);
+        const double value = e == 31 ? (f ? (double)NAN : (double)INFINITY)
+                             : e     ? ldexp(1024 + f, e - 25)
+                                     : ldexp(f, -24);
+        if (isnan(value)) assert_true(isnan(wide[i]));
+        else assert_true((double)wide[i] == (i & 0x8000 ? -value : value));
+    }
+    glint_capture_close(&capture);
+    unlink(path);
+}
+
+/* Floats read as halves are the nearest half, ties to even: checked against the exact neighbours. */
+static void floats_round_to_the_nearest_half(void **state) {
+    (void)state;
+    char path[512];
+    static float in[65536];
+    static uint16_t out[65536];
+    for (uint32_t i = 0; i < 65536; i++) {
+        const double magnitude = ldexp(1 + fixture_noise(i, 1), (int)(fixture_noise(i, 2) * 44) - 28);
+        in[i] = (float)(i & 1 ? -magnitude : magnitude);
+        /* Every eighth exactly between two halves. */
+        if (i % 8 == 0) in[i] = (float)ldexp(2 * (1024 + (int)(i >> 3 & 1023)) + 1, (int)(i % 29) - 25);
+    }
+    struct glint_capture *capture = with_values(fixture_path(path, "nearest.exr"), GLINT_F32, in);
+    read_values(capture, 1, GLINT_F16, out);
+    for (uint32_t i = 0; i < 65536; i++) {
+        double near[3]; /* the half below, the one returned, the one above */
+        for (int d = -1; d <= 1; d++) {
+            const int bits = (out[i] & 0x7fff) + d, e = bits >> 10, f = bits & 1023;
+            near[d + 1] = bits < 0 ? -ldexp(1, -24) : e ? ldexp(1024 + f, e - 25) : ldexp(f, -24);
+        }
+        const double v = fabs((double)in[i]), error = fabs(v - near[1]);
+        if (out[i] & 1) assert_true(error < fabs(v - near[0]) && error < fabs(v - near[2]));
+        else assert_true(error <= fabs(v - near[0]) && error <= fabs(v - near[2]));
+        assert_true(near[1] == 0 || (out[i] >> 15) == (in[i] < 0));
+    }
+    glint_capture_close(&capture);
+    unlink(path);
+}
+
+/* Each 8- and 16-bit value comes back as the nearest to its own code. */
+static void every_code_comes_back(void **state) {
+    (void)state;
+    static const enum glint_type types[] = {GLINT_UNORM8, GLINT_SNORM8, GLINT_UNORM16, GLINT_SNORM16};
+    static uint8_t small[65536];
+    static uint16_t large[65536];
+    static float out[65536];
+    for (uint32_t i = 0; i < 65536; i++) small[i] = (uint8_t)i, large[i] = (uint16_t)i;
+    for (size_t t = 0; t < 4; t++) {
+        char path[512];
+        struct glint_capture *capture =
+            with_values(fixture_path(path, "codes.exr"), types[t], t < 2 ? (void *)small : (void *)large);
+        read_values(capture, 1, GLINT_F32, out);
+        for (uint32_t i = 0; i < 65536; i++) {
+            const long codes[] = {(uint8_t)i, (int8_t)i, (uint16_t)i, (int16_t)i}, tops[] = {255, 127, 65535, 32767};
+            const long top = tops[t], code = codes[t] < -top ? -top : codes[t];
+            assert_int_equal(lround((double)out[i] * (double)top), code);
+        }
+        glint_capture_close(&capture);
+        unlink(path);
+    }
+}
+
 static int setup(void **state) {
     (void)state;
     fixture_init(&fixture);
@@ -93,6 +215,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_role_comes_back),
         cmocka_unit_test(frame_comes_back_bit_for_bit),
+        cmocka_unit_test(lengths_are_metres),
+        cmocka_unit_test(every_half_keeps_its_bits),
+        cmocka_unit_test(floats_round_to_the_nearest_half),
+        cmocka_unit_test(every_code_comes_back),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

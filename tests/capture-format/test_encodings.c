@@ -462,102 +462,6 @@ static void color(void **state) {
     check_color(GLINT_COLOR_LINEAR, &UNORM16, 1);
 }
 
-/* ---- lengths and halves ---- */
-
-static void lengths_are_metres(void **state) {
-    (void)state;
-    char path[512];
-    static float out[6 * FIX_CUBE * FIX_CUBE];
-    struct glint_error err = {0};
-    if (!fixture_write(&fixture, fixture_path(path, "lengths.exr"), FIXTURE_PARTS, NULL, &err))
-        fail_msg("%s", err.message);
-    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-    assert_non_null(capture);
-    decoded(capture, "cubemap.000", (const char *const[]){"distance.Z"}, 1, out);
-    for (size_t i = 0; i < 6 * FIX_CUBE * FIX_CUBE; i++) {
-        const float expected = fixture.cube[5 * i + 4];
-        if (isinf(expected)) assert_true(isinf(out[i]) && out[i] > 0);
-        else assert_true(fabs((double)out[i] - 0.01 * (double)expected) <= 0.01 * (double)expected * ldexp(1, -24));
-    }
-    close_and_remove(&capture, path);
-}
-
-static void every_half_keeps_its_bits(void **state) {
-    (void)state;
-    char path[512];
-    static uint16_t in[65536], back[2 * 65536];
-    static float wide[65536];
-    for (uint32_t i = 0; i < 65536; i++) in[i] = (uint16_t)i;
-    const struct glint_channel channel = {.name = "any", .type = GLINT_F16, .data = in};
-    const struct glint_part part = {
-        .name = "engine.halves", .width = 256, .height = 256, .channels = &channel, .channel_count = 1};
-    struct glint_error err = {0};
-    struct glint_writer *writer = glint_writer_create(fixture_path(path, "half.exr"), NULL, &err);
-    const struct glint_frame frame = fixture_frame();
-    bool ok = writer && glint_writer_set_frame(writer, &frame, &err) && glint_writer_add_part(writer, &part, &err);
-    for (int p = 0; ok && p <= FIXTURE_LIT; p++) {
-        struct fixture_channels channels;
-        const struct glint_part other = fixture_part(&fixture, (enum fixture_part)p, &channels);
-        ok = glint_writer_add_part(writer, &other, &err);
-    }
-    ok = ok && glint_writer_finish(writer, &err);
-    glint_writer_destroy(&writer);
-    struct glint_capture *capture = ok ? glint_capture_open(path, NULL, &err) : NULL;
-    if (!capture) fail_msg("%s", err.message);
-    const struct glint_part_info *info = glint_capture_find(capture, "engine.halves");
-    const char *const names[] = {"any", NULL};
-    if (!glint_capture_read(capture, info, names, 2, GLINT_F16, back, 0, &err)) fail_msg("%s", err.message);
-    for (uint32_t i = 0; i < 65536; i++) assert_true(back[2 * i] == in[i] && back[2 * i + 1] == 0);
-    if (!glint_capture_read(capture, info, names, 1, GLINT_F32, wide, 0, &err)) fail_msg("%s", err.message);
-    for (uint32_t i = 0; i < 65536; i++) {
-        const int e = (int)(i >> 10 & 31), f = (int)(i & 1023);
-        const double value = e == 31 ? (f ? NAN : INFINITY) : e ? ldexp(1024 + f, e - 25) : ldexp(f, -24);
-        if (isnan(value)) assert_true(isnan(wide[i]));
-        else assert_true((double)wide[i] == (i & 0x8000 ? -value : value));
-    }
-    close_and_remove(&capture, path);
-}
-
-/* Each 8- and 16-bit value comes back as the nearest to its own code. */
-static void every_code_comes_back(void **state) {
-    (void)state;
-    static const enum glint_type types[] = {GLINT_UNORM8, GLINT_SNORM8, GLINT_UNORM16, GLINT_SNORM16};
-    static uint8_t small[65536];
-    static uint16_t large[65536];
-    static float out[65536];
-    for (size_t t = 0; t < 4; t++) {
-        char path[512];
-        struct glint_error err = {0};
-        for (uint32_t i = 0; i < 65536; i++) small[i] = (uint8_t)i, large[i] = (uint16_t)i;
-        const struct glint_channel channel = {
-            .name = "any", .type = types[t], .data = t < 2 ? (void *)small : (void *)large};
-        const struct glint_part part = {
-            .name = "engine.codes", .width = 256, .height = 256, .channels = &channel, .channel_count = 1};
-        struct glint_writer *writer = glint_writer_create(fixture_path(path, "codes.exr"), NULL, &err);
-        const struct glint_frame frame = fixture_frame();
-        bool ok = writer && glint_writer_set_frame(writer, &frame, &err) && glint_writer_add_part(writer, &part, &err);
-        for (int p = 0; ok && p <= FIXTURE_LIT; p++) {
-            struct fixture_channels channels;
-            const struct glint_part other = fixture_part(&fixture, (enum fixture_part)p, &channels);
-            ok = glint_writer_add_part(writer, &other, &err);
-        }
-        ok = ok && glint_writer_finish(writer, &err);
-        glint_writer_destroy(&writer);
-        struct glint_capture *capture = ok ? glint_capture_open(path, NULL, &err) : NULL;
-        if (!capture) fail_msg("%s", err.message);
-        decoded(capture, "engine.codes", (const char *const[]){"any"}, 1, out);
-        for (uint32_t i = 0; i < 65536; i++) {
-            const long code = t == 0   ? (long)(uint8_t)i
-                              : t == 1 ? (long)(int8_t)i
-                              : t == 2 ? (long)(uint16_t)i
-                                       : (long)(int16_t)i;
-            const long top = t == 0 ? 255 : t == 1 ? 127 : t == 2 ? 65535 : 32767;
-            assert_int_equal(lround((double)out[i] * (double)top), code < -top ? -top : code);
-        }
-        close_and_remove(&capture, path);
-    }
-}
-
 static int setup(void **state) {
     (void)state;
     fixture_init(&fixture);
@@ -566,14 +470,8 @@ static int setup(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(depth),
-        cmocka_unit_test(normals),
-        cmocka_unit_test(roughness),
-        cmocka_unit_test(motion),
-        cmocka_unit_test(color),
-        cmocka_unit_test(lengths_are_metres),
-        cmocka_unit_test(every_half_keeps_its_bits),
-        cmocka_unit_test(every_code_comes_back),
+        cmocka_unit_test(depth),  cmocka_unit_test(normals), cmocka_unit_test(roughness),
+        cmocka_unit_test(motion), cmocka_unit_test(color),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
