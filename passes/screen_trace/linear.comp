@@ -14,6 +14,7 @@
 // is inverse + s · inverse_rate: with w for depth and P, D for projected origin and direction, the ray parameter is
 // t = s P.w/(1 - s D.w), so 1/w = (1 - s D.w)/P.w is linear in s, like the place.
 struct ScreenRay {
+    vec3 origin, direction; // view
     vec2 start, across;
     float depth_m, rate; // P.w and D.w
     float end;           // the last s inside picture, near plane and length
@@ -33,6 +34,8 @@ float exit(float start, float across, float size) {
 ScreenRay screen_ray(vec2 start, vec3 position, vec3 direction) {
     float front = frame.depth_range.z;
     ScreenRay ray;
+    ray.origin = position;
+    ray.direction = direction;
     ray.start = start;
     ray.depth_m = position.z * front;
     ray.rate = direction.z * front;
@@ -55,37 +58,43 @@ ScreenRay screen_ray(vec2 start, vec3 position, vec3 direction) {
     return ray;
 }
 
-// What the depth buffer shows at a place: inverse depth (0: sky) and its change per pixel.
-struct Seen {
-    float inverse;
-    vec2 slope;
+// Texels hold pixels that lie `offset` into their block.
+struct Grid {
+    vec2 offset;
+    float scale;
 };
 
-// Texels hold pixels that lie `offset` into their block. Between four texels of one surface 1/z is bilinear, which is
+ivec2 nearest_texel(vec2 place, Grid grid) {
+    return clamp(ivec2(floor((place - grid.offset) / grid.scale + 0.5)), ivec2(0), ivec2(frame.size.zw) - 1);
+}
+
+// Inverse depth that the buffer shows at a place; 0: sky. Between four texels of one surface 1/z is bilinear, which is
 // exact on planes; over a discontinuity the nearest one counts.
-Seen seen_at(vec2 place, vec2 offset, float scale) {
-    vec2 texel = (place - offset) / scale;
-    ivec2 last = ivec2(frame.size.zw) - 1;
-    ivec2 nearest = clamp(ivec2(floor(texel + 0.5)), ivec2(0), last);
-    Seen seen = Seen(0.0, vec2(0.0));
-    if (!interpolate) {
-        seen.inverse = 1.0 / texelFetch(depth_half, nearest, 0).x;
-        return seen;
-    }
-    ivec2 corner = clamp(ivec2(floor(texel)), ivec2(0), max(last - 1, 0));
+float seen_inverse(vec2 place, Grid grid) {
+    if (!interpolate) return 1.0 / texelFetch(depth_half, nearest_texel(place, grid), 0).x;
+    vec2 texel = (place - grid.offset) / grid.scale;
+    ivec2 corner = clamp(ivec2(floor(texel)), ivec2(0), max(ivec2(frame.size.zw) - 2, 0));
     vec2 part = clamp(texel - vec2(corner), 0.0, 1.0);
     // Gather's order: (0,1) (1,1) (1,0) (0,0).
     vec4 z = 1.0 / textureGather(sampler2D(depth_half, nearest_clamp), (vec2(corner) + 1.0) / vec2(frame.size.zw));
     float low = min(min(z.x, z.y), min(z.z, z.w)), high = max(max(z.x, z.y), max(z.z, z.w));
-    // One surface: opposite sides change alike, as 1/z does on a plane, or differ by little.
-    bool flat_here = abs(z.x - z.w - (z.y - z.z)) <= 0.02 * low && high < 2.0 * low;
-    if (flat_here) {
-        seen.inverse = mix(mix(z.w, z.z, part.x), mix(z.x, z.y, part.x), part.y);
-        seen.slope = vec2(mix(z.z - z.w, z.y - z.x, part.y), mix(z.x - z.w, z.y - z.z, part.x)) / scale;
-    } else {
-        seen.inverse = part.x < 0.5 ? (part.y < 0.5 ? z.w : z.x) : (part.y < 0.5 ? z.z : z.y);
-    }
-    return seen;
+    // One surface: opposite sides change alike, as 1/z does on a plane, and by no great part.
+    if (abs(z.x - z.w - (z.y - z.z)) <= 0.02 * low && high < 2.0 * low)
+        return mix(mix(z.w, z.z, part.x), mix(z.x, z.y, part.x), part.y);
+    return part.x < 0.5 ? (part.y < 0.5 ? z.w : z.x) : (part.y < 0.5 ? z.z : z.y);
+}
+
+// The surface of one texel as a plane, in view space.
+struct Facet {
+    vec3 position, normal;
+};
+
+Facet facet_at(vec2 place, Grid grid) {
+    ivec2 texel = nearest_texel(place, grid);
+    vec2 uv = (vec2(texel) * grid.scale + grid.offset) / vec2(frame.size.xy);
+    float depth_m = texelFetch(depth_half, texel, 0).x;
+    return Facet(view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z),
+                 mat3(frame.view_from_world) * texelFetch(normal_half, texel, 0).xyz);
 }
 
 struct Result {
@@ -94,85 +103,68 @@ struct Result {
     uint end, steps, fetches;
 };
 
-// The parameter at which the ray meets the surface of the sample behind it: on that sample's tangent plane where it
-// has one, else between the two samples. gap: 1/ray depth - 1/seen depth, negative behind.
-float meeting(ScreenRay ray, float s_front, float gap_front, float s, float gap, vec2 slope) {
-    float rate = -ray.rate / ray.depth_m - dot(slope, ray.across);
-    float on_plane = s - gap / rate;
-    if (rate < 0.0 && on_plane >= s_front) return on_plane;
+// The parameter at which the ray meets the surface of the sample behind it: on the facet, when that is within a texel of
+// the last step, else between the two samples. gap: 1/ray depth - 1/seen depth, negative behind.
+float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front, float s, float gap, float scale) {
+    float t = dot(facet.normal, facet.position - ray.origin) / dot(facet.normal, ray.direction);
+    float on_facet = t / (ray.depth_m + t * ray.rate), texel = scale / length(ray.across);
+    if (t > 0.0 && on_facet >= s_front - texel && on_facet <= s + texel) return on_facet;
     return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));
 }
 
-bool seen_from_behind(ScreenRay ray, float s, float scale, vec3 world_direction) {
-    ivec2 texel = ivec2((ray.start + s * ray.across) / scale);
-    vec3 normal = texelFetch(normal_half, clamp(texel, ivec2(0), ivec2(frame.size.zw) - 1), 0).xyz;
-    return dot(normal, world_direction) > 0.0;
-}
-
-Result march(ScreenRay ray, vec2 offset, float scale, float shift, vec3 world_direction) {
+Result march(ScreenRay ray, Grid grid, float shift) {
     Result result = Result(0.0, false, ray.limit, 0u, 0u);
     precise float s_front = 0.0, gap_front = 0.0, s_before = 0.0;
-    uint behind = END_not_traced; // why the ray was last behind something
+    bool been_behind = false;
     for (int i = 1; i <= steps; ++i) {
         precise float s = ray.end * pow((float(i) - shift) / float(steps), growth);
         precise float inverse = inverse_depth_at(ray, s);
-        Seen seen = seen_at(ray.start + s * ray.across, offset, scale);
+        vec2 place = ray.start + s * ray.across;
+        precise float seen = seen_inverse(place, grid);
+        precise float gap = inverse - seen;
         result.steps++;
         result.fetches++;
-        precise float gap = inverse - seen.inverse;
+        // The ray's nearest depth within the step, against the far side of what is seen.
+        float least_m = 1.0 / max(inverse, inverse_depth_at(ray, s_before)), seen_m = 1.0 / seen;
+        s_before = s;
         if (gap >= -bias * inverse) {
-            if (behind == END_not_traced || pass_behind) {
-                s_front = s;
-                gap_front = gap;
-            }
-            if (behind == END_not_traced) result.travelled_m = travelled_at(ray, s);
-            s_before = s;
+            s_front = s;
+            gap_front = gap;
+            if (!been_behind) result.travelled_m = travelled_at(ray, s);
             continue;
         }
-        // Behind by at most the thickness at one end of the step.
-        float least = min(1.0 / inverse, 1.0 / inverse_depth_at(ray, s_before));
-        float seen_m = 1.0 / seen.inverse;
-        bool solid = least - seen_m <= thickness * seen_m + thickness_m;
-        s_before = s;
         uint reason = END_behind;
-        if (solid) {
-            result.fetches += back_faces ? 1u : 0u;
-            if (!back_faces || !seen_from_behind(ray, s, scale, world_direction)) {
-                float s_end = refine ? meeting(ray, s_front, gap_front, s, gap, seen.slope) : s;
-                result.travelled_m = travelled_at(ray, s_end);
-                result.finished = true;
-                result.end = END_hit;
-                return result;
+        if (least_m - seen_m <= thickness * seen_m + thickness_m) {
+            Facet facet = facet_at(place, grid);
+            result.fetches += 2u;
+            if (!back_faces || dot(facet.normal, ray.direction) < 0.0) {
+                float s_end = refine ? meeting(ray, facet, s_front, gap_front, s, gap, grid.scale) : s;
+                return Result(travelled_at(ray, s_end), true, END_hit, result.steps, result.fetches);
             }
             reason = END_back_face;
         }
-        behind = reason;
+        been_behind = true;
+        result.end = reason;
         if (!pass_behind) break;
     }
-    if (behind != END_not_traced) result.end = behind;
     return result;
 }
 
 Result trace(ivec2 pixel, float depth_m, vec3 normal) {
-    uint picked = texelFetch(pick, pixel, 0).x;
-    vec2 start = picked_position(pixel, picked, frame.size);
+    vec2 start = picked_position(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 view = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);
-    mat3 view_from_world = mat3(frame.view_from_world);
-    vec3 direction = mirror_direction(view, view_from_world * normal);
+    vec3 direction = mirror_direction(view, mat3(frame.view_from_world) * normal);
     if (length_m <= 0.0) return Result(0.0, false, END_steps_exhausted, 0u, 0u);
     if (dot(direction, -normalize(view)) > viewer_limit) return Result(0.0, false, END_faced_viewer, 0u, 0u);
     ScreenRay ray = screen_ray(start, view, direction);
     float scale = reduction(frame.size);
-    vec2 offset = start - scale * vec2(pixel);
+    Grid grid = Grid(start - scale * vec2(pixel), scale);
     float shift = dither ? random4(uvec2(pixel), frame.counts.y, RANDOM_SCREEN_START).x : 0.0;
-    Result result = march(ray, offset, scale, shift, direction * view_from_world);
+    Result result = march(ray, grid, shift);
     if (sky && ray.vanishes && result.end == ray.limit) {
-        if (seen_at(ray.start + ray.end * ray.across, offset, scale).inverse == 0.0) {
-            result.travelled_m = INFINITE;
-            result.finished = true;
-            result.end = END_sky;
-        }
         result.fetches++;
+        if (seen_inverse(ray.start + ray.end * ray.across, grid) == 0.0)
+            return Result(INFINITE, true, END_sky, result.steps, result.fetches);
     }
     return result;
 }

@@ -20,21 +20,18 @@ float lobe_angle(float roughness, float threshold) {
 }
 
 // Half-vector with density ∝ cosⁿ per solid angle, cut at share · lobe_angle (000, Modified NDF):
-// θ = acos(u^(1/(n+1))) with u scaled into [minRnd, 1), minRnd = cos(share · angle)^(n+1). share = 1 cuts nothing.
-// Deviation: 1 - cos θ is computed instead of cos θ, so that θ is right for any power.
+// θ = acos(rnd^(1/(n+1))) with rnd scaled into [minRnd, 1), minRnd = cos(share · angle)^(n+1). share = 1 cuts nothing.
+// Deviation: what is computed is 1 - minRnd, 1 - rnd and 1 - cos θ, so that θ is right for any power.
 vec3 sample_blinn_phong(vec2 u, float roughness, float share, float threshold) {
     float r2 = roughness * roughness, r4 = r2 * r2;
     float inverse = r4 / (2.0 - r4); // 1/(n+1)
     if (inverse == 0.0) return vec3(0.0, 0.0, 1.0);
-    float lowest = 0.0;
-    if (share < 1.0) {
-        float s = sin(0.5 * share * lobe_angle(roughness, threshold));
-        lowest = exp(log1p(-2.0 * s * s) / inverse);
-    }
-    float versine = -expm1(log(mix(lowest, 1.0, u.x)) * inverse); // 1 - cos θ
-    float sine = sqrt(max(versine * (2.0 - versine), 0.0));
+    float kept = 1.0; // 1 - minRnd
+    if (share < 1.0) kept = -expm1(log1p(-versine(share * lobe_angle(roughness, threshold))) / inverse);
+    float away = -expm1(log1p(-kept * (1.0 - u.x)) * inverse); // 1 - cos θ
+    float sine = sqrt(max(away * (2.0 - away), 0.0));
     float phi = 2.0 * PI * u.y;
-    return vec3(sine * cos(phi), sine * sin(phi), 1.0 - versine);
+    return vec3(sine * cos(phi), sine * sin(phi), 1.0 - away);
 }
 
 // GGX visible normal, alpha = r². J. Dupuy, A. Benyoub, Sampling Visible GGX Normals with Spherical Caps, CGF 42(8),
@@ -53,8 +50,8 @@ vec3 sample_ggx_visible(vec2 u, vec3 view, float alpha) {
 float ggx_cut_tangent2(float alpha, float share, float threshold) {
     float a2 = alpha * alpha;
     float sine2 = min((inversesqrt(threshold) - 1.0) * a2 / max(1.0 - a2, 1e-6), 1.0);
-    float t = tan(min(share * asin(sqrt(sine2)), HALF_PI - 1e-4));
-    return t * t;
+    float q = min(versine(share * arc(sqrt(sine2), sqrt(1.0 - sine2))), 0.9999);
+    return q * (2.0 - q) / ((1.0 - q) * (1.0 - q));
 }
 
 // GGX normal with density ∝ D cosθ cut there: tan²θ = α² u/(1 - u), u scaled into [0, u(cut)). The slides' cut carried over

@@ -1,0 +1,143 @@
+#include "gpu.h"
+
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static void check(bool ok, const struct glint_error *err) {
+    if (!ok) fail_msg("%s", err->message);
+}
+
+void gpu_reset(struct gpu *gpu) {
+    struct glint_error err = {0};
+    glint_pipeline_destroy(&gpu->pipeline);
+    gpu->pipeline = glint_pipeline_create(GLINT_TEST_PRESET, &err);
+    check(gpu->pipeline != NULL, &err);
+    gpu->float_precision = gpu->all = false;
+}
+
+int gpu_set_up(void **state) {
+    struct glint_error err = {0};
+    struct gpu *gpu = calloc(1, sizeof *gpu);
+    assert_non_null(gpu);
+    strcpy(gpu->folder, "/tmp/glint-passes-XXXXXX");
+    assert_non_null(mkdtemp(gpu->folder));
+    gpu->device = glint_device_create(&(struct glint_device_options){.validation = true}, &err);
+    check(gpu->device != NULL, &err);
+    gpu->replay = glint_replay_create(gpu->device, &err);
+    check(gpu->replay != NULL, &err);
+    gpu_reset(gpu);
+    *state = gpu;
+    return 0;
+}
+
+static void remove_folder(const char *folder) {
+    DIR *dir = opendir(folder);
+    for (const struct dirent *entry; dir && (entry = readdir(dir));) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (entry->d_name[0] != '.') unlink(path);
+    }
+    if (dir) closedir(dir);
+    rmdir(folder);
+}
+
+int gpu_tear_down(void **state) {
+    struct gpu *gpu = *state;
+    const char *last = "";
+    uint32_t messages = glint_device_messages(gpu->device, &last);
+    if (messages > 0) fprintf(stderr, "validation: %u messages, the last one: %s\n", messages, last);
+    glint_replay_load(gpu->replay, NULL, NULL);
+    glint_capture_close(&gpu->capture);
+    glint_pipeline_destroy(&gpu->pipeline);
+    glint_replay_destroy(&gpu->replay);
+    glint_device_destroy(&gpu->device);
+    remove_folder(gpu->folder);
+    free(gpu);
+    return messages > 0 ? -1 : 0;
+}
+
+void gpu_set(struct gpu *gpu, const char *assignment) {
+    struct glint_error err = {0};
+    check(glint_pipeline_set(gpu->pipeline, assignment, &err), &err);
+}
+
+void gpu_use(struct gpu *gpu, const char *assignment) {
+    struct glint_error err = {0};
+    check(glint_pipeline_use(gpu->pipeline, assignment, &err), &err);
+}
+
+void gpu_shader(struct gpu *gpu, const char *slot, const char *file) {
+    struct glint_error err = {0};
+    char assignment[1024];
+    snprintf(assignment, sizeof assignment, "%s=%s/%s", slot, GLINT_TEST_SHADERS, file);
+    check(glint_pipeline_shader(gpu->pipeline, assignment, &err), &err);
+}
+
+const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]) {
+    snprintf(path, 256, "%s/%s.exr", gpu->folder, name);
+    return path;
+}
+
+void gpu_load(struct gpu *gpu, const char *name) {
+    struct glint_error err = {0};
+    char path[256];
+    check(glint_replay_load(gpu->replay, NULL, &err), &err);
+    glint_capture_close(&gpu->capture);
+    gpu->capture = glint_capture_open(gpu_path(gpu, name, path), NULL, &err);
+    check(gpu->capture != NULL, &err);
+    check(glint_replay_load(gpu->replay, gpu->capture, &err), &err);
+}
+
+void gpu_sample(struct gpu *gpu, const char *scene, const char *name, const struct glint_sample_options *options) {
+    struct glint_error err = {0};
+    char path[256];
+    if (access(gpu_path(gpu, name, path), R_OK) != 0)
+        check(glint_sample_write(scene, path, options, NULL, NULL, &err), &err);
+    gpu_load(gpu, name);
+}
+
+void gpu_run(struct gpu *gpu) {
+    struct glint_error err = {0};
+    struct glint_replay_options options = {
+        .diagnostics = true, .float_precision = gpu->float_precision, .all = gpu->all};
+    check(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
+}
+
+static void *get(struct gpu *gpu, const char *name, enum glint_type type, uint32_t *width, uint32_t *height) {
+    struct glint_error err = {0};
+    const struct glint_image *image = glint_replay_find_image(gpu->replay, name);
+    if (!image) fail_msg("image %s: the run has none", name);
+    if (width) *width = image->width;
+    if (height) *height = image->height;
+    void *out = malloc((size_t)image->width * image->height * image->components * sizeof(float));
+    assert_non_null(out);
+    check(glint_replay_read_image(gpu->replay, image, type, out, &err), &err);
+    return out;
+}
+
+float *gpu_floats(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height) {
+    return get(gpu, image, GLINT_F32, width, height);
+}
+
+uint32_t *gpu_uints(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height) {
+    return get(gpu, image, GLINT_U32, width, height);
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double quantile(double *values, size_t count, double part) {
+    assert_true(count > 0);
+    qsort(values, count, sizeof *values, ascending);
+    size_t i = (size_t)(part * (double)count);
+    return values[i < count ? i : count - 1];
+}

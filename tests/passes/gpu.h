@@ -1,0 +1,41 @@
+/* What the device tests of passes/ share: a replay on the test device, captures in a folder of its own. Every failure is
+   a failed assertion. */
+#ifndef GLINT_TESTS_PASSES_GPU_H
+#define GLINT_TESTS_PASSES_GPU_H
+
+#include "glint/replay.h"
+#include "glint/samples.h"
+
+struct gpu {
+    struct glint_device *device;
+    struct glint_replay *replay;
+    struct glint_pipeline *pipeline;
+    struct glint_capture *capture;
+    bool float_precision, all;
+    char folder[64];
+};
+
+/* Group set-up and tear-down for cmocka: *state becomes a struct gpu with the mafia3 preset. The tear-down fails when the
+   validation layer said anything. */
+int gpu_set_up(void **state);
+int gpu_tear_down(void **state);
+/* A fresh mafia3 pipeline. */
+void gpu_reset(struct gpu *gpu);
+void gpu_set(struct gpu *gpu, const char *assignment);
+void gpu_use(struct gpu *gpu, const char *assignment);
+void gpu_shader(struct gpu *gpu, const char *slot, const char *file);
+/* A path in the folder; valid until the next call with the same buffer. */
+const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]);
+/* Writes the sample under `name` unless it is already there, and loads it. */
+void gpu_sample(struct gpu *gpu, const char *scene, const char *name, const struct glint_sample_options *options);
+void gpu_load(struct gpu *gpu, const char *name);
+/* With diagnostics. */
+void gpu_run(struct gpu *gpu);
+/* Images of the last run; the caller frees. width and height may be NULL. */
+float *gpu_floats(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);
+uint32_t *gpu_uints(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);
+
+/* The value below which `part` of the values lie; sorts them. */
+double quantile(double *values, size_t count, double part);
+
+#endif

@@ -1,0 +1,133 @@
+/* downsample/pick: distributions of its normals, and which pixel it takes. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { SIZE = 256, DRAWS = SIZE * SIZE / 4 };
+/* Kolmogorov and Smirnov: one sample in 1,000 lies farther from its distribution. */
+static const double farthest = 1.95 / 128; /* √DRAWS */
+
+/* Half a degree of view onto a plane: all view directions are the normal, and with a power of 30 a draw in 50,000 is
+   below the horizon. */
+static void load(struct gpu *gpu, float roughness) {
+    char path[256], name[32];
+    snprintf(name, sizeof name, "plane%.0f", (double)roughness * 100);
+    plain_capture(gpu_path(gpu, name, path), SIZE, SIZE, roughness, 0.5);
+    gpu_load(gpu, name);
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+}
+
+/* Cosines to the plane's normal, +z. */
+static double *cosines(struct gpu *gpu) {
+    gpu_run(gpu);
+    uint32_t width, height;
+    float *normal = gpu_floats(gpu, "normal_jittered", &width, &height);
+    assert_int_equal(width * height, DRAWS);
+    double *cosine = malloc(DRAWS * sizeof *cosine), sum[2] = {0, 0};
+    assert_non_null(cosine);
+    for (size_t i = 0; i < DRAWS; ++i) {
+        const float *n = &normal[4 * i];
+        cosine[i] = (double)n[2];
+        for (int k = 0; k < 2; ++k) sum[k] += (double)n[k];
+        assert_true(fabs((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) - 1) < 1e-5);
+    }
+    /* No side is preferred: four standard deviations of a mean of values below 1. */
+    for (int k = 0; k < 2; ++k) assert_true(fabs(sum[k]) / DRAWS < 4.0 / 128);
+    free(normal);
+    return cosine;
+}
+
+/* Part of the lobe whose cosine is below c. */
+typedef double distribution(double c);
+static double phong(double c) {
+    return pow(c, 31);
+}
+/* Cut at half the angle where c^30 is 0.1, and what is left made whole. */
+static double phong_cut(double c) {
+    double lowest = pow(cos(0.5 * acos(pow(0.1, 1 / 30.0))), 31);
+    return c <= 0 ? 0 : fmax(0, (pow(c, 31) - lowest) / (1 - lowest));
+}
+/* At normal incidence visible normals have the density D cos: u = tan²/(a² + tan²) lies below. */
+static double ggx(double c) {
+    double t2 = 1 / (c * c) - 1, a2 = 0.25 * 0.25;
+    return 1 - t2 / (a2 + t2);
+}
+/* The same without the part whose mirrored ray would go below the horizon, beyond 45 degrees. */
+static double ggx_above(double c) {
+    return fmax(0, (ggx(c) - ggx(sqrt(0.5))) / (1 - ggx(sqrt(0.5))));
+}
+
+static void expect_distribution(double *cosine, distribution *below, const char *what) {
+    double most = 0;
+    (void)quantile(cosine, DRAWS, 0.5); /* sorts */
+    for (int i = 0; i < DRAWS; ++i) most = fmax(most, fabs(below(cosine[i]) - (i + 0.5) / DRAWS));
+    print_message("# %s: distribution within %.4f, one in a thousand lies beyond %.4f\n", what, most, farthest);
+    assert_true(most < farthest);
+    free(cosine);
+}
+
+static void blinn_phong_is_the_slides(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, 0.5f);
+    gpu_set(gpu, "downsample.ndf=blinn_phong");
+    expect_distribution(cosines(gpu), phong, "Blinn-Phong, power 30");
+}
+
+static void a_share_cuts_the_angle_and_keeps_proportions(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, 0.5f);
+    gpu_set(gpu, "downsample.ndf=blinn_phong");
+    gpu_set(gpu, "downsample.share=0.5");
+    double *cosine = cosines(gpu);
+    for (int i = 0; i < DRAWS; ++i) assert_true(cosine[i] >= cos(0.387 / 2) - 1e-4);
+    expect_distribution(cosine, phong_cut, "half the angle of power 30");
+}
+
+static void ggx_is_the_default(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, 0.5f);
+    expect_distribution(cosines(gpu), ggx_above, "GGX, alpha 0.25");
+}
+
+static void roughness_zero_and_no_jitter_are_the_normal(void **state) {
+    struct gpu *gpu = *state;
+    for (int i = 0; i < 2; ++i) {
+        load(gpu, i == 0 ? 0.0f : 0.5f);
+        if (i == 1) gpu_set(gpu, "downsample.jitter=0");
+        double *cosine = cosines(gpu);
+        for (int k = 0; k < DRAWS; ++k) assert_true(cosine[k] == 1);
+        free(cosine);
+    }
+}
+
+static void the_pick_alternates_or_is_the_first(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, 0.5f);
+    for (int alternate = 1; alternate >= 0; --alternate) {
+        gpu_set(gpu, alternate ? "downsample.alternate=1" : "downsample.alternate=0");
+        gpu_run(gpu);
+        uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL);
+        for (int i = 0; i < DRAWS; ++i) assert_int_equal(pick[i], alternate ? 3 : 0); /* frame 1: the diagonal */
+        free(pick);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blinn_phong_is_the_slides),
+        cmocka_unit_test(a_share_cuts_the_angle_and_keeps_proportions),
+        cmocka_unit_test(ggx_is_the_default),
+        cmocka_unit_test(roughness_zero_and_no_jitter_are_the_normal),
+        cmocka_unit_test(the_pick_alternates_or_is_the_first),
+    };
+    return cmocka_run_group_tests_name("gpu_downsample_pick", tests, gpu_set_up, gpu_tear_down);
+}
