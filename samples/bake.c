@@ -65,6 +65,24 @@ static void gather_piece(void *user, uint32_t piece) {
     }
 }
 
+/* Neighbours of a vertex share its face: averaging with them takes the noise of gathering out, and no light round a
+   corner. */
+static void smooth_mesh(const struct mesh *mesh, vec3 *light, vec3 *sums, uint32_t *counts) {
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        sums[v] = gray(0);
+        counts[v] = 0;
+    }
+    for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        uint32_t next = i % 3 == 2 ? i - 2 : i + 1, from = mesh->triangles[i], to = mesh->triangles[next];
+        sums[from] = add(sums[from], light[to]);
+        sums[to] = add(sums[to], light[from]);
+        counts[from]++;
+        counts[to]++;
+    }
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        if (counts[v]) light[v] = mix(light[v], scale(sums[v], 1 / (float)counts[v]), 0.6f);
+}
+
 static void direct_piece(void *user, uint32_t piece) {
     struct bake *bake = user;
     uint32_t end = (piece + 1) * PIECE < bake->vertex_count ? (piece + 1) * PIECE : bake->vertex_count;
@@ -90,6 +108,8 @@ bool bake_light(struct scene *scene, uint32_t samples, struct job *job, double w
     bool ok = false;
     struct bake bake = {.scene = scene, .samples = samples};
     struct world *world = NULL;
+    vec3 *sums = NULL;
+    uint32_t *counts = NULL;
     bake.first = calloc(scene->mesh_count + 1, sizeof *bake.first);
     if (!bake.first) goto no_memory;
     for (uint32_t m = 0; m < scene->mesh_count; m++) {
@@ -99,7 +119,9 @@ bool bake_light(struct scene *scene, uint32_t samples, struct job *job, double w
     bake.direct = calloc(bake.vertex_count + 1, sizeof(vec3));
     bake.gathered = calloc(bake.vertex_count + 1, sizeof(vec3));
     bake.next = calloc(bake.vertex_count + 1, sizeof(vec3));
-    if (!bake.direct || !bake.gathered || !bake.next) goto no_memory;
+    sums = calloc(bake.vertex_count + 1, sizeof *sums);
+    counts = calloc(bake.vertex_count + 1, sizeof *counts);
+    if (!bake.direct || !bake.gathered || !bake.next || !sums || !counts) goto no_memory;
     world = world_create(scene, WORLD_STATIC, 0, err);
     if (!world) goto done;
     bake.world = world;
@@ -108,6 +130,8 @@ bool bake_light(struct scene *scene, uint32_t samples, struct job *job, double w
     if (!parallel_for(job, "lighting", 0, pieces, direct_piece, &bake, err)) goto done;
     for (uint32_t i = 0; i < passes; i++) {
         if (!parallel_for(job, "lighting", weight, pieces, gather_piece, &bake, err)) goto done;
+        for (uint32_t k = 0; k < 2 * scene->mesh_count; k++) /* twice */
+            smooth_mesh(&scene->meshes[k / 2], bake.next + bake.first[k / 2], sums, counts);
         vec3 *swapped = bake.gathered;
         bake.gathered = bake.next;
         bake.next = swapped;
@@ -122,5 +146,7 @@ done:
     free(bake.direct);
     free(bake.gathered);
     free(bake.next);
+    free(sums);
+    free(counts);
     return ok;
 }

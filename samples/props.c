@@ -161,3 +161,33 @@ void prop_stairs(struct scene *scene, uint32_t count, float width_m, const struc
                         v3(width_m, 0.17f * (float)(i + 1), -0.3f * (float)i),
                         FACE_ALL & ~(uint32_t)(FACE_NY | FACE_NZ));
 }
+
+void prop_wall(struct scene *scene, float length_m, float height_m, float thickness_m, const struct opening *openings,
+               uint32_t count) {
+    float at = 0;
+    for (uint32_t i = 0; i <= count; i++) {
+        float to = i < count ? openings[i].from : length_m;
+        if (to > at) scene_box(scene, v3(at, 0, 0), v3(to, height_m, thickness_m));
+        if (i == count) break;
+        const struct opening *o = &openings[i];
+        if (o->low > 0) scene_box(scene, v3(o->from, 0, 0), v3(o->to, o->low, thickness_m));
+        if (o->high < height_m) scene_box(scene, v3(o->from, o->high, 0), v3(o->to, height_m, thickness_m));
+        at = o->to;
+    }
+}
+
+void prop_window_frame(struct scene *scene, const struct opening *o, float thickness_m, uint32_t columns,
+                       uint32_t rows) {
+    const struct material painted = {
+        .albedo = gray(0.7f), .roughness = 0.3f, .specular = 0.5f, .stencil = STENCIL_WORLD};
+    float z0 = 0.35f * thickness_m, z1 = 0.65f * thickness_m, bar = 0.035f;
+    scene_mesh(scene, &painted, MESH_DETAIL);
+    for (uint32_t i = 0; i <= columns; i++) {
+        float x = o->from + (o->to - o->from) * (float)i / (float)columns;
+        scene_box(scene, v3(fmaxf(x - bar, o->from), o->low, z0), v3(fminf(x + bar, o->to), o->high, z1));
+    }
+    for (uint32_t j = 0; j <= rows; j++) {
+        float y = o->low + (o->high - o->low) * (float)j / (float)rows;
+        scene_box(scene, v3(o->from, fmaxf(y - bar, o->low), z0), v3(o->to, fminf(y + bar, o->high), z1));
+    }
+}

@@ -56,7 +56,7 @@ static bool check_options(const struct glint_sample_options *o, struct glint_err
 
 static bool build_scene(const char *name, struct session *s, struct glint_error *err) {
     static void (*const builders[])(struct scene *) = {
-#define BUILDER(name, summary) scene_##name,
+#define BUILDER(name, summary) build_##name,
         SCENES(BUILDER)
 #undef BUILDER
     };

@@ -94,16 +94,19 @@ void scene_contact(struct scene *scene, vec3 low, vec3 high) {
 void scene_spot(struct scene *scene, vec3 position, vec3 axis, vec3 intensity, float range, float inner_rad,
                 float outer_rad) {
     if (scene->light_count == SCENE_MAX_LIGHTS) return;
-    scene->lights[scene->light_count++] = (struct light){add(turned(scene, position), scene->place),
-                                                         intensity,
-                                                         unit(turned(scene, axis)),
-                                                         cosf(inner_rad),
-                                                         cosf(outer_rad),
-                                                         range};
+    scene->lights[scene->light_count++] = (struct light){.position = add(turned(scene, position), scene->place),
+                                                         .intensity = intensity,
+                                                         .axis = unit(turned(scene, axis)),
+                                                         .cos_inner = cosf(inner_rad),
+                                                         .cos_outer = cosf(outer_rad),
+                                                         .range = range,
+                                                         .radius = 0.03f};
 }
 
-void scene_lamp(struct scene *scene, vec3 position, vec3 intensity, float range) {
+void scene_lamp(struct scene *scene, vec3 position, vec3 intensity, float range, float radius) {
+    uint32_t i = scene->light_count;
     scene_spot(scene, position, gray(0), intensity, range, 0, 0);
+    if (i < scene->light_count) scene->lights[i].radius = radius;
 }
 
 struct glint_cubemap *scene_cubemap(struct scene *scene, vec3 center, bool outdoor) {

@@ -46,6 +46,7 @@ struct light {
     vec3 axis;                  /* of a spot; 0: shines everywhere */
     float cos_inner, cos_outer; /* full inside, none outside */
     float range;                /* fades to nothing here */
+    float radius;               /* nothing this near casts a shadow: the lamp's own body */
 };
 
 /* What a moving thing takes of the baked light around it: the soft shadow under a car. */
@@ -121,7 +122,7 @@ void scene_extrude(struct scene *scene, const float (*polygon)[2], uint32_t coun
 
 /* The box of a moving thing, in world coordinates at frame 1, moving by the current step. */
 void scene_contact(struct scene *scene, vec3 low, vec3 high);
-void scene_lamp(struct scene *scene, vec3 position, vec3 intensity, float range);
+void scene_lamp(struct scene *scene, vec3 position, vec3 intensity, float range, float radius);
 void scene_spot(struct scene *scene, vec3 position, vec3 axis, vec3 intensity, float range, float inner_rad,
                 float outer_rad);
 struct glint_cubemap *scene_cubemap(struct scene *scene, vec3 center, bool outdoor);

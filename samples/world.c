@@ -182,7 +182,7 @@ vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
         float factor = (1 - ratio) * (1 - ratio) * cosine / (distance * fmaxf(square, 0.01f));
         if (light->cos_outer < 1)
             factor *= smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / distance);
-        if (factor > 0 && !world_blocked(world, from, way, 1 - 0.02f / fmaxf(distance, 0.03f)))
+        if (factor > 0 && !world_blocked(world, from, way, 1 - light->radius / fmaxf(distance, 2 * light->radius)))
             sum = along(sum, light->intensity, factor);
     }
     return sum;

@@ -16,10 +16,11 @@ static void block(struct scene *scene, vec3 low, vec3 high, struct material mate
     scene_box(scene, low, high);
 }
 
-void scene_matte(struct scene *scene) {
+void build_matte(struct scene *scene) {
     scene->sky = sky;
-    scene->sun_direction = unit(v3(-0.45f, 0.75f, 0.5f));
+    scene->sun_direction = unit(v3(-0.72f, 0.55f, 0.18f));
     scene->sun_irradiance = v3(3.6f, 3.2f, 2.6f);
+    scene->exposure = 0.62;
     scene->cell = 0.35f;
     scene_mesh(scene, &(struct material){.albedo = {0.62f, 0.55f, 0.45f}, .roughness = 1, .stencil = STENCIL_WORLD},
                MESH_PLAIN);

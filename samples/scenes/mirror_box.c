@@ -9,7 +9,7 @@ static void paint_wall(struct surface *s) {
                      0.55f + 0.35f * sinf(1.2f * p.z - 0.8f * p.x));
 }
 
-void scene_mirror_box(struct scene *scene) {
+void build_mirror_box(struct scene *scene) {
     const vec3 low = v3(0, 0, 0), high = v3(8, 4, 6);
     const struct material wall = {.albedo = {0.5f, 0.5f, 0.5f},
                                   .emission = {0.5f, 0.5f, 0.5f},

@@ -109,9 +109,20 @@ static void paint_shop(struct surface *s) {
     float board = y < 2.3f ? (y - 0.62f) / 0.56f : 0, above = board - floorf(board);
     float height = cell_random((int32_t)floorf(4.5f * z), (int32_t)floorf(board), id & 63);
     bool goods = y < 2.3f && above < 0.25f + 0.55f * height && above > 0.06f;
-    vec3 tint = goods ? mix(v3(0.8f, 0.25f + height, 0.9f - 0.8f * height), gray(0.45f), 0.55f) : gray(0.85f);
-    float ceiling = 0.45f + 0.55f * smooth(0.6f, 3, y);
+    float hue = cell_random((int32_t)floorf(1.5f * z), (int32_t)floorf(board), 5);
+    vec3 tint =
+        goods ? mix(v3(0.9f - 0.7f * hue, 0.2f + 0.3f * height, 0.15f + 0.6f * hue), gray(0.3f), 0.35f) : gray(0.9f);
+    float ceiling = 0.22f + 0.5f * smooth(0.6f, 3, y);
     s->emission = times(scale(s->emission, ceiling * (above < 0.06f && y < 2.3f ? 0.25f : 1)), tint);
+}
+
+/* Letters of no language: a bit pattern in each cell of the board. */
+static void paint_sign(struct surface *s) {
+    float u = s->position.z / 0.42f, v = (s->position.y - 3.46f) / 0.22f, fu = u - floorf(u);
+    uint32_t glyph = hash_two((uint32_t)(int32_t)floorf(u), s->position.x > 0);
+    uint32_t column = (uint32_t)(fu * 5), row = v < 0 ? 9 : (uint32_t)(v * 3);
+    bool stroke = column < 4 && row < 3 && (column == 0 || glyph >> (3 * column + row) & 1);
+    s->emission = scale(s->emission, stroke ? 1.5f : 0.07f);
 }
 
 static struct material stone(vec3 albedo) {
@@ -182,8 +193,12 @@ static void shop_front(struct scene *scene, const struct house *h) {
     const struct material glass = pane(h->shop, paint_shop),
                           frame = {
                               .albedo = gray(0.05f), .roughness = 0.4f, .specular = 0.5f, .stencil = STENCIL_WORLD};
-    const struct material sign = {
-        .albedo = gray(0.1f), .emission = h->sign, .roughness = 0.3f, .specular = 0.4f, .stencil = STENCIL_WORLD};
+    const struct material sign = {.albedo = gray(0.1f),
+                                  .emission = h->sign,
+                                  .roughness = 0.3f,
+                                  .specular = 0.4f,
+                                  .stencil = STENCIL_WORLD,
+                                  .paint = paint_sign};
     const struct material cloth = {.albedo = mix(scale(h->sign, 0.12f), gray(0.12f), 0.4f),
                                    .roughness = 0.8f,
                                    .specular = 0.2f,
@@ -326,7 +341,7 @@ static void probes(struct scene *scene) {
     }
 }
 
-void scene_street(struct scene *scene) {
+void build_street(struct scene *scene) {
     scene->sky = sky;
     scene->exposure = 1.7;
     scene->light_samples = 96;
