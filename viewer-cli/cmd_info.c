@@ -6,6 +6,7 @@
 #include "args.h"
 #include "camera_facts.h"
 #include "info_tables.h"
+#include "pipe.h"
 #include "progress.h"
 #include "table.h"
 
@@ -121,7 +122,7 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
                                     survey ? survey_json(survey) : NULL));
     }
     struct stat file = {0};
-    stat(a->path, &file);
+    stat(glint_capture_path(capture), &file);
     printf("%s: capture, %s\n", a->path, bytes_text((uint64_t)file.st_size));
     info_print_camera(frame);
     if (survey) info_print_survey(survey);
@@ -169,14 +170,16 @@ static enum status run(int argc, char **argv) {
     struct progress progress;
     struct glint_capture *capture = NULL;
     struct glint_exr *exr = NULL;
+    struct pipe pipe;
     bool ok = false;
     progress_begin(&progress);
-    if (is_capture(a.path)) {
-        capture = glint_capture_open(a.path, NULL, &err);
+    const char *path = pipe_input(&pipe, a.path, &err);
+    if (path && is_capture(path)) {
+        capture = glint_capture_open(path, NULL, &err);
         ok = capture && channels_of_capture(&all, capture, !a.headers, progress_report, &progress, &err) &&
              (a.headers || glint_survey_capture(capture, &survey, &err));
-    } else {
-        exr = glint_exr_open(a.path, NULL, &err);
+    } else if (path) {
+        exr = glint_exr_open(path, NULL, &err);
         ok = exr && channels_of_exr(&all, exr, !a.headers, progress_report, &progress, &err);
     }
     progress_end(&progress);
@@ -186,6 +189,7 @@ static enum status run(int argc, char **argv) {
     channel_table_finish(&all);
     glint_capture_close(&capture);
     glint_exr_close(&exr);
+    pipe_finish(&pipe);
     return status;
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "pass_names.h"
+#include "pipe.h"
 #include "pipeline_args.h"
 #include "table.h"
 
@@ -112,9 +113,11 @@ static enum status run(int argc, char **argv) {
     struct glint_device_options device_options = {.select = a.pipeline.device};
     struct glint_device *device = NULL;
     struct glint_replay *replay = NULL;
-    enum status status = STATUS_CHECK;
+    struct pipe pipe = {0};
+    enum status status;
     struct glint_pipeline *pipeline = pipeline_args_create(&a.pipeline, &err);
-    struct glint_capture *capture = pipeline ? glint_capture_open(a.capture, NULL, &err) : NULL;
+    const char *path = pipeline ? pipe_input(&pipe, a.capture, &err) : NULL;
+    struct glint_capture *capture = path ? glint_capture_open(path, NULL, &err) : NULL;
     if (capture) device = glint_device_create(&device_options, &err);
     if (device) replay = glint_replay_create(device, &err);
     if (replay && glint_replay_load(replay, capture, &err)) status = plan(&a, pipeline, replay);
@@ -122,6 +125,7 @@ static enum status run(int argc, char **argv) {
     glint_replay_destroy(&replay);
     glint_device_destroy(&device);
     glint_capture_close(&capture);
+    pipe_finish(&pipe);
     glint_pipeline_destroy(&pipeline);
     pipeline_args_finish(&a.pipeline);
     return status;

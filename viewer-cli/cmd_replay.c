@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "pass_names.h"
+#include "pipe.h"
 #include "pipeline_args.h"
 #include "progress.h"
 #include "table.h"
@@ -23,8 +24,8 @@ static const struct argp_option options[] = {
     {"output",      'o',             "RUN",  0, "Folder for the run: run.json and one EXR a pass. With several captures, "
         "RUN/NAME for each. Without it nothing is written, only measured", 0},
     PIPELINE_OPTIONS,
-    {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds (default 1)", 0},
-    {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before them (default 1)", 0},
+    {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round, not warmed up)", 0},
+    {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before the timed ones of --repeat (default 1)", 0},
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
     {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches; changes no other bit", 0},
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed", 0},
@@ -80,6 +81,14 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
+struct job {
+    const struct arguments *a;
+    struct glint_device *device;
+    struct glint_replay *replay;
+    struct glint_pipeline *pipeline;
+    json_t *runs; /* NULL: tables */
+};
+
 static const char *const phases[] = {"read", "upload", "passes", "readback", "write"};
 
 static double milliseconds(uint64_t ns) {
@@ -112,16 +121,17 @@ static void print_passes(const struct glint_pass_result *results, size_t count) 
     table_destroy(&table);
 }
 
-static void print_run(const char *capture, const char *folder, const struct glint_replay *replay,
-                      const struct glint_device_info *device) {
+static void print_run(const char *capture, const char *folder, const struct job *job) {
     size_t count = 0;
-    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    const struct glint_pass_result *results = glint_replay_results(job->replay, &count);
+    const struct glint_device_info *device = glint_device_get_info(job->device);
     printf("%s on %s%s\n\n", capture, device->name,
            device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
     print_passes(results, count);
+    if (job->a->pipeline.replay.repeat == 0) puts("one round, shaders compiled on first use; --repeat N measures");
     putchar('\n');
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
-        printf("%s%s %s", i ? ", " : "", phases[i], time_text(glint_replay_seconds(replay, phases[i])));
+        printf("%s%s %s", i ? ", " : "", phases[i], time_text(glint_replay_seconds(job->replay, phases[i])));
     putchar('\n');
     if (folder) printf("run: %s\n", folder);
     else puts("nothing written (-o RUN keeps the images)");
@@ -166,29 +176,27 @@ static char *run_folder(const struct arguments *a, const char *capture, struct g
     return folder;
 }
 
-struct job {
-    const struct arguments *a;
-    struct glint_device *device;
-    struct glint_replay *replay;
-    struct glint_pipeline *pipeline;
-    json_t *runs; /* NULL: tables */
-};
-
 static bool replay_one(const struct job *job, const char *path, const char *folder, struct glint_error *err) {
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
     struct progress progress;
-    struct glint_capture *capture = glint_capture_open(path, NULL, err);
-    if (!capture) return false;
+    struct pipe pipe;
+    const char *file = pipe_input(&pipe, path, err);
+    struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
+    if (!capture) {
+        pipe_finish(&pipe);
+        return false;
+    }
     progress_begin(&progress);
     bool ok = glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
               (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err));
     progress_end(&progress);
-    const struct glint_device_info *device = glint_device_get_info(job->device);
-    if (ok && job->runs) json_array_append_new(job->runs, run_json(path, folder, job->replay, device));
-    else if (ok) print_run(path, folder, job->replay, device);
+    if (ok && job->runs)
+        json_array_append_new(job->runs, run_json(path, folder, job->replay, glint_device_get_info(job->device)));
+    else if (ok) print_run(path, folder, job);
     glint_replay_load(job->replay, NULL, NULL);
     glint_capture_close(&capture);
+    pipe_finish(&pipe);
     return ok;
 }
 

@@ -5,6 +5,7 @@
 #include "args.h"
 #include "glint/samples.h"
 #include "nearest.h"
+#include "pipe.h"
 #include "progress.h"
 #include "table.h"
 
@@ -37,13 +38,13 @@ enum {
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",      'o',             "FILE",  0, "The capture to write; a shot gets .NNNN before the suffix", 0},
+    {"output",      'o',             "FILE",  0, "The capture to write, - for stdout; a shot gets .NNNN before the suffix", 0},
     {"list",        'l',             NULL,    0, "List the scenes", 0},
     {"json",        'j',             NULL,    0, "With --list: print JSON", 0},
     {"size",        KEY_SIZE,        "WxH",   0, "Picture size (default 1280x720)", 0},
     {"cube-size",   KEY_CUBE_SIZE,   "N",     0, "Face size of the cube maps (default 256)", 0},
     {"frames",      KEY_FRAMES,      "N",     0, "Length of the shot; its captures share their cube maps (default 1)", 0},
-    {"first-frame", KEY_FIRST_FRAME, "N",     0, "Number of the first frame (default 0)", 0},
+    {"first-frame", KEY_FIRST_FRAME, "N",     0, "Number of the first frame (default 1)", 0},
     {"probes",      KEY_PROBES,      "KIND",  0, "What the cube maps hold. imperfect, as games have them: static "
         "objects only, simplified, metals as diffuse; perfect: the very scene; auto: placed by the sampler, for glTF files", 0},
     {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays a pixel into truth.* (default 0: leave it out)", 0},
@@ -65,7 +66,7 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint sample --list", "what scenes there are"},
     {"glint sample street -o street.exr --truth 64", "a wet street at dusk, with the path traced truth beside it"},
-    {"glint sample room -o room.exr --frames 8 --size 640x360", "a shot: room.0000.exr to room.0007.exr"},
+    {"glint sample room -o room.exr --frames 8 --size 640x360", "a shot: room.0001.exr to room.0008.exr"},
     {"glint sample scene.glb -o scene.exr --camera 0,1.7,5,0,1,0 --probes auto", "your own glTF scene"},
     {"glint sample room -o room.exr --encoding depth=reversed,normal=octahedral", "dumped as another engine would"},
     {0},
@@ -163,6 +164,8 @@ static error_t parse_scene(int key, char *arg, struct argp_state *state, struct 
     case ARGP_KEY_END:
         if (!a->list && !a->scene) argp_error(state, "which scene? --list shows them");
         if (!a->list && !a->out) argp_error(state, "where to? -o FILE");
+        if (a->out && !strcmp(a->out, "-") && a->sample.frames > 1)
+            argp_error(state, "a shot is several files; stdout takes one");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -183,7 +186,7 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         s->frames = arg_uint("frames", arg, 1, 9999, state);
         return 0;
     case KEY_FIRST_FRAME:
-        s->first_frame = arg_uint("first-frame", arg, 0, 9999, state);
+        s->first_frame = arg_uint("first-frame", arg, 1, 9999, state);
         return 0;
     case KEY_PROBES:
         s->probes_given = true;
@@ -267,8 +270,12 @@ static enum status run(int argc, char **argv) {
     if (!known_scene(a.scene)) return STATUS_USAGE;
     struct glint_error err = {0};
     struct progress progress;
+    struct pipe pipe;
     progress_begin(&progress);
-    bool ok = glint_sample_write(a.scene, a.out, &a.sample, progress_report, &progress, &err);
+    const char *out = pipe_output(&pipe, a.out, &err);
+    bool ok = out && glint_sample_write(a.scene, out, &a.sample, progress_report, &progress, &err) &&
+              pipe_output_flush(&pipe, &err);
+    pipe_finish(&pipe);
     progress_end(&progress);
     return ok ? STATUS_DONE : command_fail(&cmd_sample, &err);
 }

@@ -3,6 +3,7 @@
 
 #include "args.h"
 #include "glint/capture.h"
+#include "pipe.h"
 
 struct arguments {
     bool json;
@@ -50,8 +51,12 @@ static void on_violation(void *user, const char *rule, const char *message) {
 static enum status validate(const char *path, json_t *files) {
     struct listing listing = {files ? json_array() : NULL};
     struct glint_error err = {0};
+    struct pipe pipe;
     size_t violations = 0;
-    if (!glint_capture_validate(path, NULL, on_violation, &listing, &violations, &err)) {
+    const char *file = pipe_input(&pipe, path, &err);
+    bool ok = file && glint_capture_validate(file, NULL, on_violation, &listing, &violations, &err);
+    pipe_finish(&pipe);
+    if (!ok) {
         json_decref(listing.json);
         return command_fail(&cmd_validate, &err);
     }

@@ -6,6 +6,7 @@
 #include "args.h"
 #include "falsecolor.h"
 #include "ocio.h"
+#include "pipe.h"
 #include "png_file.h"
 #include "progress.h"
 #include "source.h"
@@ -227,12 +228,15 @@ static enum status run(int argc, char **argv) {
     struct source source = {0};
     struct picture picture = {0};
     struct progress progress;
+    struct pipe pipe;
     progress_begin(&progress);
-    bool ok = source_open(&source, &a.choice, &err) && draw(&picture, &source, &a, &err) &&
+    a.choice.path = pipe_input(&pipe, a.choice.path, &err);
+    bool ok = a.choice.path && source_open(&source, &a.choice, &err) && draw(&picture, &source, &a, &err) &&
               png_file_write(a.out, &picture, &err);
     progress_end(&progress);
     picture_finish(&picture);
     source_finish(&source);
+    pipe_finish(&pipe);
     return ok ? STATUS_DONE : command_fail(&cmd_view, &err);
 }
 

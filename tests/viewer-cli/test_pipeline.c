@@ -1,0 +1,353 @@
+/* From a scene to a picture, as a user does it: sample, info, validate, plan, replay, view, on mirror_box at 160 × 90. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+static const char *const slots[] = {"downsample",    "screen_trace", "cubemap_active", "cubemap_select",
+                                    "cubemap_trace", "resolve",      "upscale",        "compose"};
+enum { SLOTS = sizeof slots / sizeof *slots };
+
+static char capture[256], run[256];
+
+static int make_run(void **state) {
+    if (make_folder(state) != 0) return -1;
+    snprintf(capture, sizeof capture, "%s", in_folder("box.exr"));
+    snprintf(run, sizeof run, "%s", in_folder("run"));
+    free(glint_ok("sample", "mirror_box", "-o", capture, "--size=160x90", "--cube-size", "64", "--probes=perfect"));
+    free(glint_ok("replay", capture, "-o", run, "--diagnostics"));
+    return 0;
+}
+
+static const json_t *named(const json_t *list, const char *key, const char *name) {
+    size_t i;
+    json_t *item;
+    json_array_foreach(list, i, item) if (!strcmp(json_string_value(json_object_get(item, key)), name)) return item;
+    fail_msg("%s %s is not listed", key, name);
+    return NULL;
+}
+
+static double number(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+static void info_tells_the_camera_and_the_ranges(void **state) {
+    (void)state;
+    char *text = glint_ok("info", capture), *json_text = glint_ok("info", capture, "--json");
+    json_t *json = parse_json(json_text);
+    const json_t *camera = json_object_get(json, "camera"), *position = json_object_get(camera, "position");
+    /* Inside the box of 8 × 4 × 6 m, looking along a unit vector. */
+    const double size[] = {8, 4, 6};
+    double length = 0;
+    for (size_t k = 0; k < 3; k++) {
+        double p = json_number_value(json_array_get(position, k));
+        double d = json_number_value(json_array_get(json_object_get(camera, "forward"), k));
+        assert_true(p > 0 && p < size[k]);
+        length += d * d;
+    }
+    assert_true(fabs(length - 1) < 1e-6);
+    double aspect = tan(number(camera, "fov_x_deg") * M_PI / 360) / tan(number(camera, "fov_y_deg") * M_PI / 360);
+    assert_true(fabs(aspect - 160.0 / 90) < 1e-6);
+
+    const json_t *gbuffer = named(json_object_get(json, "parts"), "name", "gbuffer");
+    assert_int_equal((int)number(gbuffer, "width"), 160);
+    assert_int_equal((int)number(gbuffer, "height"), 90);
+    const json_t *depth = named(json_object_get(gbuffer, "channels"), "name", "depth.Z");
+    const json_t *range = json_object_get(depth, "range");
+    assert_string_equal(json_string_value(json_object_get(depth, "unit")), "m");
+    assert_true(number(range, "min") > 0 && number(range, "max") < sqrt(8 * 8 + 4 * 4 + 6 * 6));
+    assert_int_equal((int)number(range, "nan"), 0);
+    /* Every wall is hit: no sky, and the survey counts each pixel once. */
+    const json_t *survey = json_object_get(json, "survey");
+    assert_int_equal((int)number(survey, "pixels"), 160 * 90);
+    assert_int_equal((int)number(survey, "sky"), 0);
+    double reflecting = 0;
+    for (size_t i = 0; i < 10; i++)
+        reflecting += json_number_value(json_array_get(json_object_get(survey, "roughness"), i));
+    assert_true(reflecting > 0 && fabs(reflecting - number(survey, "reflecting")) < 0.5);
+
+    assert_contains(text, "cubemap.NNN × 8");
+    assert_contains(text, "depth.Z");
+    assert_contains(text, "reflecting");
+    json_decref(json);
+    free(text);
+    free(json_text);
+}
+
+/* oiiotool reads the same file by itself. */
+static void ranges_equal_those_of_oiiotool(void **state) {
+    (void)state;
+    char *text = glint_ok("info", capture, "--json");
+    json_t *json = parse_json(text);
+    const json_t *lit = named(json_object_get(json, "parts"), "name", "lit");
+    size_t index = 0;
+    for (json_t *part; (part = json_array_get(json_object_get(json, "parts"), index)) != lit;) index++;
+    char subimage[16];
+    snprintf(subimage, sizeof subimage, "%zu", index);
+    struct outcome other = run_program("oiiotool", capture, "--subimage", subimage, "--printstats", NULL);
+    assert_int_equal(other.status, 0);
+    static const char *const keys[] = {"min", "max", "mean"}, *const titles[] = {"Min: ", "Max: ", "Avg: "};
+    static const char *const channels[] = {"R", "G", "B"};
+    for (size_t k = 0; k < 3; k++) {
+        const char *at = strstr(other.out, titles[k]);
+        assert_non_null(at);
+        char *end = (char *)at + strlen(titles[k]);
+        for (size_t c = 0; c < 3; c++) {
+            double theirs = strtod(end, &end);
+            const json_t *channel = named(json_object_get(lit, "channels"), "name", channels[c]);
+            double ours = number(json_object_get(channel, "range"), keys[k]);
+            assert_true(fabs(ours - theirs) <= 1e-6 + 1e-5 * fabs(theirs)); /* printed with six digits */
+        }
+    }
+    outcome_free(&other);
+    json_decref(json);
+    free(text);
+}
+
+static void validate_accepts_it_and_refuses_a_damaged_one(void **state) {
+    (void)state;
+    char *text = glint_ok("validate", capture), *bytes = NULL;
+    assert_contains(text, ": valid\n");
+    free(text);
+    FILE *file = fopen(capture, "rb");
+    assert_non_null(file);
+    bytes = malloc(60000);
+    assert_int_equal(fread(bytes, 1, 60000, file), 60000);
+    fclose(file);
+    file = fopen(in_folder("cut.exr"), "wb");
+    fwrite(bytes, 1, 60000, file);
+    fclose(file);
+    free(bytes);
+    struct outcome cut = glint("validate", in_folder("cut.exr"), "--json", NULL);
+    assert_int_equal(cut.status, 1);
+    if (cut.out[0]) json_decref(parse_json(cut.out));
+    else assert_contains(cut.err, "cut.exr");
+    outcome_free(&cut);
+    glint_fails(1, "nowhere.exr", "validate", "nowhere.exr");
+}
+
+static void plan_lists_every_pass_with_a_reason(void **state) {
+    (void)state;
+    char *text = glint_ok("plan", capture, "--json"), *dot = glint_ok("plan", capture, "--dot");
+    json_t *json = parse_json(text);
+    for (size_t i = 0; i < SLOTS; i++) {
+        const json_t *entry = named(json_object_get(json, "passes"), "slot", slots[i]);
+        assert_true(json_is_true(json_object_get(entry, "runs")));
+        assert_true(strlen(json_string_value(json_object_get(entry, "reason"))) > 3);
+    }
+    assert_contains(dot, "digraph plan {");
+    assert_contains(dot, "\"pass screen_trace\" -> \"screen_travelled\"");
+    assert_contains(dot, "\"screen_travelled\" -> \"pass cubemap_trace\"");
+    json_decref(json);
+    free(text);
+    free(dot);
+
+    text = glint_ok("plan", capture, "--skip=upscale", "--json");
+    json = parse_json(text);
+    assert_true(json_is_false(json_object_get(named(json_object_get(json, "passes"), "slot", "upscale"), "runs")));
+    json_decref(json);
+    free(text);
+}
+
+static void replay_reports_times_and_leaves_a_run(void **state) {
+    (void)state;
+    char *text = glint_ok("replay", capture, "-o", in_folder("timed"), "--repeat=3", "--json");
+    json_t *json = parse_json(text);
+    const json_t *one = json_array_get(json_object_get(json, "runs"), 0);
+    for (size_t i = 0; i < SLOTS; i++) {
+        const json_t *pass = named(json_object_get(one, "passes"), "slot", slots[i]);
+        const json_t *time = json_object_get(pass, "time_ns");
+        assert_true(json_is_true(json_object_get(pass, "ran")));
+        /* What the host computes, it computes once. */
+        assert_int_equal((int)number(time, "n"), strcmp(slots[i], "cubemap_active") ? 3 : 1);
+        assert_true(number(time, "min") <= number(time, "median") && number(time, "median") <= number(time, "max"));
+    }
+    assert_true(number(json_object_get(one, "seconds"), "passes") > 0);
+    assert_true(file_exists(in_folder("timed/run.json")));
+    json_decref(json);
+    free(text);
+
+    text = glint_ok("replay", capture);
+    for (size_t i = 0; i < SLOTS; i++) assert_contains(text, slots[i]);
+    assert_contains(text, "median ms");
+    assert_contains(text, "nothing written");
+    free(text);
+}
+
+static void several_captures_get_a_folder_each(void **state) {
+    (void)state;
+    free(glint_ok("sample", "mirror_box", "-o", in_folder("s.exr"), "--size=32x18", "--cube-size=16", "--frames=2"));
+    free(glint_ok("replay", in_folder("s.0001.exr"), in_folder("s.0002.exr"), "-o", in_folder("runs")));
+    assert_true(file_exists(in_folder("runs/s.0001/run.json")));
+    assert_true(file_exists(in_folder("runs/s.0002/run.json")));
+    /* One that is missing does not keep the others from being replayed. */
+    struct outcome some =
+        glint("replay", in_folder("none.exr"), in_folder("s.0002.exr"), "-o", in_folder("some"), NULL);
+    assert_int_equal(some.status, 1);
+    assert_contains(some.err, "none.exr");
+    assert_true(file_exists(in_folder("some/s.0002/run.json")));
+    outcome_free(&some);
+}
+
+static void unknown_names_are_refused_with_the_nearest(void **state) {
+    (void)state;
+    glint_fails(2, "did you mean screen_trace?", "replay", capture, "--use", "screen_trac=linear");
+    glint_fails(2, "did you mean linear?", "replay", capture, "--use", "screen_trace=liner");
+    glint_fails(2, "did you mean steps?", "replay", capture, "--set", "screen_trace.step=4");
+    glint_fails(2, "1024", "replay", capture, "--set", "screen_trace.steps=5000");
+    glint_fails(2, "expected SLOT.PARAMETER=VALUE", "replay", capture, "--set", "steps");
+    glint_fails(2, "did you mean resolve?", "replay", capture, "--passes", "resolv");
+    glint_fails(2, "did you mean travelled?", "plan", capture, "--outputs", "traveled");
+    glint_fails(2, "did you mean mirror_box?", "sample", "miror_box", "-o", in_folder("x.exr"));
+    glint_fails(2, "did you mean reversed?", "sample", "mirror_box", "-o", "x", "--depth=reverse");
+    glint_fails(2, "did you mean normal?", "sample", "mirror_box", "-o", "x", "--encoding=normals=signed");
+    glint_fails(2, "expected WIDTHxHEIGHT", "sample", "mirror_box", "-o", "x", "--size=160");
+    glint_fails(2, "did you mean composed?", "view", run, "--image", "compose", "-o", in_folder("x.png"));
+    glint_fails(2, "did you mean gbuffer?", "view", capture, "--part", "gbufer", "-o", in_folder("x.png"));
+    glint_fails(2, "did you mean upscale?", "passes", "upscal");
+    glint_fails(2, "did you mean bilinear?", "passes", "upscale/bilinaer");
+    glint_fails(1, "nowhere.exr", "replay", "nowhere.exr");
+    assert_false(file_exists(in_folder("x.exr")));
+}
+
+static void passes_describe_what_replay_accepts(void **state) {
+    (void)state;
+    char *text = glint_ok("passes", "--json"), *one = glint_ok("passes", "screen_trace/linear");
+    json_t *json = parse_json(text);
+    for (size_t i = 0; i < SLOTS; i++) named(json_object_get(json, "passes"), "slot", slots[i]);
+    const json_t *trace = named(json_object_get(json, "passes"), "slot", "screen_trace");
+    const json_t *steps = named(json_object_get(trace, "parameters"), "name", "screen_trace.steps");
+    assert_true(number(steps, "lowest") <= number(steps, "default"));
+    named(json_object_get(trace, "reads"), "name", "depth_half");
+    named(json_object_get(trace, "writes"), "name", "screen_travelled");
+    assert_contains(one, "screen_trace.steps");
+    assert_contains(one, "why the ray ended");
+    json_decref(json);
+    free(text);
+    free(one);
+    char *markdown = glint_ok("passes", "--markdown"), *devices = glint_ok("devices", "--json");
+    assert_contains(markdown, "\n## `resolve`\n");
+    json = parse_json(devices);
+    const json_t *first = json_array_get(json_object_get(json, "devices"), 0);
+    assert_true(json_is_true(json_object_get(first, "usable")));
+    char *table = glint_ok("devices");
+    assert_contains(table, json_string_value(json_object_get(first, "name")));
+    json_decref(json);
+    free(markdown);
+    free(devices);
+    free(table);
+}
+
+/* The default of a run is its last colour image, at the capture's size; indices and reasons have legends. */
+static void view_shows_every_image_of_the_run(void **state) {
+    (void)state;
+    char spec[300];
+    free(glint_ok("view", run, "-o", in_folder("default.png")));
+    free(glint_ok("view", run, "--image", "composed", "-o", in_folder("composed.png")));
+    struct pixels a = read_png(in_folder("default.png")), b = read_png(in_folder("composed.png"));
+    assert_int_equal(a.width, 160);
+    assert_int_equal(a.height, 90);
+    assert_memory_equal(a.rgb, b.rgb, 160 * 90 * 3);
+    free(a.rgb);
+    free(b.rgb);
+    static const char *const images[] = {"travelled", "screen_end", "cubemap_index", "normal_jittered", "screen_steps"};
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++) {
+        snprintf(spec, sizeof spec, "%s:%s", run, images[i]);
+        free(glint_ok("view", spec, "-o", in_folder("image.png")));
+        a = read_png(in_folder("image.png"));
+        assert_true(a.height > 45); /* half resolution, and a legend */
+        free(a.rgb);
+    }
+    /* A capture's cube map is a cross; its depth in one encoding or another looks the same. */
+    free(glint_ok("view", capture, "--part=cubemap.003", "-o", in_folder("cube.png")));
+    a = read_png(in_folder("cube.png"));
+    assert_int_equal(a.width, 4 * 64);
+    assert_int_equal(a.height, 3 * 64);
+    free(a.rgb);
+}
+
+static void encodings_show_the_same_picture(void **state) {
+    (void)state;
+    free(glint_ok("sample", "mirror_box", "-o", in_folder("e.exr"), "--size=160x90", "--cube-size=64",
+                  "--probes=perfect", "--encoding", "depth=reversed,normal=octahedral", "--roughness=gloss"));
+    static const char *const layers[] = {"depth", "normal", "material.roughness"};
+    for (size_t i = 0; i < 3; i++) {
+        free(
+            glint_ok("view", capture, "--part=gbuffer", "--layer", layers[i], "--no-legend", "-o", in_folder("a.png")));
+        free(glint_ok("view", in_folder("e.exr"), "--part=gbuffer", "--layer", layers[i], "--no-legend", "-o",
+                      in_folder("b.png")));
+        struct pixels a = read_png(in_folder("a.png")), b = read_png(in_folder("b.png"));
+        /* Stored as half or 8 to 24 bits, the values differ by up to 1/255 of the scale. */
+        for (size_t k = 0; k < 160 * 90 * 3; k++) assert_true(abs(a.rgb[k] - b.rgb[k]) <= 2);
+        free(a.rgb);
+        free(b.rgb);
+    }
+}
+
+static void sample_writes_to_stdout_and_lists_its_scenes(void **state) {
+    (void)state;
+    char *exr = glint_ok("sample", "matte", "--size=16x9", "--cube-size=8", "-o", "-");
+    assert_memory_equal(exr, "\x76\x2f\x31\x01", 4);
+    free(exr);
+    char *list = glint_ok("sample", "--list"), *json_text = glint_ok("sample", "--list", "--json");
+    json_t *json = parse_json(json_text);
+    named(json_object_get(json, "scenes"), "name", "mirror_box");
+    assert_contains(list, "street");
+    json_decref(json);
+    free(json_text);
+    free(list);
+}
+
+/* The child is given time to start its work, then interrupted once; it must end by itself, and leave nothing. */
+static void ctrl_c_leaves_no_half_file(void **state) {
+    (void)state;
+    extern char **environ;
+    char *out = strdup(in_folder("big.exr"));
+    const char *const argv[] = {getenv("GLINT"),   "sample",     "mirror_box",  "-o", out,
+                                "--size=1280x720", "--truth=64", "--threads=1", NULL};
+    posix_spawn_file_actions_t files;
+    pid_t child;
+    int status = 0;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, 2, "/dev/null", 1, 0);
+    assert_int_equal(posix_spawn(&child, argv[0], &files, NULL, (char *const *)argv, environ), 0);
+    posix_spawn_file_actions_destroy(&files);
+    nanosleep(&(struct timespec){.tv_nsec = 500000000}, NULL);
+    kill(child, SIGINT);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 130);
+    assert_false(file_exists(out));
+    struct outcome left = run_program("find", in_folder(""), "-name", "big.exr*", NULL);
+    assert_string_equal(left.out, "");
+    outcome_free(&left);
+    free(out);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(info_tells_the_camera_and_the_ranges),
+        cmocka_unit_test(ranges_equal_those_of_oiiotool),
+        cmocka_unit_test(validate_accepts_it_and_refuses_a_damaged_one),
+        cmocka_unit_test(plan_lists_every_pass_with_a_reason),
+        cmocka_unit_test(replay_reports_times_and_leaves_a_run),
+        cmocka_unit_test(several_captures_get_a_folder_each),
+        cmocka_unit_test(unknown_names_are_refused_with_the_nearest),
+        cmocka_unit_test(passes_describe_what_replay_accepts),
+        cmocka_unit_test(view_shows_every_image_of_the_run),
+        cmocka_unit_test(encodings_show_the_same_picture),
+        cmocka_unit_test(sample_writes_to_stdout_and_lists_its_scenes),
+        cmocka_unit_test(ctrl_c_leaves_no_half_file),
+    };
+    return cmocka_run_group_tests(tests, make_run, remove_folder);
+}
