@@ -112,6 +112,12 @@ float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front, float 
     return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));
 }
 
+// Whether the picture shows, where the ray is at s, a surface that is no farther from it than the thickness.
+bool shows(ScreenRay ray, float s, Grid grid) {
+    float depth_m = 1.0 / inverse_depth_at(ray, s), seen_m = 1.0 / seen_inverse(ray.start + s * ray.across, grid);
+    return abs(depth_m - seen_m) <= thickness * seen_m + thickness_m;
+}
+
 Result march(ScreenRay ray, Grid grid, float shift) {
     Result result = Result(0.0, false, ray.limit, 0u, 0u);
     precise float s_front = 0.0, gap_front = 0.0, s_before = 0.0;
@@ -139,9 +145,12 @@ Result march(ScreenRay ray, Grid grid, float shift) {
             result.fetches += 2u;
             if (!back_faces || dot(facet.normal, ray.direction) < 0.0) {
                 float s_end = refine ? meeting(ray, facet, s_front, gap_front, s, gap, grid.scale) : s;
-                return Result(travelled_at(ray, s_end), true, END_hit, result.steps, result.fetches);
+                if (verify) result.fetches++;
+                if (!verify || shows(ray, s_end, grid))
+                    return Result(travelled_at(ray, s_end), true, END_hit, result.steps, result.fetches);
+            } else {
+                reason = END_back_face;
             }
-            reason = END_back_face;
         }
         been_behind = true;
         result.end = reason;
