@@ -21,8 +21,7 @@ void replay_drop_images(struct glint_replay *replay, bool all) {
         if (all || !image->used || image->transient) {
             *at = image->next;
             image_destroy(&image, replay->device);
-        } else
-            at = &image->next;
+        } else at = &image->next;
     }
 }
 
@@ -66,7 +65,8 @@ static bool share_memory(struct run *run, struct glint_error *err) {
                               overlaps(run, shared[b].block, largest)))
             b++;
         if (b == blocks) {
-            shared[b] = (struct shared_block){block_create(device, &need, "shared by images", err), need.memoryTypeBits};
+            shared[b] =
+                (struct shared_block){block_create(device, &need, "shared by images", err), need.memoryTypeBits};
             if (!shared[b].block) ok = false;
             blocks += ok;
         }
@@ -84,7 +84,7 @@ static bool own_memory(struct image *image, struct glint_device *device, struct 
 
 bool run_allocate(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
-    struct image *kept = NULL;
+    struct image *kept = NULL, **end = &kept;
     for (struct image *image = replay->images; image; image = image->next) image->used = image->listed = false;
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *wanted = &run->graph.images[i];
@@ -94,8 +94,9 @@ bool run_allocate(struct run *run, struct glint_error *err) {
         struct image *image = take(replay, wanted->name);
         if (image && (transient || !image_desc_equal(&image->desc, &desc))) image_destroy(&image, replay->device);
         if (!image && !(image = image_create(replay->device, wanted->name, &desc, err))) goto fail;
-        image->next = kept;
-        kept = image;
+        image->next = NULL;
+        *end = image;
+        end = &image->next;
         image->used = true;
         image->transient = transient;
         image->listed = wanted->source == SOURCE_RUN || wanted->source == SOURCE_ENGINE || wanted->wanted;
@@ -106,8 +107,7 @@ bool run_allocate(struct run *run, struct glint_error *err) {
     replay_drop_images(replay, true); /* before memory is taken for new ones */
     replay->images = kept;
     for (size_t i = 0; i < run->graph.image_count; i++)
-        if (!run->images[i]->block && !run->images[i]->transient &&
-            !own_memory(run->images[i], replay->device, err))
+        if (!run->images[i]->block && !run->images[i]->transient && !own_memory(run->images[i], replay->device, err))
             return false;
     return share_memory(run, err);
 fail:

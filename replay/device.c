@@ -28,10 +28,8 @@ static size_t choose(const struct glint_device_info *infos, size_t count, const 
         size_t used = strlen(why);
         snprintf(why + used, sizeof why - used, "; device %zu, %.120s, %.120s", i, infos[i].name, infos[i].reason);
     }
-    if (count == 0)
-        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "no Vulkan device found");
-    else if (why[0])
-        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "no usable Vulkan device%s", why);
+    if (count == 0) glint_fail(err, GLINT_ERROR_UNSUPPORTED, "no Vulkan device found");
+    else if (why[0]) glint_fail(err, GLINT_ERROR_UNSUPPORTED, "no usable Vulkan device%s", why);
     else
         glint_fail(err, GLINT_ERROR_USAGE, "no device matches '%s' among %zu; `glint devices` lists them", select,
                    count);
@@ -96,8 +94,8 @@ static void load_debug_names(struct glint_device *device) {
         instance, "vkSetDebugUtilsObjectNameEXT");
     device->debug.begin = (PFN_vkCmdBeginDebugUtilsLabelEXT)(void (*)(void))vkGetInstanceProcAddr(
         instance, "vkCmdBeginDebugUtilsLabelEXT");
-    device->debug.end = (PFN_vkCmdEndDebugUtilsLabelEXT)(void (*)(void))vkGetInstanceProcAddr(
-        instance, "vkCmdEndDebugUtilsLabelEXT");
+    device->debug.end =
+        (PFN_vkCmdEndDebugUtilsLabelEXT)(void (*)(void))vkGetInstanceProcAddr(instance, "vkCmdEndDebugUtilsLabelEXT");
 }
 
 struct glint_device *glint_device_create(const struct glint_device_options *options, struct glint_error *err) {
@@ -150,7 +148,9 @@ void glint_device_destroy(struct glint_device **pointer) {
     free(device);
 }
 
-const struct glint_device_info *glint_device_get_info(const struct glint_device *device) { return &device->info; }
+const struct glint_device_info *glint_device_get_info(const struct glint_device *device) {
+    return &device->info;
+}
 
 uint32_t glint_device_messages(const struct glint_device *device, const char **last) {
     if (last) *last = device->messages.last;
@@ -166,9 +166,8 @@ bool device_allocate(struct glint_device *device, const VkMemoryRequirements *ne
             if (!(need->memoryTypeBits & (1u << i)) ||
                 (device->memory.memoryTypes[i].propertyFlags & tries[t]) != tries[t])
                 continue;
-            const VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                               .allocationSize = need->size,
-                                               .memoryTypeIndex = i};
+            const VkMemoryAllocateInfo info = {
+                .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = need->size, .memoryTypeIndex = i};
             VkResult result = vkAllocateMemory(device->device, &info, NULL, memory);
             if (result != VK_SUCCESS) {
                 char what[256];
@@ -230,8 +229,7 @@ bool host_buffer_init(struct host_buffer *buffer, struct glint_device *device, e
         [HOST_BUFFER_UNIFORM] = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
     };
     *buffer = (struct host_buffer){.size = size};
-    const VkBufferCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage[use]};
+    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage[use]};
     VkResult result = vkCreateBuffer(device->device, &info, NULL, &buffer->buffer);
     if (result != VK_SUCCESS) return vk_fail(err, "creating a buffer", result);
     device_set_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)buffer->buffer, name);

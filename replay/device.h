@@ -34,7 +34,7 @@ struct glint_device {
     VkDevice device;
     VkQueue queue;
     uint32_t family;
-    double timestamp_ns; /* nanoseconds a tick */
+    double timestamp_ns;     /* nanoseconds a tick */
     uint64_t timestamp_mask; /* 0: no timestamps */
     VkPhysicalDeviceMemoryProperties memory;
     VkCommandPool pool;

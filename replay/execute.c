@@ -119,7 +119,8 @@ static bool record_step(const struct run *run, struct step *step, struct glint_e
     const struct glint_pass *pass = step->pass->pass;
     const struct image *whole = dispatched(run, pass);
     if (!whole)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s declares no image to dispatch over", pass->slot, pass->variant);
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s declares no image to dispatch over", pass->slot,
+                          pass->variant);
     struct barriers barriers = {.count = 0};
     for (size_t r = 0; r < pass->row_count; r++)
         if (row_is_image(&pass->rows[r]))
@@ -153,7 +154,8 @@ static bool execute_step(struct run *run, struct step *step, bool timed, struct 
     VkResult result = vkGetQueryPoolResults(device->device, run->queries, 0, 2, sizeof ticks, ticks, sizeof ticks[0],
                                             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     if (result != VK_SUCCESS) return vk_fail(err, "reading timestamps", result);
-    step->ns[step->timed++] = (uint64_t)((double)((ticks[1] - ticks[0]) & device->timestamp_mask) * device->timestamp_ns);
+    step->ns[step->timed++] =
+        (uint64_t)((double)((ticks[1] - ticks[0]) & device->timestamp_mask) * device->timestamp_ns);
     return true;
 }
 
@@ -178,7 +180,8 @@ bool run_execute(struct run *run, struct glint_error *err) {
                 return false;
         }
     for (size_t i = 0; i < run->graph.image_count; i++)
-        if (run->graph.images[i].source == SOURCE_MADE && !run->images[i]->transient) run->images[i]->key = run->keys[i];
+        if (run->graph.images[i].source == SOURCE_MADE && !run->images[i]->transient)
+            run->images[i]->key = run->keys[i];
     return true;
 }
 

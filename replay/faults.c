@@ -29,8 +29,7 @@ bool faults_none(const struct faults *faults, const char *where, struct glint_er
 
 void text_list(char *text, size_t size, const char *item) {
     size_t used = strlen(text), length = strlen(item);
-    if (used + length + 8 < size)
-        snprintf(text + used, size - used, "%s%s", used ? ", " : "", item);
+    if (used + length + 8 < size) snprintf(text + used, size - used, "%s%s", used ? ", " : "", item);
     else if (used + 6 < size && (used < 3 || strcmp(text + used - 3, "…") != 0))
         snprintf(text + used, size - used, ", …");
 }

@@ -21,7 +21,8 @@ static bool append(struct flatten *out, const char *text, size_t length, struct 
     if (out->size + length + 1 > out->capacity) {
         size_t capacity = (out->size + length + 1) * 2;
         char *larger = capacity <= TEXT_MAX ? realloc(out->text, capacity) : NULL;
-        if (!larger) return glint_fail(err, GLINT_ERROR_LIMIT, "shader: more than %d bytes with its includes", TEXT_MAX / 2);
+        if (!larger)
+            return glint_fail(err, GLINT_ERROR_LIMIT, "shader: more than %d bytes with its includes", TEXT_MAX / 2);
         out->text = larger;
         out->capacity = capacity;
     }
@@ -99,8 +100,8 @@ static bool flatten_include(struct flatten *out, const char *file, size_t line, 
         glint_pass_text(path))
         return flatten_text(out, path, glint_pass_text(path), false, depth + 1, err);
     if (glint_pass_text(name)) return flatten_text(out, name, glint_pass_text(name), false, depth + 1, err);
-    return glint_fail(err, GLINT_ERROR_USAGE, "%s:%zu: include \"%s\" not found beside the file nor among the passes", file,
-                      line, name);
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s:%zu: include \"%s\" not found beside the file nor among the passes",
+                      file, line, name);
 }
 
 static bool flatten_text(struct flatten *out, const char *file, const char *text, bool on_disk, int depth,
@@ -116,8 +117,7 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
             if (!flatten_include(out, file, line, name, on_disk, depth, err) ||
                 !append_line_directive(out, line + 1, file, err))
                 return false;
-        } else if (!append(out, text, length, err) || !append(out, "\n", 1, err))
-            return false;
+        } else if (!append(out, text, length, err) || !append(out, "\n", 1, err)) return false;
         if (!out->versioned && is_version(text, length)) {
             out->versioned = true;
             if (!append(out, names_in_lines, sizeof names_in_lines - 1, err) ||
@@ -134,8 +134,7 @@ char *shader_flatten(const char *path, const char *slot, struct glint_error *err
     if (flatten_disk(&out, path, 0, err) && out.text) {
         if (out.versioned) return out.text;
         glint_fail(err, GLINT_ERROR_FORMAT, "%s:1: expected #version 460 first", path);
-    } else if (!out.text && err && err->code == GLINT_OK)
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s: empty", path);
+    } else if (!out.text && err && err->code == GLINT_OK) glint_fail(err, GLINT_ERROR_FORMAT, "%s: empty", path);
     free(out.text);
     return NULL;
 }

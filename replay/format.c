@@ -18,9 +18,21 @@ static const struct {
     [GLINT_FORMAT_RGBA32F] = {VK_FORMAT_R32G32B32A32_SFLOAT, 4, 16, "RGBA32F", GLINT_FORMAT_RGBA32F},
 };
 
-VkFormat format_vulkan(enum glint_format format) { return formats[format].vulkan; }
-uint32_t format_components(enum glint_format format) { return formats[format].components; }
-size_t format_bytes(enum glint_format format) { return formats[format].bytes; }
-bool format_is_uint(enum glint_format format) { return format == GLINT_FORMAT_R8UI || format == GLINT_FORMAT_R32UI; }
-const char *format_name(enum glint_format format) { return formats[format].name; }
-enum glint_format format_widened(enum glint_format format) { return formats[format].widened; }
+VkFormat format_vulkan(enum glint_format format) {
+    return formats[format].vulkan;
+}
+uint32_t format_components(enum glint_format format) {
+    return formats[format].components;
+}
+size_t format_bytes(enum glint_format format) {
+    return formats[format].bytes;
+}
+bool format_is_uint(enum glint_format format) {
+    return format == GLINT_FORMAT_R8UI || format == GLINT_FORMAT_R32UI;
+}
+const char *format_name(enum glint_format format) {
+    return formats[format].name;
+}
+enum glint_format format_widened(enum glint_format format) {
+    return formats[format].widened;
+}

@@ -11,9 +11,11 @@ void camera_eye(const struct glint_camera *camera, double eye[3]) {
 }
 
 int up_axis(enum glint_axis up, double *sign) {
-    static const struct { int axis; double sign; } axes[] = {
-        [GLINT_AXIS_X] = {0, 1},     [GLINT_AXIS_Y] = {1, 1},     [GLINT_AXIS_Z] = {2, 1},
-        [GLINT_AXIS_NEG_X] = {0, -1}, [GLINT_AXIS_NEG_Y] = {1, -1}, [GLINT_AXIS_NEG_Z] = {2, -1}};
+    static const struct {
+        int axis;
+        double sign;
+    } axes[] = {[GLINT_AXIS_X] = {0, 1},      [GLINT_AXIS_Y] = {1, 1},      [GLINT_AXIS_Z] = {2, 1},
+                [GLINT_AXIS_NEG_X] = {0, -1}, [GLINT_AXIS_NEG_Y] = {1, -1}, [GLINT_AXIS_NEG_Z] = {2, -1}};
     *sign = axes[up].sign;
     return axes[up].axis;
 }
@@ -40,7 +42,9 @@ static void fill_previous(mat4 *out, const double previous[16], const double eye
     out->column[3][3] = 1;
 }
 
-struct projection { double a, b, c, d, front; };
+struct projection {
+    double a, b, c, d, front;
+};
 
 /* In front of the camera clip w = front · view z is positive, so depth = front · view z and
    NDC x = a · view.x / depth + c · front. */
@@ -77,7 +81,8 @@ static void fill_fog(struct frame_block *block, const struct glint_frame *frame,
     if (!frame->has_fog) return;
     const struct glint_fog *fog = &frame->fog;
     block->fog_color = (vec4){fog->color[0], fog->color[1], fog->color[2], (float)(fog->density / metres)};
-    block->fog_height = (vec4){(float)((eye[axis] * sign - fog->base) * metres), (float)(fog->scale_height * metres), 0, 0};
+    block->fog_height =
+        (vec4){(float)((eye[axis] * sign - fog->base) * metres), (float)(fog->scale_height * metres), 0, 0};
 }
 
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes) {
@@ -95,8 +100,8 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     block->previous_uv_from_view = uv_from_view(&q, frame->clip_y);
     double lowest = frame->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? -1 : 0;
     double one = depth_at(&frame->camera, p.front, lowest), other = depth_at(&frame->camera, p.front, 1);
-    block->depth_range = (vec4){(float)(fmin(one, other) * metres), (float)(fmax(one, other) * metres), (float)p.front,
-                                (float)q.front};
+    block->depth_range =
+        (vec4){(float)(fmin(one, other) * metres), (float)(fmax(one, other) * metres), (float)p.front, (float)q.front};
     fill_fog(block, frame, eye, metres);
     block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};

@@ -7,9 +7,15 @@
 #include "glint/capture.h"
 
 /* std140, as passes/shared/bindings.glsl declares it: column-major matrices. */
-typedef struct { float column[4][4]; } mat4;
-typedef struct { float x, y, z, w; } vec4;
-typedef struct { uint32_t x, y, z, w; } uvec4;
+typedef struct {
+    float column[4][4];
+} mat4;
+typedef struct {
+    float x, y, z, w;
+} vec4;
+typedef struct {
+    uint32_t x, y, z, w;
+} uvec4;
 struct frame_block {
 #define FIELD(type, name, meaning) type name;
 #include "shared/frame_fields.h"

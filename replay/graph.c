@@ -10,7 +10,9 @@
 bool row_is_output(const struct glint_row *row) {
     return row->kind == GLINT_ROW_WRITE || row->kind == GLINT_ROW_DIAGNOSTIC;
 }
-bool row_is_image(const struct glint_row *row) { return row->kind == GLINT_ROW_READ || row_is_output(row); }
+bool row_is_image(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_READ || row_is_output(row);
+}
 
 static bool in_list(const char *const *list, const char *name) {
     for (; list && *list; list++)
@@ -65,8 +67,9 @@ static void check_producers(const struct graph *graph, struct faults *faults) {
         for (size_t r = 0; r < pass->row_count; r++) {
             if (!row_is_output(&pass->rows[r])) {
                 if (pass->rows[r].kind == GLINT_ROW_READ && pass->host)
-                    faults_add(faults, GLINT_ERROR_USAGE, "%s/%s runs on the host, before any image exists, but reads %s",
-                               pass->slot, pass->variant, pass->rows[r].name);
+                    faults_add(faults, GLINT_ERROR_USAGE,
+                               "%s/%s runs on the host, before any image exists, but reads %s", pass->slot,
+                               pass->variant, pass->rows[r].name);
                 continue;
             }
             const char *image = pass->rows[r].name;
@@ -118,14 +121,16 @@ static void sort(struct graph *graph, struct faults *faults) {
     }
 }
 
-static void check_slots(const struct graph *graph, const char *option, const char *const *slots, struct faults *faults) {
+static void check_slots(const struct graph *graph, const char *option, const char *const *slots,
+                        struct faults *faults) {
     char known[400] = "";
     for (size_t i = 0; i < graph->pass_count; i++) text_list(known, sizeof known, graph->passes[i].pass->slot);
     for (; slots && *slots; slots++) {
         size_t i = 0;
         while (i < graph->pass_count && strcmp(graph->passes[i].pass->slot, *slots) != 0) i++;
         if (i == graph->pass_count)
-            faults_add(faults, GLINT_ERROR_USAGE, "%s: no slot '%s' in the pipeline; it has: %s", option, *slots, known);
+            faults_add(faults, GLINT_ERROR_USAGE, "%s: no slot '%s' in the pipeline; it has: %s", option, *slots,
+                       known);
     }
 }
 
@@ -141,11 +146,12 @@ static bool decide_by_facts(struct graph_pass *pass, const struct facts *facts, 
         struct glint_error own = {0};
         bool holds = facts->holds(facts->user, row->name, reason, sizeof reason, &known, &own);
         if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
-        if (!known)
+        if (!known) {
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s needs an unknown fact '%s'", pass->pass->slot,
                        pass->pass->variant, row->name);
-        if (holds && pass->runs)
-            text_list(pass->reason, sizeof pass->reason, reason);
+            continue;
+        }
+        if (holds && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
         else if (!holds) {
             if (pass->runs) pass->reason[0] = 0;
             pass->runs = false;
@@ -162,16 +168,11 @@ static bool decide(struct graph *graph, const struct graph_inputs *inputs, struc
     for (size_t i = 0; i < graph->pass_count; i++) {
         struct graph_pass *pass = &graph->passes[i];
         const char *slot = pass->pass->slot, *why = NULL;
-        if (options->passes && !in_list(options->passes, slot))
-            why = "not among the passes asked for";
-        else if (in_list(options->skip, slot))
-            why = "skipped on request";
-        else if (in_list(options->force, slot))
-            why = "forced on request", pass->runs = true;
-        else if (options->all)
-            why = "all passes were asked for", pass->runs = true;
-        else if (!decide_by_facts(pass, &inputs->facts, faults, err))
-            return false;
+        if (options->passes && !in_list(options->passes, slot)) why = "not among the passes asked for";
+        else if (in_list(options->skip, slot)) why = "skipped on request";
+        else if (in_list(options->force, slot)) why = "forced on request", pass->runs = true;
+        else if (options->all) why = "all passes were asked for", pass->runs = true;
+        else if (!decide_by_facts(pass, &inputs->facts, faults, err)) return false;
         if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
     }
     return true;
@@ -194,18 +195,20 @@ static void cull(struct graph *graph, const struct glint_replay_options *options
                     if (row_is_output(&graph->passes[i].pass->rows[r]))
                         text_list(known, sizeof known, graph->passes[i].pass->rows[r].name);
             faults_add(faults, GLINT_ERROR_USAGE, "outputs: no pass makes '%s'; made are: %s", *name, known);
-        } else if (options->passes && !in_list(options->passes, graph->passes[maker].pass->slot))
+        } else if (output_row(graph->passes[maker].pass, *name)->kind == GLINT_ROW_DIAGNOSTIC && !options->diagnostics)
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is a diagnostic image, and diagnostics are off", *name);
+        else if (options->passes && !in_list(options->passes, graph->passes[maker].pass->slot))
             faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is made by %s, which is not among the passes asked for",
                        *name, graph->passes[maker].pass->slot);
-        else
-            needed[maker] = true;
+        else needed[maker] = true;
     }
     for (size_t i = graph->pass_count; i-- > 0;) {
         for (size_t j = i + 1; j < graph->pass_count && !needed[i]; j++)
             needed[i] = needed[j] && graph->passes[j].runs && depends(graph->passes[j].pass, graph->passes[i].pass);
         if (graph->passes[i].runs && !needed[i]) {
             graph->passes[i].runs = false;
-            snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason, "nothing that is wanted reads its images");
+            snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason,
+                     "nothing that is wanted reads its images");
         }
     }
     free(needed);
@@ -235,15 +238,28 @@ static void complain_missing(const struct graph_pass *reader, const char *image,
                    reader->pass->variant, image);
 }
 
+static void check_kind(const struct glint_pass *reader, const struct glint_row *read, const struct glint_row *row,
+                       struct faults *faults) {
+    const bool uint = row->format == GLINT_FORMAT_R8UI || row->format == GLINT_FORMAT_R32UI;
+    const bool array = row->size == GLINT_SIZE_CUBEMAPS, cube = array || row->size == GLINT_SIZE_SKY;
+    const char *is = NULL;
+    if ((read->glsl[0] == 'u') != uint) is = uint ? "a uint image" : "a float image";
+    else if ((strstr(read->glsl, "Cube") != NULL) != cube || (strstr(read->glsl, "Array") && !array))
+        is = array ? "an array of cube maps" : cube ? "a cube map" : "a plain image";
+    if (is)
+        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s as %s, but it is %s", reader->slot, reader->variant,
+                   read->name, read->glsl, is);
+}
+
 /* Where an image that pass `reader` reads comes from; adds it to the graph's images. */
 static void link_read(struct graph *graph, size_t reader, const char *name, const struct graph_inputs *inputs,
                       struct faults *faults) {
     struct graph_image *image = graph_find(graph, name);
     if (image) {
-        if (image->source == SOURCE_MADE || image->last_use < reader) image->last_use = reader;
+        image->last_use = reader;
         return;
     }
-    struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader, .used = true};
+    struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader};
     size_t maker = maker_of(graph, name);
     bool dropped = false; /* by the plan: it gets nothing; one merely not asked for has to come from somewhere */
     if (maker < graph->pass_count) {
@@ -258,22 +274,17 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     }
     char part[128];
     snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
-    if (!fresh.row)
-        complain_missing(&graph->passes[reader], name, NULL, inputs->options, faults);
+    if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, inputs->options, faults);
     else if (!fresh.pass) {
         fresh.source = capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_NOTHING;
         if (fresh.source == SOURCE_NOTHING && fresh.row->required)
             faults_add(faults, GLINT_ERROR_FORMAT, "%s: part %s: missing, but %s/%s reads its channels %s",
                        inputs->capture ? glint_capture_path(inputs->capture) : "no capture", fresh.row->role,
                        graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, fresh.row->source);
-    } else if (dropped)
-        fresh.source = SOURCE_NOTHING;
-    else if (inputs->run && glint_run_find(inputs->run, name))
-        fresh.source = SOURCE_RUN;
-    else if (inputs->capture && glint_capture_find(inputs->capture, part))
-        fresh.source = SOURCE_ENGINE;
-    else
-        complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);
+    } else if (dropped) fresh.source = SOURCE_NOTHING;
+    else if (inputs->run && glint_run_find(inputs->run, name)) fresh.source = SOURCE_RUN;
+    else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
+    else complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);
     if (fresh.row) graph->images[graph->image_count++] = fresh;
 }
 
@@ -286,6 +297,8 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
             const struct glint_row *row = &pass->pass->rows[r];
             const char *names[2];
             for (size_t n = reads_of(row, names); n-- > 0;) link_read(graph, i, names[n], inputs, faults);
+            if (row->kind == GLINT_ROW_READ && graph_find(graph, row->name))
+                check_kind(pass->pass, row, graph_find(graph, row->name)->row, faults);
             if (!row_is_output(row)) continue;
             bool made = row->kind == GLINT_ROW_WRITE || options->diagnostics;
             graph->images[graph->image_count++] =
@@ -296,8 +309,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                                      .wanted = made && (!options->outputs || in_list(options->outputs, row->name)),
                                      .maker = i,
                                      .first_use = i,
-                                     .last_use = i,
-                                     .used = true};
+                                     .last_use = i};
         }
     }
 }

@@ -17,10 +17,9 @@ struct graph_image {
     const struct glint_row *row;   /* the WRITE, DIAGNOSTIC or CAPTURE row that defines it */
     const struct glint_pass *pass; /* whose row it is; NULL for a capture image */
     enum source source;
-    bool wanted;              /* written out: its memory is its own */
-    size_t maker;             /* MADE: place of the pass in the graph */
+    bool wanted;                /* written out: its memory is its own */
+    size_t maker;               /* MADE: place of the pass in the graph */
     size_t first_use, last_use; /* places of the passes that touch it */
-    bool used;
 };
 
 struct graph_pass {

@@ -9,7 +9,9 @@ bool image_desc_equal(const struct image_desc *a, const struct image_desc *b) {
     return a->format == b->format && a->width == b->width && a->height == b->height && a->layers == b->layers;
 }
 
-static uint32_t layer_count(const struct image_desc *desc) { return desc->layers ? desc->layers : 1; }
+static uint32_t layer_count(const struct image_desc *desc) {
+    return desc->layers ? desc->layers : 1;
+}
 
 VkDeviceSize image_bytes(const struct image_desc *desc) {
     return (VkDeviceSize)desc->width * desc->height * layer_count(desc) * format_bytes(desc->format);
@@ -29,32 +31,32 @@ struct image *image_create(struct glint_device *device, const char *name, const 
                                        .width = desc->width,
                                        .height = desc->height * layer_count(desc),
                                        .components = format_components(desc->format)};
-    const VkImageCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-        .flags = desc->layers ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
-        .imageType = VK_IMAGE_TYPE_2D,
-        .format = format_vulkan(desc->format),
-        .extent = {desc->width, desc->height, 1},
-        .mipLevels = 1,
-        .arrayLayers = layer_count(desc),
-        .samples = VK_SAMPLE_COUNT_1_BIT,
-        .tiling = VK_IMAGE_TILING_OPTIMAL,
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+    const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                    .flags = desc->layers ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
+                                    .imageType = VK_IMAGE_TYPE_2D,
+                                    .format = format_vulkan(desc->format),
+                                    .extent = {desc->width, desc->height, 1},
+                                    .mipLevels = 1,
+                                    .arrayLayers = layer_count(desc),
+                                    .samples = VK_SAMPLE_COUNT_1_BIT,
+                                    .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                             VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                    .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     VkImageFormatProperties limits = {0};
     VkResult result = vkGetPhysicalDeviceImageFormatProperties(device->physical, info.format, info.imageType,
                                                                info.tiling, info.usage, info.flags, &limits);
-    if (result == VK_SUCCESS && (info.extent.width > limits.maxExtent.width ||
-                                 info.extent.height > limits.maxExtent.height || info.arrayLayers > limits.maxArrayLayers))
+    if (result == VK_SUCCESS &&
+        (info.extent.width > limits.maxExtent.width || info.extent.height > limits.maxExtent.height ||
+         info.arrayLayers > limits.maxArrayLayers))
         glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: %u x %u x %u, but the device's limit is %u x %u x %u", name,
                    info.extent.width, info.extent.height, info.arrayLayers, limits.maxExtent.width,
                    limits.maxExtent.height, limits.maxArrayLayers);
-    else if (result == VK_SUCCESS && (result = vkCreateImage(device->device, &info, NULL, &image->image)) == VK_SUCCESS) {
+    else if (result == VK_SUCCESS &&
+             (result = vkCreateImage(device->device, &info, NULL, &image->image)) == VK_SUCCESS) {
         device_set_name(device, VK_OBJECT_TYPE_IMAGE, (uint64_t)(uintptr_t)image->image, name);
         return image;
-    } else
-        vk_fail(err, name, result);
+    } else vk_fail(err, name, result);
     free(image);
     return NULL;
 }
@@ -123,7 +125,11 @@ void image_destroy(struct image **pointer, struct glint_device *device) {
     free(image);
 }
 
-static const struct { VkPipelineStageFlags2 stage; VkAccessFlags2 access; bool write; } accesses[] = {
+static const struct {
+    VkPipelineStageFlags2 stage;
+    VkAccessFlags2 access;
+    bool write;
+} accesses[] = {
     [IMAGE_SHADER_READ] = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false},
     [IMAGE_SHADER_WRITE] = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, true},
     [IMAGE_COPY_READ] = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, false},
@@ -156,8 +162,7 @@ void image_access(struct image *image, enum image_access access, struct barriers
         block->write_stage = stage;
         block->write_access = accesses[access].access;
         block->read_stages = 0;
-    } else
-        block->read_stages |= stage;
+    } else block->read_stages |= stage;
 }
 
 void barriers_record(struct barriers *barriers, struct glint_device *device) {
@@ -200,10 +205,8 @@ void image_record_clear(struct image *image, struct glint_device *device, double
     barriers_record(&barriers, device);
     VkClearColorValue color;
     for (int i = 0; i < 4; i++)
-        if (format_is_uint(image->desc.format))
-            color.uint32[i] = (uint32_t)value;
-        else
-            color.float32[i] = (float)value;
+        if (format_is_uint(image->desc.format)) color.uint32[i] = (uint32_t)value;
+        else color.float32[i] = (float)value;
     const VkImageSubresourceRange range = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layer_count(&image->desc)};
     vkCmdClearColorImage(device->commands, image->image, VK_IMAGE_LAYOUT_GENERAL, &color, 1, &range);
 }
@@ -214,8 +217,7 @@ void record_host_barrier(struct glint_device *device) {
                                       .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                       .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
                                       .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                   .memoryBarrierCount = 1,
-                                   .pMemoryBarriers = &barrier};
+    const VkDependencyInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(device->commands, &info);
 }

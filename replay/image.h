@@ -57,9 +57,7 @@ struct barriers {
     VkImageMemoryBarrier2 images[BARRIERS_MAX];
     uint32_t count;
 };
-enum image_access {
-    IMAGE_SHADER_READ, IMAGE_SHADER_WRITE, IMAGE_COPY_READ, IMAGE_COPY_WRITE, IMAGE_CLEAR
-};
+enum image_access { IMAGE_SHADER_READ, IMAGE_SHADER_WRITE, IMAGE_COPY_READ, IMAGE_COPY_WRITE, IMAGE_CLEAR };
 /* Notes that the next step accesses the image, and adds the barrier that this needs. */
 void image_access(struct image *image, enum image_access access, struct barriers *barriers);
 void barriers_record(struct barriers *barriers, struct glint_device *device);

@@ -11,15 +11,34 @@ bool vk_fail(struct glint_error *err, const char *what, VkResult result) {
     const char *word = "an unexpected result";
     enum glint_code code = GLINT_ERROR_DEVICE;
     switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY: word = "out of host memory"; code = GLINT_ERROR_MEMORY; break;
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: word = "out of device memory"; code = GLINT_ERROR_MEMORY; break;
-    case VK_ERROR_DEVICE_LOST: word = "the device was lost"; break;
-    case VK_ERROR_INITIALIZATION_FAILED: word = "initialisation failed"; break;
-    case VK_ERROR_INCOMPATIBLE_DRIVER: word = "no Vulkan driver"; break;
-    case VK_ERROR_LAYER_NOT_PRESENT: word = "layer not installed"; break;
-    case VK_ERROR_FEATURE_NOT_PRESENT: word = "feature not present"; break;
-    case VK_ERROR_EXTENSION_NOT_PRESENT: word = "extension not present"; break;
-    default: break;
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        word = "out of host memory";
+        code = GLINT_ERROR_MEMORY;
+        break;
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        word = "out of device memory";
+        code = GLINT_ERROR_MEMORY;
+        break;
+    case VK_ERROR_DEVICE_LOST:
+        word = "the device was lost";
+        break;
+    case VK_ERROR_INITIALIZATION_FAILED:
+        word = "initialisation failed";
+        break;
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        word = "no Vulkan driver";
+        break;
+    case VK_ERROR_LAYER_NOT_PRESENT:
+        word = "layer not installed";
+        break;
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+        word = "feature not present";
+        break;
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+        word = "extension not present";
+        break;
+    default:
+        break;
     }
     return glint_fail(err, code, "Vulkan: %s: %s (%d)", what, word, (int)result);
 }
@@ -66,13 +85,12 @@ bool instance_init(struct instance *instance, struct messages *messages, struct 
                           validation_layer);
     instance->debug_utils = has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const VkValidationFeatureEnableEXT enables[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
-    VkDebugUtilsMessengerCreateInfoEXT listener = {
-        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-        .messageSeverity =
-            VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-        .pfnUserCallback = on_message,
-        .pUserData = messages};
+    VkDebugUtilsMessengerCreateInfoEXT listener = {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+                                                   .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                                                                      VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+                                                   .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+                                                   .pfnUserCallback = on_message,
+                                                   .pUserData = messages};
     const VkValidationFeaturesEXT features = {.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                               .pNext = &listener,
                                               .enabledValidationFeatureCount = 1,
@@ -95,8 +113,9 @@ bool instance_init(struct instance *instance, struct messages *messages, struct 
     VkResult result = vkCreateInstance(&info, NULL, &instance->instance);
     if (result != VK_SUCCESS) return vk_fail(err, "creating the instance", result);
     if (validate && instance->debug_utils) {
-        PFN_vkCreateDebugUtilsMessengerEXT create = (PFN_vkCreateDebugUtilsMessengerEXT)(void (*)(void))
-            vkGetInstanceProcAddr(instance->instance, "vkCreateDebugUtilsMessengerEXT");
+        PFN_vkCreateDebugUtilsMessengerEXT create =
+            (PFN_vkCreateDebugUtilsMessengerEXT)(void (*)(void))vkGetInstanceProcAddr(instance->instance,
+                                                                                      "vkCreateDebugUtilsMessengerEXT");
         if (create) create(instance->instance, &listener, NULL, &instance->messenger);
     }
     return true;
@@ -104,8 +123,9 @@ bool instance_init(struct instance *instance, struct messages *messages, struct 
 
 void instance_finish(struct instance *instance) {
     if (!instance->instance) return;
-    PFN_vkDestroyDebugUtilsMessengerEXT destroy = (PFN_vkDestroyDebugUtilsMessengerEXT)(void (*)(void))
-        vkGetInstanceProcAddr(instance->instance, "vkDestroyDebugUtilsMessengerEXT");
+    PFN_vkDestroyDebugUtilsMessengerEXT destroy =
+        (PFN_vkDestroyDebugUtilsMessengerEXT)(void (*)(void))vkGetInstanceProcAddr(instance->instance,
+                                                                                   "vkDestroyDebugUtilsMessengerEXT");
     if (instance->messenger && destroy) destroy(instance->instance, instance->messenger, NULL);
     vkDestroyInstance(instance->instance, NULL);
     *instance = (struct instance){0};
@@ -135,7 +155,10 @@ static bool check_usable(VkPhysicalDevice physical, uint32_t api_version, char *
     VkPhysicalDeviceVulkan13Features f13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     VkPhysicalDeviceFeatures2 f = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f13};
     vkGetPhysicalDeviceFeatures2(physical, &f);
-    const struct { VkBool32 has; const char *name; } wanted[] = {
+    const struct {
+        VkBool32 has;
+        const char *name;
+    } wanted[] = {
         {f13.synchronization2, "synchronization2"},
         {f13.maintenance4, "maintenance4"},
         {f.features.shaderStorageImageWriteWithoutFormat, "shaderStorageImageWriteWithoutFormat"},
@@ -163,7 +186,10 @@ static bool check_usable(VkPhysicalDevice physical, uint32_t api_version, char *
     return true;
 }
 
-static const struct { VkPhysicalDeviceType type; const char *name; } type_order[] = {
+static const struct {
+    VkPhysicalDeviceType type;
+    const char *name;
+} type_order[] = {
     {VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, "discrete"}, {VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU, "integrated"},
     {VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU, "virtual"},   {VK_PHYSICAL_DEVICE_TYPE_CPU, "cpu"},
     {VK_PHYSICAL_DEVICE_TYPE_OTHER, "other"},

@@ -7,9 +7,15 @@
 
 #include <xxhash.h>
 
-static uint64_t mix(uint64_t key, const void *data, size_t size) { return XXH3_64bits_withSeed(data, size, key); }
-static uint64_t mix_text(uint64_t key, const char *text) { return mix(key, text, strlen(text) + 1); }
-static uint64_t mix_number(uint64_t key, uint64_t number) { return mix(key, &number, sizeof number); }
+static uint64_t mix(uint64_t key, const void *data, size_t size) {
+    return XXH3_64bits_withSeed(data, size, key);
+}
+static uint64_t mix_text(uint64_t key, const char *text) {
+    return mix(key, text, strlen(text) + 1);
+}
+static uint64_t mix_number(uint64_t key, uint64_t number) {
+    return mix(key, &number, sizeof number);
+}
 
 static size_t place_of(const struct run *run, const char *name) {
     size_t i = 0;
@@ -26,10 +32,8 @@ static uint64_t table_key(const struct glint_table *table) {
 static bool given_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph.images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->desc.format), image->name);
-    if (image->source == SOURCE_NOTHING)
-        *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
-    else
-        *key = mix_number(*key, run->replay->serial);
+    if (image->source == SOURCE_NOTHING) *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
+    else *key = mix_number(*key, run->replay->serial);
     if (image->row->size == GLINT_SIZE_CUBEMAPS && run->active)
         *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
     if (image->source != SOURCE_RUN) return true;
@@ -59,7 +63,9 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
     return true;
 }
 
-static bool outdated(const struct run *run, size_t i) { return run->images[i]->key != run->keys[i]; }
+static bool outdated(const struct run *run, size_t i) {
+    return run->images[i]->key != run->keys[i];
+}
 
 static void decide(struct run *run, struct step *step, size_t place) {
     for (size_t i = 0; i < run->graph.image_count; i++) {
@@ -79,8 +85,7 @@ bool run_keys(struct run *run, struct glint_error *err) {
         run->needed[i] = image->wanted;
         if (image->source == SOURCE_MADE && image->pass->host)
             run->keys[i] = table_key(tables_find(&run->tables, image->name));
-        else if (image->source != SOURCE_MADE && !given_key(run, i, &run->keys[i], err))
-            return false;
+        else if (image->source != SOURCE_MADE && !given_key(run, i, &run->keys[i], err)) return false;
         if (image->source == SOURCE_RUN) run->needed[i] = true; /* it is among the run's images */
     }
     for (size_t p = 0; p < graph->pass_count; p++) {

@@ -30,12 +30,15 @@ static void pass_finish(struct pipeline_pass *pass) {
     *pass = (struct pipeline_pass){0};
 }
 
-static bool no_memory(struct glint_error *err) { return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory"); }
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
 
 static bool pass_init(struct pipeline_pass *entry, const struct glint_pass *pass, struct glint_error *err) {
     double *values = calloc(pass->row_count, sizeof *values);
     if (!values) return no_memory(err);
-    for (size_t i = 0; i < pass->row_count; i++) values[i] = row_is_parameter(&pass->rows[i]) ? pass->rows[i].initial : 0;
+    for (size_t i = 0; i < pass->row_count; i++)
+        values[i] = row_is_parameter(&pass->rows[i]) ? pass->rows[i].initial : 0;
     *entry = (struct pipeline_pass){.pass = pass, .values = values};
     return true;
 }
@@ -80,8 +83,7 @@ static bool use(struct glint_pipeline *pipeline, const char *slot, const char *v
     if (old) {
         for (size_t i = 0; i < pass->row_count; i++)
             for (size_t j = 0; row_is_parameter(&pass->rows[i]) && j < old->pass->row_count; j++)
-                if (row_is_parameter(&old->pass->rows[j]) &&
-                    strcmp(old->pass->rows[j].name, pass->rows[i].name) == 0 &&
+                if (row_is_parameter(&old->pass->rows[j]) && strcmp(old->pass->rows[j].name, pass->rows[i].name) == 0 &&
                     old->values[j] != old->pass->rows[j].initial && old->values[j] >= pass->rows[i].lowest &&
                     old->values[j] <= pass->rows[i].highest)
                     fresh.values[i] = old->values[j];
@@ -116,10 +118,8 @@ static struct pipeline_pass *locate(struct glint_pipeline *pipeline, const char 
         size_t count, i = 0;
         const struct glint_pass *all = glint_passes(&count);
         while (i < count && strcmp(all[i].slot, slot) != 0) i++;
-        if (i == count)
-            unknown_slot(slot, err);
-        else
-            glint_fail(err, GLINT_ERROR_USAGE, "slot %s is not part of the pipeline %s", slot, pipeline->name);
+        if (i == count) unknown_slot(slot, err);
+        else glint_fail(err, GLINT_ERROR_USAGE, "slot %s is not part of the pipeline %s", slot, pipeline->name);
         return NULL;
     }
     *row = find_parameter(entry->pass, parameter);
@@ -163,9 +163,11 @@ static bool set_text(struct glint_pipeline *pipeline, const char *slot, const ch
         text_list(known, sizeof known, row->choices[c]);
     }
     if (row->choices)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected one of %s, found '%s'", slot, parameter, known, text);
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected one of %s, found '%s'", slot, parameter, known,
+                          text);
     if (row->type == GLINT_VALUE_BOOL) {
-        bool on = strcmp(text, "true") == 0 || strcmp(text, "on") == 0, off = strcmp(text, "false") == 0 || strcmp(text, "off") == 0;
+        bool on = strcmp(text, "true") == 0 || strcmp(text, "on") == 0,
+             off = strcmp(text, "false") == 0 || strcmp(text, "off") == 0;
         if (on || off) {
             entry->values[i] = on;
             return true;
@@ -189,7 +191,8 @@ static char *split(const char *assignment, bool dotted, const char *form, char *
         return NULL;
     }
     char *equals = strchr(copy, '='), *dot = dotted ? strchr(copy, '.') : NULL;
-    if (!equals || equals == copy || !equals[1] || (dotted && (!dot || dot > equals || dot == copy || dot + 1 == equals))) {
+    if (!equals || equals == copy || !equals[1] ||
+        (dotted && (!dot || dot > equals || dot == copy || dot + 1 == equals))) {
         glint_fail(err, GLINT_ERROR_USAGE, "expected %s, found '%s'", form, assignment);
         free(copy);
         return NULL;
@@ -219,13 +222,11 @@ bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignme
     struct pipeline_pass *entry = slot ? find(pipeline, slot) : NULL;
     bool ok = false;
     if (!slot) return false;
-    if (!entry)
-        glint_fail(err, GLINT_ERROR_USAGE, "slot '%s' is not part of the pipeline %s", slot, pipeline->name);
+    if (!entry) glint_fail(err, GLINT_ERROR_USAGE, "slot '%s' is not part of the pipeline %s", slot, pipeline->name);
     else if (entry->pass->host)
         glint_fail(err, GLINT_ERROR_USAGE, "%s/%s runs on the host and has no shader to replace", slot,
                    entry->pass->variant);
-    else if (!(copy = strdup(path)))
-        no_memory(err);
+    else if (!(copy = strdup(path))) no_memory(err);
     else {
         free(entry->shader);
         entry->shader = copy;
@@ -243,15 +244,12 @@ static bool apply_set(struct glint_pipeline *pipeline, const char *key, const js
         if (!(assignment = malloc(size))) return no_memory(err);
         snprintf(assignment, size, "%s=%s", key, json_string_value(value));
     } else if (json_is_number(value) || json_is_boolean(value)) {
-        if (json_is_boolean(value))
-            snprintf(text, sizeof text, "%s", json_is_true(value) ? "1" : "0");
-        else
-            snprintf(text, sizeof text, "%.17g", json_number_value(value));
+        if (json_is_boolean(value)) snprintf(text, sizeof text, "%s", json_is_true(value) ? "1" : "0");
+        else snprintf(text, sizeof text, "%.17g", json_number_value(value));
         size_t size = strlen(key) + strlen(text) + 2;
         if (!(assignment = malloc(size))) return no_memory(err);
         snprintf(assignment, size, "%s=%s", key, text);
-    } else
-        return glint_fail(err, GLINT_ERROR_USAGE, "set: %s: expected a number, true, false or a name", key);
+    } else return glint_fail(err, GLINT_ERROR_USAGE, "set: %s: expected a number, true, false or a name", key);
     bool ok = glint_pipeline_set(pipeline, assignment, err);
     free(assignment);
     return ok;
@@ -274,13 +272,11 @@ static void apply_preset(struct glint_pipeline *pipeline, json_t *root, struct f
             faults_add(faults, GLINT_ERROR_FORMAT, "%s: expected %s", key, text ? "a string" : "an object");
     }
     if (!slots) faults_add(faults, GLINT_ERROR_FORMAT, "expected 'slots'");
-    json_object_foreach(slots, key, value)
-        if (!json_is_string(value))
-            faults_add(faults, GLINT_ERROR_FORMAT, "slots: %s: expected the name of a variant", key);
-        else if (!use(pipeline, key, json_string_value(value), &one))
-            faults_add(faults, one.code, "%s", one.message);
-    json_object_foreach(set, key, value)
-        if (!apply_set(pipeline, key, value, &one)) faults_add(faults, one.code, "%s", one.message);
+    json_object_foreach(slots, key, value) if (!json_is_string(value))
+        faults_add(faults, GLINT_ERROR_FORMAT, "slots: %s: expected the name of a variant", key);
+    else if (!use(pipeline, key, json_string_value(value), &one)) faults_add(faults, one.code, "%s", one.message);
+    json_object_foreach(set, key, value) if (!apply_set(pipeline, key, value, &one))
+        faults_add(faults, one.code, "%s", one.message);
 }
 
 struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err) {
@@ -326,8 +322,12 @@ void glint_pipeline_destroy(struct glint_pipeline **pointer) {
     free(pipeline);
 }
 
-const char *glint_pipeline_name(const struct glint_pipeline *pipeline) { return pipeline->name; }
-size_t glint_pipeline_pass_count(const struct glint_pipeline *pipeline) { return pipeline->count; }
+const char *glint_pipeline_name(const struct glint_pipeline *pipeline) {
+    return pipeline->name;
+}
+size_t glint_pipeline_pass_count(const struct glint_pipeline *pipeline) {
+    return pipeline->count;
+}
 const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeline, size_t i) {
     return i < pipeline->count ? pipeline->passes[i].pass : NULL;
 }

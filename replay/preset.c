@@ -14,7 +14,9 @@ struct builtin_preset {
 #include "builtin_presets.h"
 enum { BUILTIN = sizeof builtin_presets / sizeof builtin_presets[0] };
 
-const char *glint_preset(size_t i) { return i < BUILTIN ? builtin_presets[i].name : NULL; }
+const char *glint_preset(size_t i) {
+    return i < BUILTIN ? builtin_presets[i].name : NULL;
+}
 
 char *file_text(const char *path, size_t limit, struct glint_error *err) {
     FILE *file = fopen(path, "rb");
@@ -38,10 +40,8 @@ char *file_text(const char *path, size_t limit, struct glint_error *err) {
         text[size] = 0;
         if (strlen(text) == size) return text;
         glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected text, found a NUL byte at %zu", path, strlen(text));
-    } else if (failed)
-        glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
-    else
-        glint_fail(err, GLINT_ERROR_LIMIT, "%s: expected at most %zu bytes of text", path, limit);
+    } else if (failed) glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
+    else glint_fail(err, GLINT_ERROR_LIMIT, "%s: expected at most %zu bytes of text", path, limit);
     free(text);
     return NULL;
 }

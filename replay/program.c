@@ -12,10 +12,8 @@ static uint32_t value_bits(const struct glint_row *row, double value) {
     if (row->type == GLINT_VALUE_FLOAT) {
         float f = (float)value;
         memcpy(&bits, &f, sizeof bits);
-    } else if (row->type == GLINT_VALUE_UINT)
-        bits = (uint32_t)value;
-    else
-        bits = (uint32_t)(int32_t)value;
+    } else if (row->type == GLINT_VALUE_UINT) bits = (uint32_t)value;
+    else bits = (uint32_t)(int32_t)value;
     return bits;
 }
 
@@ -100,10 +98,10 @@ static VkResult create_layouts(struct program *program, struct glint_device *dev
     for (size_t i = 0; i < pass->row_count && count < 64; i++) {
         enum glint_row_kind kind = pass->rows[i].kind;
         if (kind != GLINT_ROW_READ && kind != GLINT_ROW_WRITE && kind != GLINT_ROW_DIAGNOSTIC) continue;
-        bindings[count++] = (VkDescriptorSetLayoutBinding){
-            pass->rows[i].id,
-            kind == GLINT_ROW_READ ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1,
-            VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+        bindings[count++] = (VkDescriptorSetLayoutBinding){pass->rows[i].id,
+                                                           kind == GLINT_ROW_READ ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
+                                                                                  : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                                                           1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     }
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};

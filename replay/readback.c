@@ -7,7 +7,9 @@
 
 #include "timing.h"
 
-static VkDeviceSize aligned(VkDeviceSize size) { return (size + 15) & ~(VkDeviceSize)15; }
+static VkDeviceSize aligned(VkDeviceSize size) {
+    return (size + 15) & ~(VkDeviceSize)15;
+}
 
 bool readback_images(struct glint_replay *replay, struct image *const *images, size_t count, struct host_buffer *buffer,
                      VkDeviceSize *offsets, struct glint_error *err) {
@@ -42,12 +44,11 @@ bool glint_replay_read_image(struct glint_replay *replay, const struct glint_ima
                              void *out, struct glint_error *err) {
     struct image *image = replay->images;
     while (image && &image->info != info) image = image->next;
-    if (!image || !image->listed)
-        return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
+    if (!image || !image->listed) return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
     const size_t value_bytes = format_bytes(image->desc.format) / info->components;
     const bool uint = format_is_uint(image->desc.format);
-    const bool same = uint ? type == (value_bytes == 1 ? GLINT_U8 : GLINT_U32)
-                           : type == (value_bytes == 2 ? GLINT_F16 : GLINT_F32);
+    const bool same =
+        uint ? type == (value_bytes == 1 ? GLINT_U8 : GLINT_U32) : type == (value_bytes == 2 ? GLINT_F16 : GLINT_F32);
     if (!same && type != (uint ? GLINT_U32 : GLINT_F32))
         return glint_fail(err, GLINT_ERROR_USAGE, "image %s is %s: it can be read as its own type or as %s", info->name,
                           format_name(image->desc.format), uint ? "uint" : "float");
@@ -55,8 +56,7 @@ bool glint_replay_read_image(struct glint_replay *replay, const struct glint_ima
     VkDeviceSize offset;
     bool ok = readback_images(replay, &image, 1, &buffer, &offset, err);
     const size_t count = (size_t)info->width * info->height * info->components;
-    if (ok && same)
-        memcpy(out, buffer.map, count * value_bytes);
+    if (ok && same) memcpy(out, buffer.map, count * value_bytes);
     else if (ok && uint)
         for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ((const uint8_t *)buffer.map)[i];
     else if (ok)

@@ -30,7 +30,8 @@ static json_t *pass_record(const struct run *run, size_t p) {
     json_object_set_new(object, "images", json_array());
     json_object_set_new(object, "time_ns",
                         json_pack("{sIsIsIsI}", "n", (json_int_t)result->time.n, "min", (json_int_t)result->time.min_ns,
-                                  "median", (json_int_t)result->time.median_ns, "max", (json_int_t)result->time.max_ns));
+                                  "median", (json_int_t)result->time.median_ns, "max",
+                                  (json_int_t)result->time.max_ns));
     return object;
 }
 
@@ -60,9 +61,9 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "tool", json_pack("{ssss}", "name", "glint", "version", GLINT_VERSION));
     json_object_set_new(root, "device", device_record(glint_device_get_info(run->replay->device)));
     json_object_set_new(root, "preset", json_string(run->pipeline->name));
-    json_object_set_new(root, "resolution", json_pack("{s[ii]s[ii]}", "full", (int)run->sizes.full[0],
-                                                      (int)run->sizes.full[1], "half", (int)run->sizes.half[0],
-                                                      (int)run->sizes.half[1]));
+    json_object_set_new(root, "resolution",
+                        json_pack("{s[ii]s[ii]}", "full", (int)run->sizes.full[0], (int)run->sizes.full[1], "half",
+                                  (int)run->sizes.half[0], (int)run->sizes.half[1]));
     json_object_set_new(root, "precision", json_string(options->float_precision ? "float" : "half"));
     json_object_set_new(root, "diagnostics", json_boolean(options->diagnostics));
     json_object_set_new(root, "inputs", options->inputs ? json_string(options->inputs) : json_null());

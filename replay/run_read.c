@@ -47,14 +47,17 @@ static bool add_image(struct glint_run *run, const json_t *pass, const json_t *i
                      height = json_integer_value(json_object_get(image, "height"));
     const char *format = text_of(image, "format");
     stored.info.integer = strstr(format, "UI") != NULL;
-    for (const char *at = stored.info.channels; *at; at += strcspn(at, " "), at += strspn(at, " ")) stored.info.components++;
-    if (!stored.info.name[0] || stored.info.components < 1 || stored.info.components > 4 || width < 1 || width > 1 << 16 ||
-        height < 1 || height > 1 << 19)
-        return glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json: slot %s: image %s: expected a name, 1 to 4 channels and a size",
-                          run->folder, stored.info.slot, stored.info.name);
+    for (const char *at = stored.info.channels; *at; at += strcspn(at, " "), at += strspn(at, " "))
+        stored.info.components++;
+    if (!stored.info.name[0] || stored.info.components < 1 || stored.info.components > 4 || width < 1 ||
+        width > 1 << 16 || height < 1 || height > 1 << 19)
+        return glint_fail(err, GLINT_ERROR_FORMAT,
+                          "%s/run.json: slot %s: image %s: expected a name, 1 to 4 channels and a size", run->folder,
+                          stored.info.slot, stored.info.name);
     if (!stored.file[0] || strchr(stored.file, '/') || stored.file[0] == '.')
-        return glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json: image %s: expected the name of a file in the folder, found '%s'",
-                          run->folder, stored.info.name, stored.file);
+        return glint_fail(err, GLINT_ERROR_FORMAT,
+                          "%s/run.json: image %s: expected the name of a file in the folder, found '%s'", run->folder,
+                          stored.info.name, stored.file);
     stored.info.width = (uint32_t)width;
     stored.info.height = (uint32_t)height;
     run->images[run->count++] = stored;
@@ -67,7 +70,8 @@ static bool parse(struct glint_run *run, struct glint_error *err) {
     size_t p, i;
     run->root = json_loads(run->text, 0, &fault);
     if (!run->root)
-        return glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json:%d:%d: %s", run->folder, fault.line, fault.column, fault.text);
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json:%d:%d: %s", run->folder, fault.line, fault.column,
+                          fault.text);
     const json_int_t format = json_integer_value(json_object_get(run->root, "format"));
     if (format != 1)
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s/run.json: expected format 1, found %lld", run->folder,
@@ -107,8 +111,12 @@ void glint_run_close(struct glint_run **pointer) {
     free(run);
 }
 
-const char *glint_run_json(const struct glint_run *run) { return run->text; }
-size_t glint_run_image_count(const struct glint_run *run) { return run->count; }
+const char *glint_run_json(const struct glint_run *run) {
+    return run->text;
+}
+size_t glint_run_image_count(const struct glint_run *run) {
+    return run->count;
+}
 const struct glint_run_image *glint_run_image(const struct glint_run *run, size_t i) {
     return i < run->count ? &run->images[i].info : NULL;
 }

@@ -59,19 +59,24 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
     }
     const size_t stored_bytes = bytes == 1 ? 4 : bytes;
     for (uint32_t c = 0; c < components; c++)
-        memory->channels[c] = (struct glint_exr_channel){.name = names[c],
-                                                         .stored = format_is_uint(image->desc.format) ? GLINT_STORED_UINT
-                                                                   : bytes == 2 ? GLINT_STORED_HALF : GLINT_STORED_FLOAT,
-                                                         .data = data + c * stored_bytes,
-                                                         .x_stride_bytes = components * stored_bytes};
-    const char *const texts[][2] = {{"glint.image", image->name},     {"glint.slot", job->pass->slot},
-                                    {"glint.variant", job->pass->variant}, {"glint.unit", row->unit},
-                                    {"glint.meaning", row->help},     {"glint.channels", row->channels},
+        memory->channels[c] =
+            (struct glint_exr_channel){.name = names[c],
+                                       .stored = format_is_uint(image->desc.format) ? GLINT_STORED_UINT
+                                                 : bytes == 2                       ? GLINT_STORED_HALF
+                                                                                    : GLINT_STORED_FLOAT,
+                                       .data = data + c * stored_bytes,
+                                       .x_stride_bytes = components * stored_bytes};
+    const char *const texts[][2] = {{"glint.image", image->name},
+                                    {"glint.slot", job->pass->slot},
+                                    {"glint.variant", job->pass->variant},
+                                    {"glint.unit", row->unit},
+                                    {"glint.meaning", row->help},
+                                    {"glint.channels", row->channels},
                                     {"glint.format", format_name(image->desc.format)}};
     const size_t text_count = sizeof texts / sizeof texts[0];
     for (size_t t = 0; t < text_count; t++)
-        memory->attributes[t] =
-            (struct glint_exr_attribute){.name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
+        memory->attributes[t] = (struct glint_exr_attribute){
+            .name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
     *part = (struct glint_exr_part){.name = image->name,
                                     .width = image->info.width,
                                     .height = image->info.height,
@@ -154,11 +159,12 @@ static bool finish_record(struct glint_replay *replay, json_t *root, struct glin
     double start = now_seconds();
     if (!glint_capture_hash(replay->capture, hash, err)) return false;
     replay->seconds[PHASE_READ] += now_seconds() - start;
-    json_object_set_new(root, "capture", json_pack("{ssss}", "path", glint_capture_path(replay->capture), "xxh3_128", hash));
-    json_object_set_new(root, "seconds", json_pack("{sfsfsfsfsf}", "read", replay->seconds[PHASE_READ], "upload",
-                                                   replay->seconds[PHASE_UPLOAD], "passes", replay->seconds[PHASE_PASSES],
-                                                   "readback", replay->seconds[PHASE_READBACK], "write",
-                                                   replay->seconds[PHASE_WRITE]));
+    json_object_set_new(root, "capture",
+                        json_pack("{ssss}", "path", glint_capture_path(replay->capture), "xxh3_128", hash));
+    json_object_set_new(root, "seconds",
+                        json_pack("{sfsfsfsfsf}", "read", replay->seconds[PHASE_READ], "upload",
+                                  replay->seconds[PHASE_UPLOAD], "passes", replay->seconds[PHASE_PASSES], "readback",
+                                  replay->seconds[PHASE_READBACK], "write", replay->seconds[PHASE_WRITE]));
     json_object_set_new(root, "peak_memory_bytes", json_integer((json_int_t)peak_memory_bytes()));
     return true;
 }
@@ -194,7 +200,8 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
     struct image *first;
     for (size_t p = 0; ok && p < replay->result_count; p++) {
         if (!replay->results[p].ran || images_of_pass(replay, replay->results[p].pass, &first, 1) == 0) continue;
-        ok = report_progress(progress, user, replay->results[p].pass->slot, (double)p / (double)replay->result_count, err) &&
+        ok = report_progress(progress, user, replay->results[p].pass->slot, (double)p / (double)replay->result_count,
+                             err) &&
              write_pass(replay, p, folder, &jobs[turn], &jobs[1 - turn], root, err);
         turn = 1 - turn;
     }

@@ -9,8 +9,8 @@
 #include <glslang/Public/resource_limits_c.h>
 #include <xxhash.h>
 
-/* glslang's log, one message a line, as one line of ours. */
-static bool fail_with_log(const char *path, const char *log, struct glint_error *err) {
+/* glslang's log, one message a line, as one line of ours. The linker's messages name no file. */
+static bool fail_with_log(const char *path, bool names_file, const char *log, struct glint_error *err) {
     char text[800] = "", line[512];
     size_t used = 0;
     while (*log) {
@@ -18,11 +18,14 @@ static bool fail_with_log(const char *path, const char *log, struct glint_error 
         snprintf(line, sizeof line, "%.*s", (int)length, log);
         log += length + (log[length] == '\n');
         /* Its closing words ("compilation terminated", "2 compilation errors") tell nothing. */
-        if (strncmp(line, "ERROR: ", 7) != 0 || strstr(line, "compilation terminated") || strstr(line, "No code generated"))
+        if (strncmp(line, "ERROR: ", 7) != 0 || strstr(line, "compilation terminated") ||
+            strstr(line, "No code generated"))
             continue;
         if (used + strlen(line) < sizeof text) used += (size_t)sprintf(text + used, "%s%s", used ? "; " : "", line + 7);
     }
-    return glint_fail(err, GLINT_ERROR_FORMAT, "%s%s", used ? "" : path, used ? text : ": does not compile");
+    const bool prefix = !names_file || !used;
+    return glint_fail(err, GLINT_ERROR_FORMAT, "%s%s%s", prefix ? path : "", prefix ? ": " : "",
+                      used ? text : "does not compile");
 }
 
 static bool compile(struct spirv *spirv, const char *path, const char *code, struct glint_error *err) {
@@ -37,18 +40,18 @@ static bool compile(struct spirv *spirv, const char *path, const char *code, str
                                    .default_profile = GLSLANG_CORE_PROFILE,
                                    .messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT,
                                    .resource = glslang_default_resource()};
-    if (!glslang_initialize_process()) return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: glslang cannot start", path);
+    if (!glslang_initialize_process())
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: glslang cannot start", path);
     glslang_shader_t *shader = glslang_shader_create(&input);
     glslang_program_t *program = glslang_program_create();
     bool ok = false;
-    if (!shader || !program)
-        glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    if (!shader || !program) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     else if (!glslang_shader_preprocess(shader, &input) || !glslang_shader_parse(shader, &input))
-        fail_with_log(path, glslang_shader_get_info_log(shader), err);
+        fail_with_log(path, true, glslang_shader_get_info_log(shader), err);
     else {
         glslang_program_add_shader(program, shader);
         if (!glslang_program_link(program, (int)input.messages))
-            fail_with_log(path, glslang_program_get_info_log(program), err);
+            fail_with_log(path, false, glslang_program_get_info_log(program), err);
         else {
             glslang_program_SPIRV_generate(program, input.stage);
             spirv->bytes = glslang_program_SPIRV_get_size(program) * sizeof(uint32_t);
@@ -64,6 +67,37 @@ static bool compile(struct spirv *spirv, const char *path, const char *code, str
     return ok;
 }
 
+static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
+    if (set == 1) return binding <= 2; /* passes/shared/bindings.glsl */
+    for (size_t r = 0; set == 0 && r < pass->row_count; r++) {
+        enum glint_row_kind kind = pass->rows[r].kind;
+        bool image = kind == GLINT_ROW_READ || kind == GLINT_ROW_WRITE || kind == GLINT_ROW_DIAGNOSTIC;
+        if (image && pass->rows[r].id == binding) return true;
+    }
+    return false;
+}
+
+/* A user's shader may declare bindings by hand; what no row declares has no image behind it. */
+static bool check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
+                           struct glint_error *err) {
+    enum { HEADER = 5, OP_DECORATE = 71, BINDING = 33, DESCRIPTOR_SET = 34 };
+    const size_t count = spirv->bytes / sizeof(uint32_t);
+    const uint32_t bound = spirv->words[3]; /* ids are below it */
+    uint32_t *sets = calloc(bound, sizeof *sets);
+    bool ok = sets || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    for (int round = 0; ok && round < 2; round++) /* the set may follow the binding */
+        for (size_t i = HEADER; ok && i < count && spirv->words[i] >> 16; i += spirv->words[i] >> 16) {
+            const uint32_t *op = &spirv->words[i];
+            if ((op[0] & 0xffff) != OP_DECORATE || op[0] >> 16 != 4 || i + 4 > count || op[1] >= bound) continue;
+            if (round == 0 && op[2] == DESCRIPTOR_SET) sets[op[1]] = op[3];
+            if (round == 1 && op[2] == BINDING && !is_declared(pass, sets[op[1]], op[3]))
+                ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: binding %u of set %u is no image that %s/%s declares",
+                                path, op[3], sets[op[1]], pass->slot, pass->variant);
+        }
+    free(sets);
+    return ok;
+}
+
 bool spirv_init(struct spirv *spirv, const struct pipeline_pass *entry, struct glint_error *err) {
     *spirv = (struct spirv){0};
     if (entry->shader) {
@@ -72,7 +106,7 @@ bool spirv_init(struct spirv *spirv, const struct pipeline_pass *entry, struct g
         if (!code) return glint_fail(err, own.code, "%s", own.message);
         bool ok = compile(spirv, entry->shader, code, err);
         free(code);
-        if (!ok) return false;
+        if (!ok || !check_bindings(spirv, entry->pass, entry->shader, err)) return false;
     } else {
         spirv->words = entry->pass->spirv;
         spirv->bytes = entry->pass->spirv_bytes;

@@ -9,8 +9,7 @@
 static bool existing_size(const struct run *run, const struct graph_image *image, uint32_t size[2]) {
     const struct glint_table *table = tables_find(&run->tables, image->name);
     size[0] = size[1] = 0;
-    if (image->source == SOURCE_MADE && table)
-        size[0] = table->width, size[1] = table->height;
+    if (image->source == SOURCE_MADE && table) size[0] = table->width, size[1] = table->height;
     else if (image->source == SOURCE_RUN) {
         const struct glint_run_image *info = glint_run_find(run->inputs, image->name);
         size[0] = info->width, size[1] = info->height;
@@ -19,8 +18,7 @@ static bool existing_size(const struct run *run, const struct graph_image *image
         snprintf(name, sizeof name, "engine.%.48s.%.48s", image->pass->slot, image->name);
         const struct glint_part_info *part = glint_capture_find(run->replay->capture, name);
         size[0] = part->width, size[1] = part->height;
-    } else
-        return false;
+    } else return false;
     return true;
 }
 
@@ -36,14 +34,16 @@ static bool read_active(struct run *run, const struct graph_image *image, struct
     if (table && table->texels.u && format_is_uint(image->row->format))
         memcpy(run->active, table->texels.u, (size_t)size[0] * sizeof *run->active);
     else
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: expected a table of a pass or of a run", image->name);
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: expected a table of a pass or of a run",
+                          image->name);
     return true;
 }
 
 bool run_sizes(struct run *run, struct glint_error *err) {
     struct glint_capture *capture = run->replay->capture;
     struct frame_sizes *sizes = &run->sizes;
-    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"), *sky = glint_capture_find(capture, "sky");
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"),
+                                 *sky = glint_capture_find(capture, "sky");
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
@@ -63,8 +63,8 @@ bool run_sizes(struct run *run, struct glint_error *err) {
     }
     for (uint32_t i = 0; run->active && i < sizes->active; i++)
         if (run->active[i] >= count)
-            return glint_fail(err, GLINT_ERROR_FORMAT, "image active_index: place %u names cube map %u, but %s has %zu", i,
-                              run->active[i], glint_capture_path(capture), count);
+            return glint_fail(err, GLINT_ERROR_FORMAT, "image active_index: place %u names cube map %u, but %s has %zu",
+                              i, run->active[i], glint_capture_path(capture), count);
     return true;
 }
 
@@ -78,23 +78,31 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     if (image->source == SOURCE_NOTHING) return true;
     uint32_t expected[2] = {0, 0}, found[2];
     switch (row->size) {
-    case GLINT_SIZE_FULL: expected[0] = sizes->full[0], expected[1] = sizes->full[1]; break;
-    case GLINT_SIZE_HALF: expected[0] = sizes->half[0], expected[1] = sizes->half[1]; break;
+    case GLINT_SIZE_FULL:
+        expected[0] = sizes->full[0], expected[1] = sizes->full[1];
+        break;
+    case GLINT_SIZE_HALF:
+        expected[0] = sizes->half[0], expected[1] = sizes->half[1];
+        break;
     case GLINT_SIZE_CUBEMAPS:
         expected[0] = expected[1] = sizes->cube_face;
         desc->layers = 6 * (sizes->active ? sizes->active : 1);
         break;
-    case GLINT_SIZE_SKY: expected[0] = expected[1] = sizes->sky_face; break;
-    case GLINT_SIZE_ACTIVE: expected[0] = sizes->active, expected[1] = 1; break;
-    case GLINT_SIZE_CHAIN: expected[0] = sizes->chain, expected[1] = sizes->active; break;
+    case GLINT_SIZE_SKY:
+        expected[0] = expected[1] = sizes->sky_face;
+        break;
+    case GLINT_SIZE_ACTIVE:
+        expected[0] = sizes->active, expected[1] = 1;
+        break;
+    case GLINT_SIZE_CHAIN:
+        expected[0] = sizes->chain, expected[1] = sizes->active;
+        break;
     }
     if (existing_size(run, image, found) && (found[0] != expected[0] || found[1] != expected[1]))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u, found %u x %u",
                           image->source == SOURCE_RUN ? run->options->inputs : glint_capture_path(run->replay->capture),
                           image->name, expected[0], expected[1], found[0], found[1]);
-    if (!expected[0] || !expected[1])
-        desc->layers = cube ? 6 : 0; /* nothing is active: a stand-in */
-    else
-        desc->width = expected[0], desc->height = expected[1];
+    if (!expected[0] || !expected[1]) desc->layers = cube ? 6 : 0; /* nothing is active: a stand-in */
+    else desc->width = expected[0], desc->height = expected[1];
     return true;
 }

@@ -54,7 +54,7 @@ struct run {
     double *host_seconds; /* one for each pass */
     struct frame_sizes sizes;
     struct frame_block block;
-    uint32_t *active; /* the capture's cube maps that take part, sizes.active of them */
+    uint32_t *active;      /* the capture's cube maps that take part, sizes.active of them */
     struct image **images; /* beside graph.images */
     uint64_t *keys;        /* what the images' contents will depend on */
     bool *needed;          /* read or wanted by what will be executed */

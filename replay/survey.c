@@ -11,7 +11,9 @@ static const char *const surveyed[] = {"depth.Z", "material.roughness", "materia
 
 size_t channels_find(const struct channels *channels, const char *name, size_t length) {
     size_t i = 0;
-    while (i < channels->count && (strncmp(channels->names[i], name, length) != 0 || strlen(channels->names[i]) != length)) i++;
+    while (i < channels->count &&
+           (strncmp(channels->names[i], name, length) != 0 || strlen(channels->names[i]) != length))
+        i++;
     return i;
 }
 
@@ -46,7 +48,8 @@ bool channels_read(struct channels *channels, struct glint_capture *capture, str
     if (!channels->data)
         return glint_fail(err, GLINT_ERROR_MEMORY, "%s: part %s: no memory for %zu channels",
                           glint_capture_path(capture), channels->part->name, channels->count);
-    return glint_capture_read(capture, channels->part, channels->names, channels->count, GLINT_F32, channels->data, 0, err);
+    return glint_capture_read(capture, channels->part, channels->names, channels->count, GLINT_F32, channels->data, 0,
+                              err);
 }
 
 void channels_finish(struct channels *channels) {
@@ -93,7 +96,8 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err) {
     *survey = (struct glint_survey){0};
     struct channels channels = {.part = glint_capture_find(capture, "gbuffer")};
-    bool ok = channels.part || glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
+    bool ok =
+        channels.part || glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     ok = ok && channels_add_survey(&channels, err) && channels_read(&channels, capture, err);
     if (ok) survey_channels(&channels, survey);
     if (ok) survey_capture_parts(capture, survey);

@@ -17,7 +17,8 @@ static double value_of(const struct glint_host_context *context, const char *par
     const struct host_run *run = context->user;
     const struct glint_pass *pass = run->entry->pass;
     for (size_t i = 0; i < pass->row_count; i++)
-        if (row_is_parameter(&pass->rows[i]) && strcmp(pass->rows[i].name, parameter) == 0) return run->entry->values[i];
+        if (row_is_parameter(&pass->rows[i]) && strcmp(pass->rows[i].name, parameter) == 0)
+            return run->entry->values[i];
     return 0;
 }
 
@@ -45,11 +46,10 @@ static struct glint_table *make_table(struct glint_host_context *context, const 
         return NULL;
     }
     struct glint_table *table = &tables->tables[tables->count];
-    *table = (struct glint_table){.name = pass->rows[i].name, .width = width, .height = height, .components = components};
-    if (format_is_uint(pass->rows[i].format))
-        table->texels.u = texels;
-    else
-        table->texels.f = (float *)texels;
+    *table =
+        (struct glint_table){.name = pass->rows[i].name, .width = width, .height = height, .components = components};
+    if (format_is_uint(pass->rows[i].format)) table->texels.u = texels;
+    else table->texels.f = (float *)texels;
     tables->rows[tables->count++] = &pass->rows[i];
     return table;
 }
@@ -88,7 +88,8 @@ bool tables_init(struct tables *tables, const struct graph *graph, struct glint_
     size_t count = 0;
     *tables = (struct tables){0};
     bool ok = cubemap_parts(capture, &parts, &count, err);
-    if (ok && !(cubemaps = calloc(count + 1, sizeof *cubemaps))) ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok && !(cubemaps = calloc(count + 1, sizeof *cubemaps)))
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; ok && i < count; i++) cubemaps[i] = parts[i]->cubemap;
     for (size_t i = 0; ok && i < graph->pass_count; i++) {
         const struct graph_pass *pass = &graph->passes[i];

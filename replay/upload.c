@@ -38,7 +38,8 @@ static void pack_rows(void *user, size_t first, size_t last) {
         const size_t stride = p->at[c] == SIZE_MAX ? 0 : p->stride;
         const size_t bytes = format_bytes(p->format) / components;
         if (bytes == 1)
-            for (size_t i = begin; i < end; i++, from += stride) ((uint8_t *)p->to)[i * components + c] = (uint8_t)*from;
+            for (size_t i = begin; i < end; i++, from += stride)
+                ((uint8_t *)p->to)[i * components + c] = (uint8_t)*from;
         else if (bytes == 2)
             for (size_t i = begin; i < end; i++, from += stride) {
                 float value;
@@ -74,8 +75,8 @@ static void place_components(struct packing *packing, const struct channels *cha
 }
 
 /* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
-static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role, struct channels *channels,
-                        uint32_t first, uint32_t layers, struct glint_error *err) {
+static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role,
+                        struct channels *channels, uint32_t first, uint32_t layers, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     struct glint_capture *capture = replay->capture;
     double start = now_seconds();
@@ -128,7 +129,8 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
     bool ok = true;
     for (uint32_t i = 0; ok && i < run->sizes.active; i++) {
         struct channels channels = {0};
-        ok = report_progress(run->progress, run->user, parts[run->active[i]]->name, (double)i / run->sizes.active * 0.2, err) &&
+        ok = report_progress(run->progress, run->user, parts[run->active[i]]->name, (double)i / run->sizes.active * 0.2,
+                             err) &&
              upload_part(run, parts[run->active[i]], role, &channels, 6 * i, 6, err);
         channels_finish(&channels);
     }
@@ -157,9 +159,10 @@ static bool upload_from_run(struct run *run, size_t i, struct glint_error *err) 
     const struct glint_run_image *info = glint_run_find(run->inputs, run->graph.images[i].name);
     const struct image_desc *desc = &run->images[i]->desc;
     if (info->components != format_components(desc->format) || info->integer != format_is_uint(desc->format))
-        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u %s channels, found %u %s", run->options->inputs,
-                          info->name, format_components(desc->format), format_is_uint(desc->format) ? "uint" : "float",
-                          info->components, info->integer ? "uint" : "float");
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u %s channels, found %u %s",
+                          run->options->inputs, info->name, format_components(desc->format),
+                          format_is_uint(desc->format) ? "uint" : "float", info->components,
+                          info->integer ? "uint" : "float");
     void *values = malloc((size_t)info->width * info->height * info->components * 4);
     bool ok = values ? glint_run_read(run->inputs, info, info->integer ? GLINT_U32 : GLINT_F32, values, err)
                      : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", info->name);
@@ -225,7 +228,8 @@ bool run_upload(struct run *run, struct glint_error *err) {
         if (!to_upload(run, i) || (image->source == SOURCE_MADE && !table)) continue;
         bool stand_in = image->row->size == GLINT_SIZE_CUBEMAPS && run->sizes.active == 0;
         if (image->source == SOURCE_CAPTURE && !stand_in) {
-            ok = report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, image, err);
+            ok =
+                report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, image, err);
             for (size_t j = 0; ok && j < run->graph.image_count; j++)
                 if (run->graph.images[j].source == SOURCE_CAPTURE && run->needed[j] &&
                     strcmp(run->graph.images[j].row->role, image->row->role) == 0)

@@ -59,7 +59,7 @@ double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct 
 
 enum { GLINT_SURVEY_BINS = 10 };
 struct glint_survey {
-    uint64_t pixels, sky, reflecting; /* reflecting: not sky, and specular or metalness above 0 */
+    uint64_t pixels, sky, reflecting;      /* reflecting: not sky, and specular or metalness above 0 */
     uint64_t roughness[GLINT_SURVEY_BINS]; /* reflecting pixels by roughness, bins of 0.1 */
     float depth_m[2], roughness_range[2], specular_range[2], metalness_range[2]; /* lowest and highest without sky */
     uint32_t cubemaps;

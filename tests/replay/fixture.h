@@ -1,0 +1,55 @@
+/* A device under validation and a tiny capture, for the tests of replay. */
+#ifndef GLINT_TEST_FIXTURE_H
+#define GLINT_TEST_FIXTURE_H
+
+#include "glint/replay.h"
+
+struct fixture {
+    char folder[64]; /* a temporary one; the capture lies in it */
+    char capture_path[128];
+    struct glint_device *device; /* NULL for tests of the host */
+    struct glint_capture *capture;
+    struct glint_pipeline *pipeline;
+    struct glint_replay *replay;
+};
+
+enum {
+    FIXTURE_WIDTH = 50,
+    FIXTURE_HEIGHT = 31, /* odd, so that half sizes round */
+    FIXTURE_FACE = 8,
+    FIXTURE_CUBEMAPS = 3
+};
+
+struct fixture_options {
+    bool matte; /* nothing reflects */
+    bool no_cubemaps;
+};
+/* Writes the capture. False when the writer refused it. */
+bool fixture_write_capture(const char *path, const struct fixture_options *options, struct glint_error *err);
+
+/* cmocka group fixtures: *state receives a struct fixture. Without a Vulkan device the tests skip. */
+int fixture_setup_device(void **state);
+int fixture_setup_host(void **state);
+int fixture_teardown(void **state);
+/* Skips the calling test when there is no device, unless GLINT_REQUIRE_DEVICE=1. */
+struct fixture *fixture_need_device(void **state);
+
+/* Fails the calling test when the validation layer said anything. */
+void fixture_check_messages(const struct fixture *fixture);
+
+/* All images of the last run in their own types. */
+struct snapshot {
+    size_t count;
+    struct {
+        char name[64];
+        size_t bytes;
+        void *data;
+        const char *slot;
+    } images[64];
+};
+void snapshot_take(struct snapshot *snapshot, struct glint_replay *replay);
+void snapshot_free(struct snapshot *snapshot);
+/* Fails the calling test unless every image of `part` has the same bits in `whole`; returns how many there were. */
+size_t snapshot_compare(const struct snapshot *part, const struct snapshot *whole);
+
+#endif

@@ -1,0 +1,205 @@
+/* The uniform block against plain matrix products in double: random cameras, mirrored ones, both clip conventions. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "frame_block.h"
+
+static double uniform(uint64_t *state) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) / 9007199254740992.0;
+}
+
+static void transform(const double m[16], const double in[4], double out[4]) {
+    for (int r = 0; r < 4; r++)
+        out[r] = m[4 * r] * in[0] + m[4 * r + 1] * in[1] + m[4 * r + 2] * in[2] + m[4 * r + 3] * in[3];
+}
+
+static void apply(const mat4 *m, const double in[4], double out[4]) {
+    for (int r = 0; r < 4; r++) {
+        out[r] = 0;
+        for (int c = 0; c < 4; c++) out[r] += (double)m->column[c][r] * in[c];
+    }
+}
+
+/* A rotation from a random quaternion, one axis mirrored if asked, about a random eye. */
+static void random_camera(uint64_t *state, bool mirror, double front, double far_from_origin,
+                          struct glint_camera *camera, double eye[3]) {
+    double q[4], length = 0;
+    for (int i = 0; i < 4; i++) q[i] = uniform(state) - 0.5, length += q[i] * q[i];
+    for (int i = 0; i < 4; i++) q[i] /= sqrt(length);
+    const double w = q[0], x = q[1], y = q[2], z = q[3], flip = mirror ? -1 : 1;
+    const double rotation[9] = {
+        flip * (1 - 2 * (y * y + z * z)), flip * 2 * (x * y - w * z), flip * 2 * (x * z + w * y), 2 * (x * y + w * z),
+        1 - 2 * (x * x + z * z),          2 * (y * z - w * x),        2 * (x * z - w * y),        2 * (y * z + w * x),
+        1 - 2 * (x * x + y * y)};
+    memset(camera, 0, sizeof *camera);
+    for (int i = 0; i < 3; i++) eye[i] = far_from_origin + 10 * (uniform(state) - 0.5);
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) camera->world_to_view[4 * r + c] = rotation[3 * r + c];
+        for (int c = 0; c < 3; c++) camera->world_to_view[4 * r + 3] -= rotation[3 * r + c] * eye[c];
+    }
+    camera->world_to_view[15] = 1;
+    camera->view_to_clip[0] = 0.5 + uniform(state);
+    camera->view_to_clip[2] = 0.1 * (uniform(state) - 0.5);
+    camera->view_to_clip[5] = 0.5 + uniform(state);
+    camera->view_to_clip[6] = 0.1 * (uniform(state) - 0.5);
+    camera->view_to_clip[10] = front, camera->view_to_clip[11] = -0.1, camera->view_to_clip[14] = front;
+}
+
+static void fill(struct frame_block *block, const struct glint_frame *frame) {
+    const struct frame_sizes sizes = {.full = {100, 50}, .half = {50, 25}, .active = 3, .chain = 2, .cube_face = 16};
+    frame_block_fill(block, frame, &sizes);
+}
+
+/* uv by the capture's own definition: clip = view_to_clip · world_to_view · world. */
+static bool project(const struct glint_camera *camera, enum glint_clip_y clip_y, const double world[3], double uv[2]) {
+    const double point[4] = {world[0], world[1], world[2], 1};
+    double view[4], clip[4];
+    transform(camera->world_to_view, point, view);
+    transform(camera->view_to_clip, view, clip);
+    if (clip[3] < 0.05) return false;
+    uv[0] = (clip[0] / clip[3] + 1) / 2;
+    uv[1] = clip_y == GLINT_CLIP_Y_UP ? (1 - clip[1] / clip[3]) / 2 : (clip[1] / clip[3] + 1) / 2;
+    return true;
+}
+
+static void points_project_as_the_matrices_say(void **unused) {
+    (void)unused;
+    uint64_t state = 1;
+    int checked = 0;
+    for (int n = 0; n < 400; n++) {
+        struct glint_frame frame = {.metres_per_unit = n & 1 ? 0.01 : 1,
+                                    .clip_y = n & 2 ? GLINT_CLIP_Y_DOWN : GLINT_CLIP_Y_UP,
+                                    .has_previous = true};
+        struct frame_block block;
+        double eye[3], previous_eye[3], world[3], uv[2], previous_uv[2];
+        const double distance = n & 16 ? 1e6 : 0;
+        random_camera(&state, n & 4, n & 8 ? 1 : -1, distance, &frame.camera, eye);
+        random_camera(&state, n & 4, n & 8 ? 1 : -1, distance, &frame.previous, previous_eye);
+        fill(&block, &frame);
+        for (int i = 0; i < 3; i++) world[i] = eye[i] + 8 * (uniform(&state) - 0.5);
+        const double relative[4] = {(world[0] - eye[0]) * frame.metres_per_unit,
+                                    (world[1] - eye[1]) * frame.metres_per_unit,
+                                    (world[2] - eye[2]) * frame.metres_per_unit, 1};
+        double view[4], back[4];
+        apply(&block.view_from_world, relative, view);
+        apply(&block.world_from_view, view, back);
+        /* 1e-5: the block's floats hold 6e-8, lengths and coordinates here stay below 100 */
+        for (int i = 0; i < 3; i++) assert_true(fabs(back[i] - relative[i]) < 1e-5);
+        if (project(&frame.camera, frame.clip_y, world, uv)) {
+            const double depth = view[2] * (double)block.depth_range.z;
+            assert_true(depth > 0);
+            assert_true(fabs(view[0] / depth * (double)block.uv_from_view.x + (double)block.uv_from_view.z - uv[0]) <
+                        1e-5 * (1 + fabs(uv[0])));
+            assert_true(fabs(view[1] / depth * (double)block.uv_from_view.y + (double)block.uv_from_view.w - uv[1]) <
+                        1e-5 * (1 + fabs(uv[1])));
+            assert_true(fabs((uv[0] * (double)block.view_from_uv.x + (double)block.view_from_uv.z) * depth - view[0]) <
+                        1e-5 * (1 + fabs(uv[0])) * (1 + depth));
+            assert_true(fabs((uv[1] * (double)block.view_from_uv.y + (double)block.view_from_uv.w) * depth - view[1]) <
+                        1e-5 * (1 + fabs(uv[1])) * (1 + depth));
+            checked++;
+        }
+        if (project(&frame.previous, frame.clip_y, world, previous_uv)) {
+            apply(&block.previous_view_from_world, relative, view);
+            const double depth = view[2] * (double)block.depth_range.w;
+            assert_true(fabs(view[0] / depth * (double)block.previous_uv_from_view.x +
+                             (double)block.previous_uv_from_view.z - previous_uv[0]) <
+                        1e-4 * (1 + fabs(previous_uv[0])));
+            assert_true(fabs(view[1] / depth * (double)block.previous_uv_from_view.y +
+                             (double)block.previous_uv_from_view.w - previous_uv[1]) <
+                        1e-4 * (1 + fabs(previous_uv[1])));
+        }
+    }
+    assert_true(checked > 100);
+}
+
+static void the_depth_range_is_that_of_the_projection(void **unused) {
+    (void)unused;
+    const double n = 0.25, f = 400;
+    const struct {
+        enum glint_clip_z z;
+        double a, b, near, far;
+    } cases[] = {
+        {GLINT_CLIP_Z_ZERO_TO_ONE, f / (f - n), -n * f / (f - n), n, f},
+        {GLINT_CLIP_Z_ZERO_TO_ONE, -n / (f - n), n * f / (f - n), n, f}, /* reversed */
+        {GLINT_CLIP_Z_ZERO_TO_ONE, 0, n, n, INFINITY},                   /* reversed, infinite */
+        {GLINT_CLIP_Z_ZERO_TO_ONE, 1, -n, n, INFINITY},
+        {GLINT_CLIP_Z_MINUS_ONE_TO_ONE, (f + n) / (f - n), -2 * n * f / (f - n), n, f},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        for (int front = -1; front <= 1; front += 2) {
+            struct glint_frame frame = {.clip_z = cases[i].z, .metres_per_unit = 0.5};
+            struct frame_block block;
+            frame.camera.world_to_view[0] = frame.camera.world_to_view[5] = frame.camera.world_to_view[10] = 1;
+            frame.camera.view_to_clip[0] = frame.camera.view_to_clip[5] = 1;
+            frame.camera.view_to_clip[10] = cases[i].a * front;
+            frame.camera.view_to_clip[11] = cases[i].b;
+            frame.camera.view_to_clip[14] = front;
+            fill(&block, &frame);
+            assert_true(fabs((double)block.depth_range.x - cases[i].near / 2) < 1e-6);
+            if (isinf(cases[i].far)) assert_true(isinf(block.depth_range.y));
+            else assert_true(fabs((double)block.depth_range.y - cases[i].far / 2) < 1e-3);
+            assert_true((int)block.depth_range.z == front);
+        }
+}
+
+static void a_frame_far_from_the_origin_has_the_same_block(void **unused) {
+    (void)unused;
+    uint64_t one = 5, other = 5;
+    struct glint_frame near = {.has_previous = true,
+                               .has_fog = true,
+                               .fog = {.density = 0.1, .base = 1, .scale_height = 30}},
+                       far = near;
+    struct frame_block a, b;
+    double eye[3];
+    random_camera(&one, false, -1, 0, &near.camera, eye), random_camera(&one, false, -1, 0, &near.previous, eye);
+    random_camera(&other, false, -1, 1e6, &far.camera, eye), random_camera(&other, false, -1, 1e6, &far.previous, eye);
+    far.fog.base += 1e6;
+    fill(&a, &near), fill(&b, &far);
+    const float *x = (const float *)&a, *y = (const float *)&b;
+    for (size_t i = 0; i < offsetof(struct frame_block, size) / sizeof(float); i++)
+        if (x[i] != y[i]) assert_true(fabsf(x[i] - y[i]) <= 1e-6f * (1 + fabsf(x[i]))); /* 1e6 in double: 1e-10 */
+}
+
+static void fog_and_up_are_in_metres(void **unused) {
+    (void)unused;
+    struct glint_frame frame = {.metres_per_unit = 0.01,
+                                .up = GLINT_AXIS_NEG_Z,
+                                .has_fog = true,
+                                .fog = {.color = {1, 2, 3}, .density = 0.0002, .base = 100, .scale_height = 5000}};
+    struct frame_block block;
+    frame.camera.world_to_view[0] = frame.camera.world_to_view[5] = frame.camera.world_to_view[10] = 1;
+    frame.camera.world_to_view[11] = 700; /* the eye is at z = -700, which is 700 up */
+    frame.camera.view_to_clip[0] = frame.camera.view_to_clip[5] = frame.camera.view_to_clip[14] = 1;
+    fill(&block, &frame);
+    assert_true(block.up.z == -1 && block.up.x == 0 && block.up.y == 0);
+    assert_true(fabsf(block.fog_color.w - 0.02f) < 1e-7f);
+    assert_true(fabsf(block.fog_height.x - 6) < 1e-5f);
+    assert_true(fabsf(block.fog_height.y - 50) < 1e-4f);
+}
+
+/* std140 as the shader sees it: offsets of a block that holds only 16-byte members. */
+static void the_layout_is_std140(void **unused) {
+    (void)unused;
+    assert_int_equal(offsetof(struct frame_block, world_from_view), 64);
+    assert_int_equal(offsetof(struct frame_block, view_from_uv), 192);
+    assert_int_equal(sizeof(struct frame_block) % 16, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_project_as_the_matrices_say),
+        cmocka_unit_test(the_depth_range_is_that_of_the_projection),
+        cmocka_unit_test(a_frame_far_from_the_origin_has_the_same_block),
+        cmocka_unit_test(fog_and_up_are_in_metres),
+        cmocka_unit_test(the_layout_is_std140),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

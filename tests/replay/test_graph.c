@@ -1,0 +1,249 @@
+/* Linking, ordering, dropping and faults, on passes made up here. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "graph.h"
+
+#define READS(image)                                                                                                   \
+    { .kind = GLINT_ROW_READ, .name = image, .glsl = "texture2D" }
+#define WRITES(image)                                                                                                  \
+    { .kind = GLINT_ROW_WRITE, .name = image, .glsl = "image2D", .format = GLINT_FORMAT_R32F, .channels = "Z" }
+#define DIAGNOSES(image)                                                                                               \
+    { .kind = GLINT_ROW_DIAGNOSTIC, .name = image, .glsl = "image2D", .format = GLINT_FORMAT_R32F, .channels = "Z" }
+#define NEEDED(fact)                                                                                                   \
+    { .kind = GLINT_ROW_NEEDS, .name = fact }
+#define DEFINE_PASS(name_, variant_, ...)                                                                              \
+    static const struct glint_row name_##_rows[] = {__VA_ARGS__};                                                      \
+    static const struct glint_pass name_ = {.slot = #name_,                                                            \
+                                            .variant = variant_,                                                       \
+                                            .rows = name_##_rows,                                                      \
+                                            .row_count = sizeof name_##_rows / sizeof name_##_rows[0]}
+
+/* zeta → alpha → mid, though their names sort otherwise; side hangs beside. */
+DEFINE_PASS(zeta, "v", READS("lit"), WRITES("z"));
+DEFINE_PASS(alpha, "v", READS("z"), WRITES("a"), DIAGNOSES("why"));
+DEFINE_PASS(mid, "v", READS("a"), WRITES("m"), NEEDED("yes"));
+DEFINE_PASS(side, "v", READS("z"), WRITES("s"), NEEDED("no"));
+
+struct pipeline {
+    struct pipeline_pass passes[8];
+    struct glint_pipeline pipeline;
+};
+
+static void make(struct pipeline *made, const struct glint_pass *const *passes, size_t count) {
+    *made = (struct pipeline){.pipeline = {.name = "made", .passes = made->passes, .count = count}};
+    made->pipeline.passes = made->passes;
+    for (size_t i = 0; i < count; i++) made->passes[i].pass = passes[i];
+}
+#define MAKE(made, ...)                                                                                                \
+    make(made, (const struct glint_pass *const[]){__VA_ARGS__},                                                        \
+         sizeof((const struct glint_pass *const[]){__VA_ARGS__}) / sizeof(void *))
+
+static bool holds(void *user, const char *fact, char *reason, size_t size, bool *known, struct glint_error *err) {
+    (void)user, (void)err;
+    *known = strcmp(fact, "yes") == 0 || strcmp(fact, "no") == 0;
+    snprintf(reason, size, "%s of 10", strcmp(fact, "yes") == 0 ? "3" : "0");
+    return strcmp(fact, "yes") == 0;
+}
+
+static bool build(void **state, struct graph *graph, const struct pipeline *made, struct glint_replay_options options,
+                  struct glint_error *err) {
+    const struct fixture *fixture = *state;
+    *err = (struct glint_error){0};
+    return graph_init(graph, &(struct graph_inputs){&made->pipeline, &options, fixture->capture, NULL, {holds, NULL}},
+                      err);
+}
+
+static void assert_says(const struct glint_error *err, const char *part) {
+    if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
+}
+
+static void passes_run_in_the_order_of_their_images(void **state) {
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &alpha, &mid, &side, &zeta);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    const char *const order[] = {"zeta", "alpha", "mid", "side"}; /* side could come earlier: ties go by name */
+    for (size_t i = 0; i < 4; i++) assert_string_equal(graph.passes[i].pass->slot, order[i]);
+    graph_finish(&graph);
+}
+
+static void what_the_frame_does_not_call_for_is_dropped_with_the_figure(void **state) {
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &alpha, &mid, &side, &zeta);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_true(graph.passes[2].runs);
+    assert_string_equal(graph.passes[2].reason, "3 of 10");
+    assert_false(graph.passes[3].runs);
+    assert_string_equal(graph.passes[3].reason, "0 of 10");
+    assert_null(graph_find(&graph, "s"));
+    graph_finish(&graph);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.all = true}, &err));
+    assert_true(graph.passes[3].runs);
+    graph_finish(&graph);
+    const char *const force[] = {"side", NULL}, *const skip[] = {"mid", NULL};
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.force = force, .skip = skip}, &err));
+    assert_false(graph.passes[2].runs);
+    assert_true(graph.passes[3].runs);
+    graph_finish(&graph);
+}
+
+static void readers_of_a_dropped_pass_get_nothing(void **state) {
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    const char *const skip[] = {"zeta", NULL};
+    MAKE(&made, &alpha, &mid, &zeta);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.skip = skip}, &err));
+    assert_int_equal(graph_find(&graph, "z")->source, SOURCE_NOTHING);
+    assert_int_equal(graph_find(&graph, "a")->source, SOURCE_MADE);
+    graph_finish(&graph);
+}
+
+static void only_what_wanted_images_need_runs(void **state) {
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    const char *const outputs[] = {"a", NULL};
+    MAKE(&made, &alpha, &mid, &side, &zeta);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs, .all = true}, &err));
+    const bool runs[] = {true, true, false, false};
+    for (size_t i = 0; i < 4; i++) assert_int_equal(graph.passes[i].runs, runs[i]);
+    assert_true(graph_find(&graph, "a")->wanted);
+    assert_false(graph_find(&graph, "z")->wanted);
+    assert_int_equal(graph_find(&graph, "z")->last_use, 1);
+    graph_finish(&graph);
+}
+
+static void diagnostic_images_exist_only_on_request(void **state) {
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &alpha, &zeta);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_int_equal(graph_find(&graph, "why")->source, SOURCE_NOTHING);
+    assert_false(graph_find(&graph, "why")->wanted);
+    graph_finish(&graph);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.diagnostics = true}, &err));
+    assert_int_equal(graph_find(&graph, "why")->source, SOURCE_MADE);
+    assert_true(graph_find(&graph, "why")->wanted);
+    graph_finish(&graph);
+    const char *const outputs[] = {"why", NULL};
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs}, &err));
+    assert_says(&err, "why is a diagnostic image");
+}
+
+static void a_missing_input_names_the_pass_that_makes_it(void **state) {
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    const char *const only[] = {"mid", NULL};
+    MAKE(&made, &alpha, &mid, &zeta);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){.passes = only}, &err));
+    assert_says(&err, "mid/v reads a, which alpha makes");
+    DEFINE_PASS(reader, "v", READS("depth_half"), READS("unheard_of"), WRITES("r"));
+    MAKE(&made, &reader);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_says(&err, "reads depth_half, which downsample makes"); /* a slot that the pipeline lacks */
+    assert_says(&err, "unheard_of, which no known pass makes");
+}
+
+static void two_producers_are_a_fault(void **state) {
+    DEFINE_PASS(second, "w", WRITES("z"));
+    DEFINE_PASS(third, "w", WRITES("lit"));
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &second, &third, &zeta);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_says(&err, "image z has two producers: second/w and zeta/v");
+    assert_says(&err, "image lit has two producers: third/w and the capture");
+}
+
+static void a_cycle_names_its_members_only(void **state) {
+    DEFINE_PASS(one, "v", READS("q"), WRITES("p"));
+    DEFINE_PASS(two, "v", READS("p"), WRITES("q"));
+    DEFINE_PASS(behind, "v", READS("q"), WRITES("b"));
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &behind, &one, &two, &zeta);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_says(&err, "in a cycle: one, two");
+    assert_null(strstr(err.message, "behind"));
+}
+
+static void all_faults_come_together(void **state) {
+    DEFINE_PASS(odd, "v", READS("gone"), WRITES("z"), NEEDED("maybe"));
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    const char *const skip[] = {"nobody", NULL}, *const outputs[] = {"z", "nowhere", NULL};
+    MAKE(&made, &odd, &zeta);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){.skip = skip, .outputs = outputs}, &err));
+    assert_says(&err, "two producers: odd/v and zeta/v");
+    assert_says(&err, "gone, which no known pass makes");
+    assert_says(&err, "unknown fact 'maybe'");
+    assert_says(&err, "skip: no slot 'nobody'");
+    assert_says(&err, "no pass makes 'nowhere'");
+}
+
+static void images_are_read_as_what_they_are(void **state) {
+    DEFINE_PASS(wrong, "v", {.kind = GLINT_ROW_READ, .name = "z", .glsl = "utexture2D"},
+                {.kind = GLINT_ROW_READ, .name = "sky", .glsl = "texture2D"}, WRITES("w"));
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &wrong, &zeta);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_says(&err, "wrong/v reads z as utexture2D, but it is a float image");
+    assert_says(&err, "wrong/v reads sky as texture2D, but it is a cube map");
+}
+
+/* Every pipeline that the table allows has to link: the real declarations agree with one another. */
+static void the_real_passes_link(void **state) {
+    const struct fixture *fixture = *state;
+    struct graph graph;
+    struct glint_error err = {0};
+    const struct glint_replay_options options = {.all = true, .diagnostics = true};
+    if (!graph_init(&graph, &(struct graph_inputs){fixture->pipeline, &options, fixture->capture, NULL, {holds, NULL}},
+                    &err))
+        fail_msg("%s", err.message);
+    for (size_t i = 0; i < graph.image_count; i++) {
+        size_t channels = 0, components[] = {1, 1, 1, 2, 4, 1, 2, 4};
+        if (!graph.images[i].pass) continue;
+        for (const char *at = graph.images[i].row->channels; *at; at += strcspn(at, " "), at += strspn(at, " "))
+            channels++;
+        if (channels != components[graph.images[i].row->format])
+            fail_msg("%s: channels and format disagree", graph.images[i].name);
+    }
+    graph_finish(&graph);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(passes_run_in_the_order_of_their_images),
+        cmocka_unit_test(what_the_frame_does_not_call_for_is_dropped_with_the_figure),
+        cmocka_unit_test(readers_of_a_dropped_pass_get_nothing),
+        cmocka_unit_test(only_what_wanted_images_need_runs),
+        cmocka_unit_test(diagnostic_images_exist_only_on_request),
+        cmocka_unit_test(a_missing_input_names_the_pass_that_makes_it),
+        cmocka_unit_test(two_producers_are_a_fault),
+        cmocka_unit_test(a_cycle_names_its_members_only),
+        cmocka_unit_test(all_faults_come_together),
+        cmocka_unit_test(images_are_read_as_what_they_are),
+        cmocka_unit_test(the_real_passes_link),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);
+}

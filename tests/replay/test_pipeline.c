@@ -1,0 +1,188 @@
+/* Pipelines are checked against the declarations; errors name what is known and what range holds. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "glint/replay.h"
+
+static struct glint_pipeline *preset(void) {
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", &err);
+    if (!pipeline) fail_msg("%s", err.message);
+    return pipeline;
+}
+
+static double value_of(const struct glint_pipeline *pipeline, const char *slot, const char *parameter) {
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        for (size_t r = 0; r < pass->row_count; r++)
+            if (strcmp(pass->slot, slot) == 0 && strcmp(pass->rows[r].name, parameter) == 0)
+                return glint_pipeline_value(pipeline, pass, &pass->rows[r]);
+    }
+    fail_msg("no %s.%s", slot, parameter);
+    return 0;
+}
+
+static void assert_says(const struct glint_error *err, const char *part) {
+    if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
+}
+
+static void the_preset_holds_every_slot_with_its_defaults(void **state) {
+    (void)state;
+    struct glint_pipeline *pipeline = preset();
+    assert_string_equal(glint_pipeline_name(pipeline), "mafia3");
+    assert_int_equal(glint_pipeline_pass_count(pipeline), 8);
+    assert_true(value_of(pipeline, "downsample", "share") == 1.0);
+    assert_true(value_of(pipeline, "cubemap_active", "count") == 8);
+    glint_pipeline_destroy(&pipeline);
+    assert_null(pipeline);
+}
+
+static void values_are_set_by_number_by_word_and_by_choice(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = preset();
+    assert_true(glint_pipeline_set(pipeline, "downsample.share=0.25", &err));
+    assert_true(value_of(pipeline, "downsample", "share") == 0.25);
+    assert_true(glint_pipeline_set(pipeline, "downsample.ndf=blinn_phong", &err));
+    assert_true(value_of(pipeline, "downsample", "ndf") == 0);
+    assert_true(glint_pipeline_set(pipeline, "downsample.ndf=ggx", &err));
+    assert_true(value_of(pipeline, "downsample", "ndf") == 1);
+    assert_true(glint_pipeline_set(pipeline, "cubemap_active.force_outdoor=false", &err));
+    assert_true(value_of(pipeline, "cubemap_active", "force_outdoor") == 0);
+    glint_pipeline_destroy(&pipeline);
+}
+
+static void what_is_wrong_with_an_assignment_is_said(void **state) {
+    (void)state;
+    static const struct {
+        const char *assignment, *says[3];
+    } cases[] = {
+        {"downsample.share=2", {"downsample.share", "0 to 1", "found 2"}},
+        {"downsample.share=nan", {"downsample.share", "0 to 1", "nan"}},
+        {"downsample.share=", {"slot.parameter=value", "downsample.share=", ""}},
+        {"downsample.share=0.5x", {"downsample.share", "a number from 0 to 1", "0.5x"}},
+        {"downsample.shares=1", {"downsample/pick", "shares", "threshold"}},
+        {"downsamples.share=1", {"unknown slot 'downsamples'", "cubemap_active", "upscale"}},
+        {"cubemap_active.count=2.5", {"whole number", "1 to 16", "2.5"}},
+        {"cubemap_active.count=17", {"1 to 16", "cube maps", "found 17"}},
+        {"downsample.ndf=phong", {"downsample.ndf", "blinn_phong, ggx", "phong"}},
+        {"share=1", {"slot.parameter=value", "share=1", ""}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct glint_error err = {0};
+        struct glint_pipeline *pipeline = preset();
+        assert_false(glint_pipeline_set(pipeline, cases[i].assignment, &err));
+        assert_int_equal(err.code, GLINT_ERROR_USAGE);
+        for (size_t s = 0; s < 3; s++) assert_says(&err, cases[i].says[s]);
+        assert_true(value_of(pipeline, "downsample", "share") == 1.0);
+        glint_pipeline_destroy(&pipeline);
+    }
+}
+
+static void slots_can_be_left_out_and_variants_are_checked(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = preset();
+    assert_true(glint_pipeline_use(pipeline, "upscale=none", &err));
+    assert_int_equal(glint_pipeline_pass_count(pipeline), 7);
+    assert_false(glint_pipeline_set(pipeline, "upscale.anything=1", &err));
+    assert_says(&err, "not part of the pipeline");
+    assert_true(glint_pipeline_use(pipeline, "upscale=bilinear", &err));
+    assert_int_equal(glint_pipeline_pass_count(pipeline), 8);
+    assert_false(glint_pipeline_use(pipeline, "upscale=trilinear", &err));
+    assert_says(&err, "slot upscale has no variant 'trilinear'");
+    assert_says(&err, "bilinear");
+    assert_false(glint_pipeline_use(pipeline, "upscales=bilinear", &err));
+    assert_says(&err, "unknown slot 'upscales'");
+    glint_pipeline_destroy(&pipeline);
+}
+
+static void a_host_pass_has_no_shader_to_replace(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = preset();
+    assert_false(glint_pipeline_shader(pipeline, "cubemap_active=mine.comp", &err));
+    assert_says(&err, "runs on the host");
+    assert_false(glint_pipeline_shader(pipeline, "nothing=mine.comp", &err));
+    assert_true(glint_pipeline_shader(pipeline, "resolve=mine.comp", &err));
+    glint_pipeline_destroy(&pipeline);
+}
+
+/* Writes `text` as a preset, and returns the error that reading it gives. */
+static struct glint_error read_preset(const char *text) {
+    char path[] = "/tmp/glint-preset-XXXXXX.json";
+    int file = mkstemps(path, 5);
+    assert_true(file >= 0);
+    assert_int_equal(write(file, text, strlen(text)), (ssize_t)strlen(text));
+    close(file);
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = glint_pipeline_create(path, &err);
+    if (!pipeline) assert_says(&err, path);
+    glint_pipeline_destroy(&pipeline);
+    unlink(path);
+    return err;
+}
+
+static void a_good_preset_file_is_read(void **state) {
+    (void)state;
+    struct glint_error err =
+        read_preset("{\"slots\": {\"downsample\": \"pick\"}, \"set\": {\"downsample.share\": 0.5, \"downsample.ndf\": "
+                    "\"ggx\", \"downsample.edges\": false}}");
+    assert_int_equal(err.code, GLINT_OK);
+}
+
+static void every_fault_of_a_preset_is_reported_at_once(void **state) {
+    (void)state;
+    struct glint_error err = read_preset(
+        "{\"slots\": {\"downsample\": \"pick\", \"resolve\": \"guess\", \"blurr\": \"none\"}, \"titel\": 1, "
+        "\"set\": {\"downsample.share\": 3, \"downsample.sharp\": 1}}");
+    assert_says(&err, "slot resolve has no variant 'guess'");
+    assert_says(&err, "unknown slot 'blurr'");
+    assert_says(&err, "unknown key 'titel'");
+    assert_says(&err, "0 to 1");
+    assert_says(&err, "no parameter 'sharp'");
+}
+
+static void broken_json_is_placed_by_line(void **state) {
+    (void)state;
+    struct glint_error err = read_preset("{\"slots\": {\n\"downsample\" \"pick\"}}");
+    assert_int_equal(err.code, GLINT_ERROR_FORMAT);
+    assert_says(&err, ".json:2:");
+    err = read_preset("[1, 2]");
+    assert_says(&err, "expected an object");
+    err = read_preset("{\"slots\": {\"downsample\": \"pick\", \"downsample\": \"pick\"}}");
+    assert_says(&err, "duplicate");
+}
+
+static void unknown_presets_name_the_known_ones(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    assert_null(glint_pipeline_create("mafia4", &err));
+    assert_says(&err, "mafia4");
+    assert_says(&err, "mafia3");
+    assert_null(glint_pipeline_create("/nowhere/x.json", &err));
+    assert_int_equal(err.code, GLINT_ERROR_IO);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_preset_holds_every_slot_with_its_defaults),
+        cmocka_unit_test(values_are_set_by_number_by_word_and_by_choice),
+        cmocka_unit_test(what_is_wrong_with_an_assignment_is_said),
+        cmocka_unit_test(slots_can_be_left_out_and_variants_are_checked),
+        cmocka_unit_test(a_host_pass_has_no_shader_to_replace),
+        cmocka_unit_test(a_good_preset_file_is_read),
+        cmocka_unit_test(every_fault_of_a_preset_is_reported_at_once),
+        cmocka_unit_test(broken_json_is_placed_by_line),
+        cmocka_unit_test(unknown_presets_name_the_known_ones),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,176 @@
+/* Users' shaders: includes are found, and errors carry the user's file and line. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "shader.h"
+
+static char *write_text(void **state, const char *name, const char *text) {
+    const struct fixture *fixture = *state;
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", fixture->folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    return path;
+}
+
+static bool compile(char *path, struct spirv *spirv, struct glint_error *err) {
+    const struct pipeline_pass pass = {.pass = glint_pass_find("resolve", "hit"), .shader = path};
+    *err = (struct glint_error){0};
+    *spirv = (struct spirv){0};
+    return spirv_init(spirv, &pass, err);
+}
+
+static void assert_says(const struct glint_error *err, const char *part) {
+    if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
+}
+
+#define START                                                                                                          \
+    "#version 460\n"                                                                                                   \
+    "#extension GL_GOOGLE_include_directive : require\n"                                                               \
+    "#include \"shared/bindings.glsl\"\n"                                                                              \
+    "#include \"hit.pass.h\"\n"                                                                                        \
+    "#include \"shared/push_begin.glsl\"\n"                                                                            \
+    "#include \"hit.pass.h\"\n"                                                                                        \
+    "};\n"
+
+/* Copies a module without what only tells of its source. */
+static size_t without_source(const uint32_t *words, size_t bytes, uint32_t *out) {
+    enum { OP_SOURCE = 3, OP_SOURCE_EXTENSION = 4 };
+    size_t n = 0, count = bytes / sizeof *words;
+    for (size_t i = 5; i < count; i += words[i] >> 16) {
+        const uint32_t op = words[i] & 0xffff, length = words[i] >> 16;
+        assert_true(length > 0);
+        if (op == OP_SOURCE || op == OP_SOURCE_EXTENSION) continue;
+        memcpy(out + n, words + i, length * sizeof *words);
+        n += length;
+    }
+    return n;
+}
+
+/* Each pass's own file, compiled here, must be the shader that was built in: same bindings, same constants. */
+static void every_pass_compiles_to_what_is_built_in(void **state) {
+    size_t count;
+    const struct glint_pass *passes = glint_passes(&count);
+    for (size_t i = 0; i < count; i++) {
+        char name[128];
+        snprintf(name, sizeof name, "%s/%s.comp", passes[i].slot, passes[i].variant);
+        if (!passes[i].spirv) continue;
+        assert_non_null(glint_pass_text(name));
+        char *path = write_text(state, "copy.comp", glint_pass_text(name));
+        const struct pipeline_pass pass = {.pass = &passes[i], .shader = path};
+        struct spirv spirv;
+        struct glint_error err = {0};
+        if (!spirv_init(&spirv, &pass, &err)) fail_msg("%s: %s", name, err.message);
+        uint32_t *mine = malloc(spirv.bytes), *built_in = malloc(passes[i].spirv_bytes);
+        const size_t words = without_source(spirv.words, spirv.bytes, mine);
+        assert_int_equal(words, without_source(passes[i].spirv, passes[i].spirv_bytes, built_in));
+        assert_memory_equal(mine, built_in, words * sizeof *mine);
+        free(mine), free(built_in);
+        spirv_finish(&spirv);
+    }
+}
+
+static void errors_name_the_users_file_and_line(void **state) {
+    struct spirv spirv;
+    struct glint_error err;
+    char *path = write_text(state, "mine.comp", START "void main() {\n    float x = 1.0;\n    y = x;\n}\n");
+    assert_false(compile(path, &spirv, &err));
+    assert_int_equal(err.code, GLINT_ERROR_FORMAT);
+    assert_says(&err, "/mine.comp:10: 'y' : undeclared identifier");
+}
+
+static void errors_in_an_included_file_name_that_file(void **state) {
+    struct spirv spirv;
+    struct glint_error err;
+    write_text(state, "helper.glsl", "float half_of(float x) {\n    return x * zz;\n}\n");
+    char *path = write_text(state, "mine.comp", START "#include \"helper.glsl\"\nvoid main() { half_of(1); }\n");
+    assert_false(compile(path, &spirv, &err));
+    assert_says(&err, "/helper.glsl:2: 'zz'");
+}
+
+static void lines_after_an_include_keep_their_numbers(void **state) {
+    struct spirv spirv;
+    struct glint_error err;
+    write_text(state, "helper.glsl", "\n\n\nfloat half_of(float x) { return x / 2; }\n");
+    char *path = write_text(state, "mine.comp", START "#include \"helper.glsl\"\n\nvoid main() {\n    oops;\n}\n");
+    assert_false(compile(path, &spirv, &err));
+    assert_says(&err, "/mine.comp:11: 'oops'");
+}
+
+static void a_missing_include_is_placed(void **state) {
+    struct spirv spirv;
+    struct glint_error err;
+    char *path = write_text(state, "mine.comp", "#version 460\n\n#include \"nowhere.glsl\"\n");
+    assert_false(compile(path, &spirv, &err));
+    assert_says(&err, "/mine.comp:3: include \"nowhere.glsl\" not found");
+}
+
+static void a_file_that_includes_itself_is_an_error(void **state) {
+    struct spirv spirv;
+    struct glint_error err;
+    char *path = write_text(state, "mine.comp", "#version 460\n#include \"mine.comp\"\n");
+    assert_false(compile(path, &spirv, &err));
+    assert_says(&err, "includes nest deeper");
+}
+
+static void what_is_no_shader_is_an_error(void **state) {
+    struct spirv spirv;
+    struct glint_error err;
+    assert_false(compile(write_text(state, "empty.comp", ""), &spirv, &err));
+    assert_says(&err, "empty.comp");
+    assert_false(compile(write_text(state, "text.comp", "not a shader\n"), &spirv, &err));
+    assert_says(&err, "text.comp:1: expected #version");
+    assert_false(compile(write_text(state, "none.comp", "#version 460\n"), &spirv, &err));
+    assert_int_equal(err.code, GLINT_ERROR_FORMAT);
+    assert_says(&err, "none.comp");
+    char missing[] = "/nowhere/x.comp";
+    assert_false(compile(missing, &spirv, &err));
+    assert_int_equal(err.code, GLINT_ERROR_IO);
+}
+
+static void foreign_bindings_are_refused(void **state) {
+    static const struct {
+        const char *declaration, *use, *says;
+    } cases[] = {
+        {"layout(set = 0, binding = 2) uniform writeonly image2D other;", "imageStore(other, ivec2(0), vec4(0));",
+         "binding 2 of set 0"},
+        {"layout(set = 2, binding = 0) buffer B { uint x; } b;", "b.x = 1;", "binding 0 of set 2"},
+        {"layout(set = 1, binding = 5) uniform sampler s;",
+         "imageStore(reflection_half, ivec2(0), textureLod(sampler2D(depth_half, s), vec2(0), 0));",
+         "binding 5 of set 1"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct spirv spirv;
+        struct glint_error err;
+        char text[1024];
+        snprintf(text, sizeof text, START "%s\nvoid main() { %s }\n", cases[i].declaration, cases[i].use);
+        assert_false(compile(write_text(state, "foreign.comp", text), &spirv, &err));
+        assert_says(&err, cases[i].says);
+        spirv_finish(&spirv);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pass_compiles_to_what_is_built_in),
+        cmocka_unit_test(errors_name_the_users_file_and_line),
+        cmocka_unit_test(errors_in_an_included_file_name_that_file),
+        cmocka_unit_test(lines_after_an_include_keep_their_numbers),
+        cmocka_unit_test(a_missing_include_is_placed),
+        cmocka_unit_test(a_file_that_includes_itself_is_an_error),
+        cmocka_unit_test(what_is_no_shader_is_an_error),
+        cmocka_unit_test(foreign_bindings_are_refused),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);
+}
