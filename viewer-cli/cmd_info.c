@@ -24,7 +24,8 @@ static const struct argp_option options[] = {
 };
 static const struct example examples[] = {
     {"glint info street.exr", "parts, channels with their ranges, camera, cube maps"},
-    {"glint info run/05-screen_trace.exr", "any other EXR file: parts and ranges"},
+    {"glint info run", "the images of a run; with --json its run.json"},
+    {"glint info run/05-cubemap_trace.exr", "any other EXR file: parts and ranges"},
     {"glint info street.exr --json | jq .camera.position", "one fact for a script"},
     {0},
 };
@@ -161,9 +162,25 @@ static bool is_capture(const char *path) {
     return found;
 }
 
+/* A run's own account of itself is run.json. */
+static enum status print_run(const struct arguments *a) {
+    struct glint_error err = {0};
+    struct glint_run *run = glint_run_open(a->path, &err);
+    if (!run) return command_fail(&cmd_info, &err);
+    if (a->json) printf("%s\n", glint_run_json(run));
+    else {
+        printf("%s: a run, %zu images\n\n", a->path, glint_run_image_count(run));
+        info_print_run(run);
+    }
+    glint_run_close(&run);
+    return STATUS_DONE;
+}
+
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_info, argc, argv, &a);
+    struct stat file;
+    if (stat(a.path, &file) == 0 && S_ISDIR(file.st_mode)) return print_run(&a);
     struct glint_error err = {0};
     struct channel_table all = {0};
     struct glint_survey survey = {0};
@@ -195,8 +212,8 @@ static enum status run(int argc, char **argv) {
 
 const struct command cmd_info = {
     .name = "info",
-    .arguments = "F",
-    .summary = "what a capture or any EXR file holds",
+    .arguments = "F|RUN",
+    .summary = "what a capture, a run or any EXR file holds",
     .description =
         "Shows a capture's camera, what its pixels call for (sky, reflecting pixels, roughness), its parts, channels "
         "with type, encoding, unit and range, and its cube maps. Any other EXR file is listed as it is.",

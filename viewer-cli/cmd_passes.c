@@ -99,24 +99,37 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
     table_destroy(&table);
 }
 
-static void print_parameters(const struct glint_pass *pass, bool markdown) {
-    static const char *const titles[] = {"<parameter", "<type",   ">default", "<range",
-                                         "<unit",      "<source", "<help",    NULL};
-    struct table *table = table_create(titles);
-    for (size_t i = 0; i < pass->row_count; i++) {
-        const struct glint_row *row = &pass->rows[i];
-        if (!row_is_parameter(row)) continue;
-        table_cell(table, "%s.%s", pass->slot, row->name);
-        table_cell(table, "%s", row_type(row));
-        table_cell(table, "%s", value_text(row, row->initial));
-        char *names = row->choices ? join_names("", row->choices) : NULL;
-        if (names) table_cell(table, "%s", names);
-        else if (row->type == GLINT_VALUE_BOOL) table_cell(table, "off, on");
-        else table_cell(table, "%s … %s", value_text(row, row->lowest), value_text(row, row->highest));
-        free(names);
-        table_cell(table, "%s", strcmp(row->unit, "1") ? row->unit : "");
+/* A handbook has room for a column of everything, a terminal has not: choices and source go into the help there. */
+static void add_parameter(struct table *table, const struct glint_pass *pass, const struct glint_row *row,
+                          bool markdown) {
+    char *names = row->choices ? join_names("", row->choices) : NULL;
+    if (markdown) table_cell(table, "%s.%s", pass->slot, row->name);
+    else table_cell(table, "%s", row->name);
+    if (markdown) table_cell(table, "%s", row_type(row));
+    table_cell(table, "%s", value_text(row, row->initial));
+    if (names) table_cell(table, "%s", markdown ? names : "");
+    else if (row->type == GLINT_VALUE_BOOL) table_cell(table, "off, on");
+    else table_cell(table, "%s … %s", value_text(row, row->lowest), value_text(row, row->highest));
+    table_cell(table, "%s", strcmp(row->unit, "1") ? row->unit : "");
+    if (markdown) {
         table_cell(table, "%s", row->source);
         table_cell(table, "%s", row->help);
+    } else table_cell(table, "%s%s%s [%s]", names ? names : "", names ? ": " : "", row->help, row->source);
+    free(names);
+}
+
+static void print_parameters(const struct glint_pass *pass, bool markdown) {
+    static const char *const wide[] = {"<parameter", "<type", ">default", "<range", "<unit", "<source", "<help", NULL};
+    static const char *const narrow[] = {"<parameter", ">default", "<range", "<unit", "<help [source]", NULL};
+    struct table *table = table_create(markdown ? wide : narrow);
+    const struct glint_row *last = NULL;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        if (!row_is_parameter(&pass->rows[i])) continue;
+        if (!last && !markdown)
+            printf("Parameters, as in --set %s.%s=%s:\n", pass->slot, pass->rows[i].name,
+                   value_text(&pass->rows[i], pass->rows[i].initial));
+        last = &pass->rows[i];
+        add_parameter(table, pass, last, markdown);
     }
     print_tables(table, markdown);
     table_destroy(&table);

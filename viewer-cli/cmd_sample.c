@@ -1,6 +1,8 @@
 /* glint sample: a capture written by the stand-in engine. */
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "args.h"
 #include "glint/samples.h"
@@ -249,8 +251,8 @@ static enum status list_scenes(bool json) {
     return STATUS_DONE;
 }
 
-/* A name without a dot must be a built-in scene; a file is left to the sampler to open. */
-static bool known_scene(const char *scene) {
+/* What is no built-in scene's name must be a file. */
+static bool known_scene(const char *scene, struct glint_error *err) {
     size_t count = 0;
     const struct glint_sample *scenes = glint_samples(&count);
     struct nearest near = nearest_to(scene);
@@ -258,17 +260,18 @@ static bool known_scene(const char *scene) {
         if (!strcmp(scenes[i].name, scene)) return true;
         nearest_offer(&near, scenes[i].name);
     }
-    if (strpbrk(scene, "./")) return true;
-    command_note(&cmd_sample, "there is no scene %s%s; glint sample --list shows them", scene, nearest_text(&near));
-    return false;
+    if (access(scene, R_OK) == 0) return true;
+    if (strpbrk(scene, "./")) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", scene, strerror(errno));
+    return glint_fail(err, GLINT_ERROR_USAGE, "there is no scene %s%s; glint sample --list shows them", scene,
+                      nearest_text(&near));
 }
 
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_sample, argc, argv, &a);
     if (a.list) return list_scenes(a.json);
-    if (!known_scene(a.scene)) return STATUS_USAGE;
     struct glint_error err = {0};
+    if (!known_scene(a.scene, &err)) return command_fail(&cmd_sample, &err);
     struct progress progress;
     struct pipe pipe;
     progress_begin(&progress);

@@ -149,3 +149,19 @@ void info_print_survey(const struct glint_survey *survey) {
         putchar('\n');
     }
 }
+
+void info_print_run(const struct glint_run *run) {
+    static const char *const titles[] = {"<image", "<made by", ">size", "<channels", "<unit", "<meaning", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < glint_run_image_count(run); i++) {
+        const struct glint_run_image *image = glint_run_image(run, i);
+        table_cell(table, "%s", image->name);
+        table_cell(table, "%s/%s", image->slot, image->variant);
+        table_cell(table, "%u × %u", image->width, image->height);
+        table_cell(table, "%s", image->channels);
+        table_cell(table, "%s", strcmp(image->unit, "1") ? image->unit : "");
+        table_cell(table, "%s", image->meaning);
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+}

@@ -12,6 +12,7 @@ void info_print_channels(const struct channel_table *all);
 /* Nothing when the capture has no cube maps. */
 void info_print_cubemaps(const struct glint_capture *capture);
 void info_print_survey(const struct glint_survey *survey);
+void info_print_run(const struct glint_run *run);
 const char *cubemap_volume_name(enum glint_volume volume);
 
 #endif

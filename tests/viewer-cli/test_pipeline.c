@@ -199,6 +199,30 @@ static void several_captures_get_a_folder_each(void **state) {
     outcome_free(&some);
 }
 
+static void info_shows_a_run(void **state) {
+    (void)state;
+    char *text = glint_ok("info", run), *json_text = glint_ok("info", run, "--json");
+    json_t *json = parse_json(json_text);
+    named(json_object_get(json, "passes"), "slot", "screen_trace");
+    assert_contains(text, "screen_travelled");
+    assert_contains(text, "80 × 45");
+    assert_contains(text, "160 × 90");
+    json_decref(json);
+    free(json_text);
+    free(text);
+}
+
+static void a_machine_without_a_driver_is_told_so(void **state) {
+    (void)state;
+    setenv("VK_ICD_FILENAMES", "/nowhere.json", 1);
+    setenv("VK_DRIVER_FILES", "/nowhere.json", 1);
+    glint_fails(1, "Vulkan", "devices");
+    glint_fails(1, "Vulkan", "replay", capture);
+    unsetenv("VK_ICD_FILENAMES");
+    unsetenv("VK_DRIVER_FILES");
+    glint_fails(2, "no device matches 'nothing like it'", "replay", capture, "--device", "nothing like it");
+}
+
 static void unknown_names_are_refused_with_the_nearest(void **state) {
     (void)state;
     glint_fails(2, "did you mean screen_trace?", "replay", capture, "--use", "screen_trac=linear");
@@ -217,6 +241,7 @@ static void unknown_names_are_refused_with_the_nearest(void **state) {
     glint_fails(2, "did you mean upscale?", "passes", "upscal");
     glint_fails(2, "did you mean bilinear?", "passes", "upscale/bilinaer");
     glint_fails(1, "nowhere.exr", "replay", "nowhere.exr");
+    glint_fails(1, "nowhere.glb: No such file", "sample", "nowhere.glb", "-o", in_folder("x.exr"));
     assert_false(file_exists(in_folder("x.exr")));
 }
 
@@ -342,6 +367,8 @@ int main(void) {
         cmocka_unit_test(plan_lists_every_pass_with_a_reason),
         cmocka_unit_test(replay_reports_times_and_leaves_a_run),
         cmocka_unit_test(several_captures_get_a_folder_each),
+        cmocka_unit_test(info_shows_a_run),
+        cmocka_unit_test(a_machine_without_a_driver_is_told_so),
         cmocka_unit_test(unknown_names_are_refused_with_the_nearest),
         cmocka_unit_test(passes_describe_what_replay_accepts),
         cmocka_unit_test(view_shows_every_image_of_the_run),
