@@ -88,7 +88,10 @@ static bool parse(struct glint_capture *capture, struct glint_check *check) {
             !resolve_sibling(capture, check, i))
             return false;
     }
-    return glint_parts_check(check, files, capture->parts, count, &capture->frame, &capture->has_frame);
+    if (!glint_parts_check(check, files, capture->parts, count, &capture->frame, &capture->has_frame)) return false;
+    if (!capture->has_frame) /* cube maps alone are measured in units, their colours not exposed */
+        capture->frame.metres_per_unit = capture->frame.pre_exposure = 1;
+    return true;
 }
 
 struct glint_capture *glint_capture_open_checked(const char *path, const struct glint_limits *limits,

@@ -34,6 +34,10 @@ struct glint_capture {
 struct glint_capture *glint_capture_open_checked(const char *path, const struct glint_limits *limits,
                                                  struct glint_check *check);
 
+/* Reports the pixel rules that the part breaks. False: it cannot be read. */
+bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capture, size_t part,
+                           struct glint_error *err);
+
 /* What decoding needs to know about the frame that a part belongs to. */
 struct glint_decoder {
     const struct glint_frame *frame;
@@ -41,6 +45,7 @@ struct glint_decoder {
     struct glint_encodings encodings;
     uint32_t width, height;
 };
+struct glint_decoder glint_decoder_of(const struct glint_capture *capture, const struct glint_part_info *part);
 #define GLINT_BLOCK 256 /* pixels decoded at a time */
 
 /* In place, `count` <= GLINT_BLOCK values as stored (widened to float) to canonical ones. */

@@ -206,6 +206,16 @@ static bool decode_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *c
 
 /* ---- the calls ---- */
 
+struct glint_decoder glint_decoder_of(const struct glint_capture *capture, const struct glint_part_info *part) {
+    return (struct glint_decoder){.frame = &capture->frame,
+                                  .camera = part->has_planar ? &part->planar.camera
+                                            : part->previous ? &capture->frame.previous
+                                                             : &capture->frame.camera,
+                                  .encodings = part->encodings,
+                                  .width = part->width,
+                                  .height = part->height};
+}
+
 static const struct glint_source *source_of(const struct glint_capture *capture, const struct glint_part_info *part,
                                             struct glint_error *err) {
     const size_t i = part ? (size_t)(part - capture->parts) : capture->count;
@@ -226,11 +236,7 @@ bool glint_capture_read(struct glint_capture *capture, const struct glint_part_i
                           capture->exr->path, part->name, GLINT_EXR_MAX_WANTED, count, (int)type);
     const struct glint_exr_part_info *file = &source->exr->parts[source->part].info;
     struct job job = {.count = count, .type = type, .out = out};
-    job.decoder = (struct glint_decoder){
-        .frame = &capture->frame, .encodings = part->encodings, .width = part->width, .height = part->height};
-    job.decoder.camera = part->has_planar ? &part->planar.camera
-                         : part->previous ? &capture->frame.previous
-                                          : &capture->frame.camera;
+    job.decoder = glint_decoder_of(capture, part);
     for (size_t i = 0; i < count; i++) {
         if (!plan_output(&job, part, file, channels[i], &job.outputs[i]))
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: %s missing", capture->exr->path, part->name,

@@ -1,6 +1,7 @@
-/* RULE(id, name, what FORMAT.md says). `validate` reports each under its name; the reader refuses a file on those that
-   stand above the line; the writer never writes what breaks one of them. */
+/* RULE(id, name, what FORMAT.md says). `validate` reports each under its name; the reader refuses a file on those
+   above the line, and the writer never writes what breaks one of them. */
 /* clang-format off */
+RULE(OPENEXR,   "openexr",          "The file is an OpenEXR file whose headers and chunks are whole and undamaged.")
 RULE(VERSION,   "version",          "Every part of a known role carries `glint.version` (int), the same in all; a reader refuses versions that it does not know.")
 RULE(NAMES,     "unique-names",     "No two parts have one name.")
 RULE(REQUIRED,  "required-parts",   "A capture holds every required role. A file of cube maps only, for other captures to name as sibling, needs none.")
@@ -17,8 +18,8 @@ RULE(PREVIOUS,  "previous-camera",  "A capture with `previous.gbuffer` has the p
 RULE(VOLUME,    "inner-volume",     "An inner volume has what describes it: a box with min < max, a sphere with a positive radius, a hull with 4 to 64 planes with normals that are not zero.")
 RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the capture's own folder, its bytes have the stated hash, and it holds a part of the same name with pixels.")
 /* ---- pixels: checked by validate alone ---- */
-RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN anywhere; infinity only where a table says so (depth and distance under sky). Under sky only the depth is looked at.")
-RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals are unit before renormalisation, within 0.02 (or the step of the declared storage, when that is coarser).")
-RULE(PIXEL_RANGE,     "pixels-range",     "Roughness, metalness, specular, albedo, alpha, opacity, weight and visible lie in [0, 1] after decoding; colour, depth and distances are not negative; encoded depth, unorm and octahedral values lie in [0, 1].")
+RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not looked at.")
+RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals are unit within 0.02 before the reader makes them unit.")
+RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance and metres (but motion.Z) are not negative; encoded depth, unorm and octahedral values lie in [0, 1].")
 /* clang-format on */
 #undef RULE

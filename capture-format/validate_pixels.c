@@ -1,0 +1,223 @@
+/* The rules of FORMAT.md that bind pixels: one report a rule and channel, with the count and the first pixel. */
+#include <math.h>
+#include <string.h>
+
+#include "capture_internal.h"
+#include "half.h"
+
+#define NORMAL_TOLERANCE 0.02f
+/* A value of exactly 1 may come back from a half or a square root a little above. */
+#define RANGE_TOLERANCE 0.001f
+
+/* How often one rule is broken in one channel, and where first. */
+struct tally {
+    size_t count, first; /* y · width + x */
+    float value;
+};
+
+struct channel {
+    const struct glint_role_channel *row;
+    enum glint_stored stored;
+    struct tally not_finite, out_of_range, not_unit;
+    int axes[2]; /* of the X of a normal: the planes of Y and Z; -1 for none */
+};
+
+struct job {
+    struct glint_decoder decoder;
+    const char *names[GLINT_EXR_MAX_WANTED];
+    struct channel channels[GLINT_EXR_MAX_WANTED];
+    size_t count;
+    int depth; /* the plane that says where there is nothing; -1 for none */
+    uint32_t width;
+    pthread_mutex_t lock;
+};
+
+static void note(struct tally *tally, size_t at, float value) {
+    if (tally->count++ && tally->first <= at) return;
+    tally->first = at;
+    tally->value = value;
+}
+
+static void merge(struct tally *to, const struct tally *from) {
+    if (from->count && (!to->count || from->first < to->first)) to->first = from->first, to->value = from->value;
+    to->count += from->count;
+}
+
+static void load(const struct channel *channel, const uint8_t *in, size_t count, float *out) {
+    if (channel->stored == GLINT_STORED_FLOAT) {
+        memcpy(out, in, count * 4);
+        return;
+    }
+    uint16_t half[GLINT_BLOCK];
+    memcpy(half, in, count * 2);
+    for (size_t i = 0; i < count; i++) out[i] = glint_half_to_float(half[i]);
+}
+
+static bool is_normal(const struct glint_role_channel *row) {
+    return !strcmp(row->encoding, "normal") || !strcmp(row->encoding, "vertex_normal");
+}
+
+static enum glint_normal_encoding normal_encoding(const struct job *job, const struct glint_role_channel *row) {
+    return !strcmp(row->encoding, "normal") ? job->decoder.encodings.normal : job->decoder.encodings.vertex_normal;
+}
+
+/* Whether the stored numbers themselves are bound to [0, 1]. */
+static bool stored_in_unit(const struct job *job, const struct glint_role_channel *row) {
+    if (!strcmp(row->encoding, "depth")) return job->decoder.encodings.depth != GLINT_DEPTH_VIEW_LINEAR;
+    return is_normal(row) && normal_encoding(job, row) != GLINT_NORMAL_SIGNED;
+}
+
+/* The bounds of the decoded value. */
+static void bounds(const struct glint_role_channel *row, float *low, float *high) {
+    *low = -INFINITY;
+    *high = INFINITY;
+    const bool bare = !row->encoding[0];
+    if (!strcmp(row->unit, "radiance") || (!strcmp(row->unit, "m") && strcmp(row->name, "motion.Z"))) *low = 0;
+    if (!strcmp(row->encoding, "roughness") || (bare && !strcmp(row->unit, "1")))
+        *low = -RANGE_TOLERANCE, *high = 1 + RANGE_TOLERANCE;
+}
+
+/* Depth and distances are +inf under sky; nothing else is ever infinite. */
+static bool may_be_infinite(const struct job *job, const struct glint_role_channel *row) {
+    if (!strcmp(row->encoding, "depth")) return job->decoder.encodings.depth == GLINT_DEPTH_VIEW_LINEAR;
+    return !strcmp(row->name, "distance.Z");
+}
+
+static void decode(const struct job *job, const struct glint_role_channel *row, float *v, size_t count) {
+    if (!strcmp(row->encoding, "depth")) glint_decode_depth(&job->decoder, v, count);
+    if (!strcmp(row->encoding, "roughness")) glint_decode_roughness(&job->decoder, v, count);
+    if (!strcmp(row->encoding, "color")) glint_decode_color(&job->decoder, v, count);
+}
+
+static void check_values(const struct job *job, struct channel *tallies, float *v, const bool *nothing, size_t count,
+                         size_t at) {
+    const struct glint_role_channel *row = tallies->row;
+    const bool infinite = may_be_infinite(job, row), unit = stored_in_unit(job, row);
+    float low, high;
+    bounds(row, &low, &high);
+    for (size_t i = 0; i < count; i++) {
+        if (nothing[i]) continue;
+        if (isnan(v[i]) || (isinf(v[i]) && !(infinite && v[i] > 0))) note(&tallies->not_finite, at + i, v[i]);
+        else if (unit && !(v[i] >= 0 && v[i] <= 1)) note(&tallies->out_of_range, at + i, v[i]);
+    }
+    decode(job, row, v, count);
+    for (size_t i = 0; i < count; i++)
+        if (!nothing[i] && (v[i] < low || v[i] > high)) note(&tallies->out_of_range, at + i, v[i]);
+}
+
+static void check_lengths(const struct job *job, struct channel *tallies, const uint8_t *const *planes, size_t i,
+                          size_t offset, uint32_t x, const bool *nothing, size_t count, size_t at) {
+    float n[3][GLINT_BLOCK] = {{0}}, lengths[GLINT_BLOCK];
+    const int axes[3] = {(int)i, tallies->axes[0], tallies->axes[1]};
+    for (int a = 0; a < 3; a++) {
+        if (axes[a] < 0) continue;
+        const struct channel *channel = &job->channels[axes[a]];
+        load(channel, planes[axes[a]] + offset + x * glint_stored_bytes(channel->stored), count, n[a]);
+    }
+    float *const pointers[3] = {n[0], n[1], n[2]};
+    glint_decode_normal(&job->decoder, normal_encoding(job, tallies->row), pointers, lengths, count);
+    for (size_t p = 0; p < count; p++)
+        if (!nothing[p] && !(fabsf(lengths[p] - 1) <= NORMAL_TOLERANCE)) note(&tallies->not_unit, at + p, lengths[p]);
+}
+
+static void check_block(const struct job *job, struct channel *tallies, const uint8_t *const *planes, size_t offset,
+                        uint32_t x, size_t count, size_t at) {
+    bool nothing[GLINT_BLOCK] = {false};
+    const bool none[GLINT_BLOCK] = {false};
+    float v[GLINT_BLOCK];
+    if (job->depth >= 0) {
+        const struct channel *depth = &job->channels[job->depth];
+        load(depth, planes[job->depth] + offset + x * glint_stored_bytes(depth->stored), count, v);
+        glint_decode_depth(&job->decoder, v, count);
+        for (size_t i = 0; i < count; i++) nothing[i] = v[i] == INFINITY;
+    }
+    for (size_t c = 0; c < job->count; c++) {
+        if (tallies[c].stored == GLINT_STORED_UINT) continue;
+        load(&tallies[c], planes[c] + offset + x * glint_stored_bytes(tallies[c].stored), count, v);
+        check_values(job, &tallies[c], v, (int)c == job->depth ? none : nothing, count, at);
+        if (tallies[c].axes[0] >= 0) check_lengths(job, &tallies[c], planes, c, offset, x, nothing, count, at);
+    }
+}
+
+static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *const *planes, size_t line_bytes,
+                       struct glint_error *err) {
+    (void)err;
+    struct job *job = user;
+    struct channel tallies[GLINT_EXR_MAX_WANTED];
+    for (size_t c = 0; c < job->count; c++) {
+        tallies[c] = job->channels[c];
+        tallies[c].not_finite = tallies[c].out_of_range = tallies[c].not_unit = (struct tally){0};
+    }
+    for (uint32_t l = 0; l < lines; l++)
+        for (uint32_t x = 0; x < job->width; x += GLINT_BLOCK) {
+            const size_t count = job->width - x < GLINT_BLOCK ? job->width - x : GLINT_BLOCK;
+            check_block(job, tallies, planes, l * line_bytes, x, count, (size_t)(y + l) * job->width + x);
+        }
+    pthread_mutex_lock(&job->lock);
+    for (size_t c = 0; c < job->count; c++) {
+        merge(&job->channels[c].not_finite, &tallies[c].not_finite);
+        merge(&job->channels[c].out_of_range, &tallies[c].out_of_range);
+        merge(&job->channels[c].not_unit, &tallies[c].not_unit);
+    }
+    pthread_mutex_unlock(&job->lock);
+    return true;
+}
+
+static int find(const struct job *job, const char *name) {
+    for (size_t i = 0; i < job->count; i++)
+        if (!strcmp(job->names[i], name)) return (int)i;
+    return -1;
+}
+
+static void plan(struct job *job, const struct glint_part_info *part) {
+    for (size_t i = 0; i < part->channel_count && job->count < GLINT_EXR_MAX_WANTED; i++) {
+        const struct glint_role_channel *row = glint_role_channel_find(part->role, part->channels[i].name);
+        if (!row) continue;
+        job->names[job->count] = part->channels[i].name;
+        job->channels[job->count++] =
+            (struct channel){.row = row, .stored = part->channels[i].stored, .axes = {-1, -1}};
+    }
+    job->depth = find(job, "depth.Z");
+    for (size_t i = 0; i < job->count; i++) {
+        const size_t length = strlen(job->names[i]);
+        char other[64];
+        if (!is_normal(job->channels[i].row) || job->names[i][length - 1] != 'X') continue;
+        memcpy(other, job->names[i], length + 1);
+        for (int a = 0; a < 2; a++) {
+            other[length - 1] = "YZ"[a];
+            job->channels[i].axes[a] = find(job, other);
+        }
+    }
+}
+
+static bool report(struct glint_check *check, const struct glint_part_info *part, const char *channel,
+                   enum glint_rule rule, const struct tally *tally, const char *expected) {
+    if (!tally->count) return true;
+    return glint_violation(check, rule, part->name, channel, "expected %s, found %zu other%s, first %g at (%zu, %zu)",
+                           expected, tally->count, tally->count == 1 ? "" : "s", (double)tally->value,
+                           tally->first % part->width, tally->first / part->width);
+}
+
+bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capture, size_t p,
+                           struct glint_error *err) {
+    const struct glint_part_info *part = &capture->parts[p];
+    if (!part->role || !part->role->channels) return true;
+    struct job job = {.decoder = glint_decoder_of(capture, part), .width = part->width};
+    plan(&job, part);
+    pthread_mutex_init(&job.lock, NULL);
+    const bool ok = glint_exr_rows(capture->sources[p].exr, capture->sources[p].part, job.names, job.count, 0,
+                                   check_rows, &job, err);
+    pthread_mutex_destroy(&job.lock);
+    for (size_t c = 0; ok && c < job.count; c++) {
+        const struct channel *channel = &job.channels[c];
+        float low, high;
+        bounds(channel->row, &low, &high);
+        report(check, part, job.names[c], GLINT_RULE_PIXEL_FINITE, &channel->not_finite,
+               may_be_infinite(&job, channel->row) ? "numbers or +inf" : "finite numbers");
+        report(check, part, job.names[c], GLINT_RULE_PIXEL_RANGE, &channel->out_of_range,
+               stored_in_unit(&job, channel->row) || high < INFINITY ? "values in [0, 1]"
+                                                                     : "values that are not negative");
+        report(check, part, job.names[c], GLINT_RULE_PIXEL_NORMAL, &channel->not_unit, "unit length within 0.02");
+    }
+    return ok;
+}

@@ -1,0 +1,332 @@
+/* Every rule of FORMAT.md, broken one at a time: validate names the rule, the reader refuses what it must. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "rewrite.h"
+
+static struct fixture fixture;
+
+struct found {
+    size_t count;
+    char rules[32][32];
+    char messages[32][1024];
+};
+
+static void collect(void *user, const char *rule, const char *message) {
+    struct found *found = user;
+    if (found->count < 32) {
+        snprintf(found->rules[found->count], 32, "%s", rule);
+        snprintf(found->messages[found->count], 1024, "%s", message);
+    }
+    found->count++;
+}
+
+static void validate(const char *path, struct found *found) {
+    struct glint_error err = {0};
+    size_t count = 0;
+    memset(found, 0, sizeof *found);
+    if (!glint_capture_validate(path, NULL, collect, found, &count, &err)) fail_msg("%s", err.message);
+    assert_int_equal(count, found->count);
+}
+
+static double numbers[16];
+static void set_numbers(struct rewrite *r, const char *part, const char *name, size_t at, double value) {
+    struct glint_exr_attribute *a = rewrite_attribute(r, part, name);
+    memcpy(numbers, a->numbers, a->count * sizeof *numbers);
+    numbers[at] = value;
+    a->numbers = numbers;
+}
+static void set_string(struct rewrite *r, const char *part, const char *name, const char *value) {
+    rewrite_attribute(r, part, name)->string = value;
+}
+static void rename_part(struct rewrite *r, const char *from, const char *to) {
+    struct rewrite_part *p = rewrite_find(r, from);
+    snprintf(p->name, sizeof p->name, "%s", to);
+}
+static float *floats(struct rewrite *r, const char *part, const char *channel) {
+    return rewrite_pixels(r, part, channel);
+}
+
+/* ---- one way to break each rule ---- */
+
+static void later_version(struct rewrite *r) {
+    set_numbers(r, "lit", "glint.version", 0, 2);
+}
+static void no_version(struct rewrite *r) {
+    rewrite_remove_attribute(r, "sky", "glint.version");
+}
+static void no_lit(struct rewrite *r) {
+    rewrite_remove_part(r, "lit");
+}
+static void no_gbuffer(struct rewrite *r) {
+    rewrite_remove_part(r, "gbuffer");
+}
+static void reserved_role(struct rewrite *r) {
+    rename_part(r, "scene", "irradiance");
+}
+static void no_albedo(struct rewrite *r) {
+    rewrite_remove_channel(r, "gbuffer", "albedo.G");
+}
+static void one_motion(struct rewrite *r) {
+    rewrite_remove_channel(r, "gbuffer", "motion.X");
+}
+static void stray_channel(struct rewrite *r) {
+    rewrite_find(r, "water")->channels[0].name = "zzz";
+}
+static void float_id(struct rewrite *r) {
+    struct rewrite_part *p = rewrite_find(r, "gbuffer");
+    for (size_t c = 0; c < p->part.channel_count; c++)
+        if (!strcmp(p->channels[c].name, "stencil.id")) p->channels[c].stored = GLINT_STORED_FLOAT;
+}
+static void short_lit(struct rewrite *r) {
+    rewrite_find(r, "lit")->part.height--;
+}
+static void short_cube(struct rewrite *r) {
+    rewrite_find(r, "cubemap.000")->part.height--;
+}
+static void odd_encoding(struct rewrite *r) {
+    set_string(r, "lit", "glint.color", "gamma");
+}
+static void string_matrix(struct rewrite *r) {
+    struct glint_exr_attribute *a = rewrite_attribute(r, "gbuffer", "glint.worldToView");
+    a->type = GLINT_EXR_STRING;
+    a->string = "identity";
+}
+static void no_matrix(struct rewrite *r) {
+    rewrite_remove_attribute(r, "gbuffer", "glint.viewToClip");
+}
+static void negative_metres(struct rewrite *r) {
+    set_numbers(r, "gbuffer", "glint.metresPerUnit", 0, -1);
+}
+static void odd_axis(struct rewrite *r) {
+    set_string(r, "gbuffer", "glint.up", "up");
+}
+static void infinite_center(struct rewrite *r) {
+    set_numbers(r, "cubemap.017", "glint.center", 1, (double)INFINITY);
+}
+static void odd_class(struct rewrite *r) {
+    static const char *const classes[] = {"3/7=sky", "character"};
+    rewrite_attribute(r, "gbuffer", "glint.stencilClasses")->strings = classes;
+}
+static void nan_matrix(struct rewrite *r) {
+    set_numbers(r, "gbuffer", "glint.worldToView", 5, (double)NAN);
+}
+static void scaled_view(struct rewrite *r) {
+    set_numbers(r, "gbuffer", "glint.worldToView", 0, 3);
+}
+static void singular_clip(struct rewrite *r) {
+    set_numbers(r, "gbuffer", "glint.viewToClip", 11, 0);
+}
+static void skewed_clip(struct rewrite *r) {
+    set_numbers(r, "gbuffer", "glint.viewToClip", 1, 0.5);
+}
+static void undeclared_reversed(struct rewrite *r) {
+    set_string(r, "gbuffer", "glint.depth", "reversed");
+}
+static void no_log_range(struct rewrite *r) {
+    set_string(r, "gbuffer", "glint.depth", "logarithmic");
+    set_numbers(r, "gbuffer", "glint.depthNear", 0, 0);
+}
+static void no_previous(struct rewrite *r) {
+    rewrite_remove_attribute(r, "gbuffer", "glint.previousWorldToView");
+    rewrite_remove_attribute(r, "gbuffer", "glint.previousViewToClip");
+}
+static void half_previous(struct rewrite *r) {
+    rewrite_remove_attribute(r, "gbuffer", "glint.previousViewToClip");
+}
+static void no_planes(struct rewrite *r) {
+    rewrite_remove_attribute(r, "cubemap.000", "glint.hull.00");
+}
+static void empty_box(struct rewrite *r) {
+    set_string(r, "cubemap.000", "glint.inner", "box");
+}
+static void nowhere(struct rewrite *r) {
+    struct rewrite_part *p = rewrite_find(r, "cubemap.000");
+    static const char *const hash = "0123456789abcdef0123456789abcdef";
+    p->attributes[p->part.attribute_count++] =
+        (struct glint_exr_attribute){.name = "glint.sibling", .type = GLINT_EXR_STRING, .string = "not-there.exr"};
+    p->attributes[p->part.attribute_count++] =
+        (struct glint_exr_attribute){.name = "glint.siblingHash", .type = GLINT_EXR_STRING, .string = hash};
+}
+static void climbing(struct rewrite *r) {
+    nowhere(r);
+    set_string(r, "cubemap.000", "glint.sibling", "../not-there.exr");
+}
+/* Pixel 9 of the fixture is no sky. */
+static void nan_pixel(struct rewrite *r) {
+    floats(r, "lit", "G")[9] = NAN, floats(r, "lit", "G")[45] = NAN;
+}
+static void infinite_pixel(struct rewrite *r) {
+    floats(r, "sky", "G")[9] = INFINITY;
+}
+static void nan_depth(struct rewrite *r) {
+    floats(r, "gbuffer", "depth.Z")[9] = NAN;
+}
+static void long_normal(struct rewrite *r) {
+    for (const char *c = "XYZ"; *c; c++)
+        floats(r, "gbuffer", (const char[]){'n', 'o', 'r', 'm', 'a', 'l', '.', *c, 0})[9] *= 1.1f;
+}
+static void zero_normal(struct rewrite *r) {
+    for (const char *c = "XYZ"; *c; c++)
+        floats(r, "water", (const char[]){'n', 'o', 'r', 'm', 'a', 'l', '.', *c, 0})[9] = 0;
+}
+static void rough(struct rewrite *r) {
+    floats(r, "gbuffer", "material.roughness")[9] = 1.5f;
+}
+static void heavy(struct rewrite *r) {
+    floats(r, "cubemap.000", "A")[9] = -0.5f;
+}
+static void dark(struct rewrite *r) {
+    floats(r, "scene", "B")[9] = -1;
+}
+static void behind(struct rewrite *r) {
+    floats(r, "cubemap.017", "distance.Z")[9] = -3;
+}
+
+static const struct {
+    const char *rule, *words[2]; /* in the message */
+    void (*change)(struct rewrite *r);
+    bool opens; /* the reader takes it */
+} cases[] = {
+    {"version", {"part lit", "found 2"}, later_version, false},
+    {"version", {"part sky", "none"}, no_version, false},
+    {"required-parts", {"lit", "missing"}, no_lit, false},
+    {"required-parts", {"gbuffer", "missing"}, no_gbuffer, false},
+    {"reserved-roles", {"irradiance", "reserved"}, reserved_role, false},
+    {"channels", {"albedo.G", "missing"}, no_albedo, false},
+    {"channels", {"motion.X", "missing"}, one_motion, false},
+    {"channels", {"part water", "zzz"}, stray_channel, false},
+    {"channel-types", {"stencil.id", "found float"}, float_id, false},
+    {"shape", {"40 x 24", "40 x 23"}, short_lit, false},
+    {"shape", {"N x 6N", "8 x 47"}, short_cube, false},
+    {"encoding", {"glint.color", "gamma"}, odd_encoding, false},
+    {"attributes", {"glint.worldToView", "m44d"}, string_matrix, false},
+    {"attributes", {"glint.viewToClip", "missing"}, no_matrix, false},
+    {"attributes", {"glint.metresPerUnit", "-1"}, negative_metres, false},
+    {"attributes", {"glint.up", "\"up\""}, odd_axis, false},
+    {"attributes", {"cubemap.017", "inf"}, infinite_center, false},
+    {"attributes", {"glint.stencilClasses", "character"}, odd_class, false},
+    {"attributes", {"glint.worldToView", "nan"}, nan_matrix, false},
+    {"matrices", {"glint.worldToView", "rotation"}, scaled_view, false},
+    {"matrices", {"glint.viewToClip", "invertible"}, singular_clip, false},
+    {"matrices", {"glint.viewToClip", "column 1"}, skewed_clip, false},
+    {"depth-encoding", {"depth.Z", "near at 1"}, undeclared_reversed, false},
+    {"depth-encoding", {"depthNear", "500"}, no_log_range, false},
+    {"previous-camera", {"previous.gbuffer", "none"}, no_previous, false},
+    {"attributes", {"glint.previousViewToClip", "missing"}, half_previous, false},
+    {"inner-volume", {"4 to 64 planes", "found 0"}, no_planes, false},
+    {"inner-volume", {"boxMin", "cubemap.000"}, empty_box, false},
+    {"sibling", {"not-there.exr", "No such file"}, nowhere, false},
+    {"sibling", {"plain file name", "../not-there.exr"}, climbing, false},
+    {"pixels-finite", {"part lit: G", "found 2 others, first nan at (9, 0)"}, nan_pixel, true},
+    {"pixels-finite", {"part sky: G", "first inf at (1, 1)"}, infinite_pixel, true},
+    {"pixels-finite", {"depth.Z", "found 1 other"}, nan_depth, true},
+    {"pixels-normal", {"gbuffer: normal.X", "first 1.1 at (9, 0)"}, long_normal, true},
+    {"pixels-normal", {"water: normal.X", "first 0 at (9, 0)"}, zero_normal, true},
+    {"pixels-range", {"material.roughness", "[0, 1]"}, rough, true},
+    {"pixels-range", {"cubemap.000: A", "-0.5"}, heavy, true},
+    {"pixels-range", {"part scene: B", "not negative"}, dark, true},
+    {"pixels-range", {"cubemap.017: distance.Z", "-3"}, behind, true},
+};
+
+static void every_rule_is_reported_by_name(void **state) {
+    (void)state;
+    static struct rewrite r;
+    static struct found found;
+    char path[512], broken[512];
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, fixture_path(path, "whole.exr"), FIXTURE_PARTS, NULL, &err));
+    fixture_path(broken, "broken.exr");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        rewrite_load(&r, path);
+        cases[i].change(&r);
+        rewrite_save(&r, broken);
+        rewrite_finish(&r);
+        validate(broken, &found);
+        bool said = false;
+        for (size_t f = 0; f < found.count; f++)
+            said |= !strcmp(found.rules[f], cases[i].rule) && strstr(found.messages[f], cases[i].words[0]) &&
+                    strstr(found.messages[f], cases[i].words[1]);
+        if (!said)
+            fail_msg("case %zu: %s %s %s: %zu reports, first %s: %s", i, cases[i].rule, cases[i].words[0],
+                     cases[i].words[1], found.count, found.rules[0], found.messages[0]);
+        struct glint_capture *capture = glint_capture_open(broken, NULL, &err);
+        if (!!capture != cases[i].opens) fail_msg("case %zu (%s): opens %d", i, cases[i].words[0], capture != NULL);
+        if (!capture && (!strstr(err.message, broken) || !err.code)) fail_msg("case %zu: %s", i, err.message);
+        glint_capture_close(&capture);
+    }
+    unlink(path);
+    unlink(broken);
+}
+
+static void a_whole_capture_has_no_violation(void **state) {
+    (void)state;
+    static struct found found;
+    char path[512];
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, fixture_path(path, "valid.exr"), FIXTURE_PARTS, NULL, &err));
+    validate(path, &found);
+    if (found.count) fail_msg("%s: %s", found.rules[0], found.messages[0]);
+    unlink(path);
+}
+
+static void all_violations_are_reported_together(void **state) {
+    (void)state;
+    static struct rewrite r;
+    static struct found found;
+    char path[512];
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, fixture_path(path, "many.exr"), FIXTURE_PARTS, NULL, &err));
+    rewrite_load(&r, path);
+    short_cube(&r);
+    odd_encoding(&r);
+    no_albedo(&r);
+    odd_axis(&r);
+    rewrite_save(&r, path);
+    rewrite_finish(&r);
+    validate(path, &found);
+    assert_int_equal(found.count, 4);
+    unlink(path);
+}
+
+/* Under sky a G-buffer may hold anything. */
+static void under_sky_only_depth_is_looked_at(void **state) {
+    (void)state;
+    static struct rewrite r;
+    static struct found found;
+    char path[512];
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, fixture_path(path, "under.exr"), FIXTURE_PARTS, NULL, &err));
+    rewrite_load(&r, path);
+    assert_true(isinf(floats(&r, "gbuffer", "depth.Z")[14]));
+    floats(&r, "gbuffer", "normal.X")[14] = NAN;
+    floats(&r, "gbuffer", "material.roughness")[14] = -7;
+    rewrite_save(&r, path);
+    rewrite_finish(&r);
+    validate(path, &found);
+    if (found.count) fail_msg("%s: %s", found.rules[0], found.messages[0]);
+    unlink(path);
+}
+
+static int setup(void **state) {
+    (void)state;
+    fixture_init(&fixture);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_whole_capture_has_no_violation),
+        cmocka_unit_test(every_rule_is_reported_by_name),
+        cmocka_unit_test(all_violations_are_reported_together),
+        cmocka_unit_test(under_sky_only_depth_is_looked_at),
+    };
+    return cmocka_run_group_tests(tests, setup, NULL);
+}
