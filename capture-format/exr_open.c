@@ -69,8 +69,7 @@ static bool start(struct glint_exr *exr, struct glint_error *err) {
     init.user_data = &exr->stream;
     init.read_fn = stream_read;
     init.size_fn = stream_size;
-    init.max_image_width = (int)exr->limits.width;
-    init.max_image_height = (int)exr->limits.width * 6;
+    init.max_image_width = init.max_image_height = 1 << 28; /* what no limit allows; read_layout says the real one */
     init.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     exr->stream.allowance = HEADER_BYTES < exr->limits.memory_bytes / 16 ? HEADER_BYTES : exr->limits.memory_bytes / 16;
     const exr_result_t rv = exr_start_read(&exr->context, exr->path, &init);
@@ -116,7 +115,7 @@ static bool read_layout(struct glint_exr *exr, size_t p, struct glint_error *err
     struct glint_exr_part_file *part = &exr->parts[p];
     exr_attr_box2i_t box;
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
-    int32_t lines = 0, chunks = 0;
+    int32_t lines = 0, chunks = 0, stated = -1;
     if (exr_get_data_window(exr->context, (int)p, &box) || exr_get_storage(exr->context, (int)p, &storage) ||
         exr_get_compression(exr->context, (int)p, &part->compression))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: header is not complete", exr->path, part->info.name);
@@ -134,9 +133,14 @@ static bool read_layout(struct glint_exr *exr, size_t p, struct glint_error *err
     part->readable = storage == EXR_STORAGE_SCANLINE && part->compression < EXR_COMPRESSION_DWAA;
     if (storage == EXR_STORAGE_SCANLINE) {
         if (exr_get_scanlines_per_chunk(exr->context, (int)p, &lines) ||
-            exr_get_chunk_count(exr->context, (int)p, &chunks) || lines < 1 || chunks != (height + lines - 1) / lines)
+            exr_get_chunk_count(exr->context, (int)p, &chunks) || lines < 1)
+            return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: header is not complete", exr->path,
+                              part->info.name);
+        /* OpenEXRCore counts for itself; what the file says must agree. */
+        exr_attr_get_int(exr->context, (int)p, "chunkCount", &stated);
+        if (chunks != (height + lines - 1) / lines || (stated != -1 && stated != chunks))
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %lld chunks, found %d", exr->path,
-                              part->info.name, lines < 1 ? 0LL : (long long)((height + lines - 1) / lines), chunks);
+                              part->info.name, (long long)((height + lines - 1) / lines), stated);
         part->chunk_lines = (uint32_t)lines;
         part->chunk_count = (uint32_t)chunks;
     }

@@ -19,23 +19,28 @@ static bool told(bool ok, const struct glint_error *err) {
     return ok;
 }
 
-static bool read_part(struct glint_capture *capture, const struct glint_part_info *part, struct glint_error *err) {
-    const size_t pixels = (size_t)part->width * part->height;
-    bool ok = true;
-    for (size_t c = 0; c < part->channel_count && ok; c++) {
-        const char *names[] = {part->channels[c].name, NULL};
-        const bool integer = part->channels[c].stored == GLINT_STORED_UINT;
-        void *out = malloc(pixels * 8);
-        if (!out) abort();
-        ok = told(glint_capture_read_raw(capture, part, names, 2, integer ? GLINT_U32 : GLINT_F32, out, 2, err), err);
-        const bool packed = integer && part->encodings.motion == GLINT_MOTION_PACKED16;
-        if (ok && (!integer || packed)) {
-            *err = (struct glint_error){0};
-            if (!told(glint_capture_read(capture, part, names, 1, GLINT_F16, out, 2, err), err) && !packed) ok = false;
-        }
-        free(out);
-    }
+/* All of a part's half and float channels at once, or all of its uint channels; as stored, then decoded. */
+static bool read_kind(struct glint_capture *capture, const struct glint_part_info *part, bool integer,
+                      struct glint_error *err) {
+    const char *names[32];
+    size_t count = 0;
+    for (size_t c = 0; c < part->channel_count && count < 31; c++)
+        if ((part->channels[c].stored == GLINT_STORED_UINT) == integer) names[count++] = part->channels[c].name;
+    if (!count) return true;
+    names[count++] = NULL;
+    void *out = malloc((size_t)part->width * part->height * 4 * count);
+    if (!out) abort();
+    const enum glint_type type = integer ? GLINT_U32 : GLINT_F32;
+    bool ok = told(glint_capture_read_raw(capture, part, names, count, type, out, 1, err), err);
+    if (ok)
+        ok = told(glint_capture_read(capture, part, names, count, integer ? GLINT_U32 : GLINT_F16, out, 2, err), err);
+    free(out);
     return ok;
+}
+
+static bool read_part(struct glint_capture *capture, const struct glint_part_info *part, struct glint_error *err) {
+    const bool floats = read_kind(capture, part, false, err);
+    return read_kind(capture, part, true, err) && floats;
 }
 
 static void ignore(void *user, const char *rule, const char *message) {

@@ -1,0 +1,180 @@
+/* Files from strangers: each is read or refused with a reason, within the stated memory. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "heap.h"
+#include "hostile.h"
+
+static struct fixture fixture;
+static uint8_t *whole;
+static size_t size;
+
+static void load(int parts) {
+    char path[512];
+    struct glint_error err = {0};
+    free(whole);
+    if (!fixture_write(&fixture, fixture_path(path, "hostile.exr"), parts, NULL, &err)) fail_msg("%s", err.message);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    size = (size_t)ftell(file);
+    rewind(file);
+    whole = malloc(size);
+    assert_non_null(whole);
+    assert_int_equal(fread(whole, 1, size, file), size);
+    fclose(file);
+    unlink(path);
+}
+
+/* Where `text` begins in the file, after `from`. */
+static size_t find(const char *text, size_t length, size_t from) {
+    for (size_t i = from; i + length <= size; i++)
+        if (!memcmp(whole + i, text, length)) return i;
+    fail_msg("not found");
+    return 0;
+}
+
+/* ---- cut off ---- */
+
+static void cut_off_anywhere_is_refused(void **state) {
+    (void)state;
+    load(FIXTURE_LIT + 1);
+    struct glint_error err = {0};
+    assert_true(hostile_use_bytes(whole, size, &err));
+    /* Every byte of the headers and of the last chunk, every 97th between. */
+    const size_t headers = find("lineOrder", 9, find("lineOrder", 9, 0) + 1) + 512;
+    for (size_t cut = 0; cut < size; cut += cut < headers || cut + 512 > size ? 1 : 97) {
+        err = (struct glint_error){0};
+        if (hostile_use_bytes(whole, cut, &err)) fail_msg("%zu of %zu bytes were taken", cut, size);
+        if (!strstr(err.message, "/proc/self/fd/")) fail_msg("%zu bytes: no file named: %s", cut, err.message);
+    }
+}
+
+/* ---- damaged ---- */
+
+static void damage_is_read_or_refused(void **state) {
+    (void)state;
+    load(FIXTURE_CUBEMAP_1 + 1);
+    uint8_t *copy = malloc(size);
+    assert_non_null(copy);
+    size_t refused = 0;
+    for (uint32_t seed = 0; seed < 4000; seed++) {
+        struct glint_error err = {0};
+        memcpy(copy, whole, size);
+        refused += !hostile_use_bytes(copy, hostile_damage(copy, size, seed), &err);
+    }
+    free(copy);
+    /* The damage is real: most of it hits something that matters. */
+    assert_true(refused > 1400);
+}
+
+/* ---- one lie at a time ---- */
+
+/* Writes `count` bytes over a copy at `at`, and expects a refusal whose message holds `words`. */
+static void lie(size_t at, const void *bytes, size_t count, const char *words) {
+    struct glint_error err = {0};
+    uint8_t *copy = malloc(size);
+    assert_non_null(copy);
+    memcpy(copy, whole, size);
+    memcpy(copy + at, bytes, count);
+    const size_t before = heap_peak_reset();
+    const bool taken = hostile_use_bytes(copy, size, &err);
+    const size_t used = heap_peak() - before;
+    free(copy);
+    if (taken) fail_msg("a lie at byte %zu, beginning with %d, was taken", at, ((const uint8_t *)bytes)[0]);
+    if (!strstr(err.message, words)) fail_msg("expected \"%s\" in \"%s\"", words, err.message);
+    if (used > hostile_limits.memory_bytes)
+        fail_msg("%zu bytes taken, the limit is %llu", used, (unsigned long long)hostile_limits.memory_bytes);
+}
+
+static void absurd_headers_take_no_memory(void **state) {
+    (void)state;
+    load(FIXTURE_LIT + 1);
+    const size_t window = find("dataWindow\0box2i\0", 17, 0) + 17 + 4;
+    const int32_t huge[4] = {0, 0, 0x7ffffff0, 0x7ffffff0}, wide[4] = {0, 0, 2000, 23}, tall[4] = {0, 0, 39, 7000};
+    const int32_t turned[4] = {39, 23, 0, 0}, extreme[4] = {INT32_MIN, INT32_MIN, INT32_MAX, INT32_MAX};
+    lie(window, huge, 16, "Invalid data window");
+    lie(window, wide, 16, "2001 x 24 pixels, the limit is 1024 x 6144");
+    lie(window, tall, 16, "40 x 7001 pixels, the limit is 1024 x 6144");
+    lie(window, turned, 16, "Invalid data window");
+    lie(window, extreme, 16, "Invalid data window");
+    const size_t channels = find("channels\0chlist\0", 16, 0) + 16;
+    lie(channels, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
+    lie(channels, &(int32_t){-1}, 4, "/proc/self/fd/");
+    const size_t storage = find("glint.storage\0stringvector\0", 27, 0) + 27;
+    lie(storage, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
+    lie(storage + 4, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
+    const size_t chunks = find("chunkCount\0int\0", 15, 0) + 15 + 4;
+    lie(chunks, &(int32_t){0x7fffffff}, 4, "expected 2 chunks");
+    lie(chunks, &(int32_t){0}, 4, "/proc/self/fd/");
+    lie(0, &(uint32_t){0}, 4, "/proc/self/fd/"); /* not EXR at all */
+}
+
+static void two_parts_of_one_name_are_refused(void **state) {
+    (void)state;
+    load(FIXTURE_CUBEMAP_1 + 1);
+    lie(find("cubemap.017", 11, 0), "cubemap.000", 11, "cubemap.000");
+}
+
+static void limits_hold(void **state) {
+    (void)state;
+    load(FIXTURE_PARTS);
+    char path[512];
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, fixture_path(path, "limits.exr"), FIXTURE_PARTS, NULL, &err));
+    const struct glint_limits all[] = {{.file_bytes = 1000}, {.width = 30}, {.parts = 3}};
+    static const char *const words[] = {"the limit is 1000", "the limit is 30 x 180", "the limit is 3"};
+    for (int i = 0; i < 3; i++) {
+        err = (struct glint_error){0};
+        assert_null(glint_capture_open(path, &all[i], &err));
+        if (!strstr(err.message, words[i])) fail_msg("%s", err.message);
+    }
+    /* Chunks that do not fit are refused before they are taken. */
+    const struct glint_limits tight = {.memory_bytes = 300000};
+    struct glint_capture *capture = glint_capture_open(path, &tight, &err);
+    static float out[FIX_W * FIX_H];
+    assert_non_null(capture);
+    assert_false(glint_capture_read(capture, glint_capture_find(capture, "gbuffer"), (const char *const[]){"depth.Z"},
+                                    1, GLINT_F32, out, 0, &err));
+    assert_int_equal(err.code, GLINT_ERROR_LIMIT);
+    glint_capture_close(&capture);
+    unlink(path);
+}
+
+static void what_is_no_file_is_refused(void **state) {
+    (void)state;
+    static const char *const paths[] = {"/", "/dev/null", "/dev/zero", "/nowhere.exr", ""};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        struct glint_error err = {0};
+        assert_null(glint_capture_open(paths[i], NULL, &err));
+        assert_int_equal(err.code, GLINT_ERROR_IO);
+    }
+}
+
+static int setup(void **state) {
+    (void)state;
+    fixture_init(&fixture);
+    return 0;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    free(whole);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cut_off_anywhere_is_refused),       cmocka_unit_test(absurd_headers_take_no_memory),
+        cmocka_unit_test(two_parts_of_one_name_are_refused), cmocka_unit_test(limits_hold),
+        cmocka_unit_test(what_is_no_file_is_refused),        cmocka_unit_test(damage_is_read_or_refused),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
