@@ -1,0 +1,53 @@
+"""Writes a self-contained folder: bundle.py BUILD GLINT_CAPTURE DIR. It runs on x86-64 Linux with glibc >= 2.36 and a
+Vulkan driver; glibc and drivers stay the machine's own."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+GLIBC = re.compile(r"/(ld-linux|libc|libm|libdl|libpthread|librt|libresolv|libutil|libmvec)[-.]")
+
+
+def libraries(program):
+    """Every shared library that the program needs, without those of glibc."""
+    lines = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout.split("\n")
+    paths = [line.split("=>")[1].split("(")[0].strip() for line in lines if "=>" in line]
+    missing = [line.strip() for line in lines if "not found" in line]
+    if missing:
+        sys.exit("bundle: " + "; ".join(missing))
+    return sorted(p for p in paths if p and not GLIBC.search(p))
+
+
+def main():
+    build, capture, folder = sys.argv[1:]
+    if os.path.exists(folder) and os.listdir(folder) and not os.path.exists(os.path.join(folder, "bin", "glint")):
+        sys.exit(f"bundle: {folder} exists and is no bundle; name an empty or a new folder")
+    temporary = folder.rstrip("/") + ".tmp-bundle"
+    shutil.rmtree(temporary, ignore_errors=True)
+    stage = os.path.join(temporary, "stage")
+    subprocess.run(["meson", "install", "-C", build, "--quiet", "--destdir", os.path.abspath(stage)], check=True)
+    (prefix,) = (os.path.dirname(root) for root, _, files in os.walk(stage) if root.endswith("/bin") and "glint" in files)
+    for part in ("bin", "share"):
+        shutil.move(os.path.join(prefix, part), os.path.join(temporary, part))
+    lib = os.path.join(temporary, "lib")
+    os.mkdir(lib)
+    for path in libraries(os.path.join(build, "viewer-cli", "glint")):
+        target = os.path.join(lib, os.path.basename(path))
+        shutil.copy(path, target)
+        subprocess.run(["strip", "--strip-unneeded", target], check=False)
+    subprocess.run(["strip", os.path.join(temporary, "bin", "glint")], check=True)
+    shutil.copy(capture, os.path.join(temporary, "sample.exr"))
+    shutil.copy("LICENSE", temporary)
+    with open(os.path.join(temporary, "README"), "w", encoding="utf-8") as readme:
+        readme.write("glint, self-contained. Needs glibc 2.36 or newer and a Vulkan driver.\n\n"
+                     "    bin/glint devices\n    bin/glint replay sample.exr -o run\n"
+                     "    bin/glint view run -o picture.png\n")
+    shutil.rmtree(stage)
+    shutil.rmtree(folder, ignore_errors=True)
+    os.rename(temporary, folder)
+    size = sum(os.path.getsize(os.path.join(r, f)) for r, _, files in os.walk(folder) for f in files)
+    print(f"{folder}: {size / 1e6:.0f} MB; bin/glint devices is a first thing to try there")
+
+
+main()
