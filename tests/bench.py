@@ -1,30 +1,137 @@
-"""Measures every step of a replay on this machine and writes the tables of BENCHMARKS.md: bench.py BUILD [--record FILE]
-[--tables FILE...]. A record is JSON; records of other machines, made by the same command, become further columns."""
+"""Measures every step of a replay and writes the tables of BENCHMARKS.md.
+
+bench.py record --glint GLINT --as NAME -o RECORD.json [--bench-capture PROGRAM]   measure this machine
+bench.py tables RECORD.json...                                                   rewrite BENCHMARKS.md from records
+
+A record needs nothing but the program, so that it can be made wherever a bundle runs."""
 import argparse
 import json
 import os
-import platform
-import resource
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 
-ROUNDS = 5
-SIZE, CUBE = "1920x1080", "512"
-
-
-def run(command, **more):
-    return subprocess.run([str(c) for c in command], check=True, capture_output=True, text=True, **more).stdout
+SIZE, CUBE, SCENE = "1920x1080", "512", "street"
+PHASES = (("read", "read what the passes need"), ("upload", "upload"), ("passes", "all passes, one round and a warm-up"),
+          ("readback", "readback"), ("write", "EXR writing still to do after the last readback"))
 
 
 def measured(command):
-    """Seconds and peak memory of one whole process."""
+    """Seconds and peak memory in bytes of one whole process."""
     start = time.monotonic()
-    pid = os.posix_spawnp(str(command[0]), [str(c) for c in command], os.environ,
-                          file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)])
+    pid = os.posix_spawnp(command[0], command, os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)])
     _, status, usage = os.wait4(pid, 0)
     if status:
-        sys.exit(f"bench: {' '.join(map(str, command))} failed")
+        sys.exit(f"bench: {' '.join(command)} failed")
     return time.monotonic() - start, usage.ru_maxrss * 1024
+
+
+def spread(values):
+    return {"n": len(values), "min": min(values), "median": statistics.median(values), "max": max(values)}
+
+
+def record(options):
+    with tempfile.TemporaryDirectory(dir=options.work) as folder:
+        capture, run = os.path.join(folder, "capture.exr"), os.path.join(folder, "run")
+        sampling, _ = measured([options.glint, "sample", SCENE, "-o", capture, "--size", SIZE, "--cube-size", CUBE])
+        replay = [options.glint, "replay", capture, "-o", run]
+        whole, phases = [], {name: [] for name, _ in PHASES}
+        files = {"write_s": [], "read_s": [], "copy_s": []}
+        for _ in range(options.rounds):
+            whole.append(measured(replay))
+            with open(os.path.join(run, "run.json"), encoding="utf-8") as text:
+                result = json.load(text)
+            for name in phases:
+                phases[name].append(result["seconds"][name])
+            if options.bench_capture:
+                out = subprocess.run([options.bench_capture, os.path.join(folder, "bench.exr")], check=True, capture_output=True)
+                values = json.loads(out.stdout)
+                for name in files:
+                    files[name].append(values[name])
+        measured(replay + ["--repeat", str(options.repeat)])
+        with open(os.path.join(run, "run.json"), encoding="utf-8") as text:
+            result = json.load(text)
+        return {
+            "as": options.name, "device": result["device"]["name"], "driver": result["device"]["driver_version"],
+            "size": SIZE, "cube": CUBE, "scene": SCENE, "sample_s": sampling, "capture_bytes": os.path.getsize(capture),
+            "run_bytes": sum(os.path.getsize(os.path.join(run, f)) for f in os.listdir(run)),
+            "whole_s": spread([s for s, _ in whole]), "peak_bytes": max(b for _, b in whole),
+            "phases_s": {name: spread(v) for name, v in phases.items()},
+            "files_s": {name: spread(v) for name, v in files.items() if v},
+            "passes_ns": {f"{p['slot']}/{p['variant']}": p["time_ns"] for p in result["passes"] if p["ran"]},
+        }
+
+
+def seconds(s):
+    return f"{s['median']:.2f} s [{s['min']:.2f} {s['max']:.2f}]" if s else "–"
+
+
+def milliseconds(t):
+    return f"{t['median'] / 1e6:.3f} [{t['min'] / 1e6:.3f} {t['max'] / 1e6:.3f}]" if t else "–"
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(row) + " |" for row in [heads, ["---"] * len(heads), *rows]]
+    return "\n".join(lines)
+
+
+def steps_table(records):
+    rows = [["capture write (all parts a frame brings)", *(seconds(r["files_s"].get("write_s")) for r in records)],
+            ["of which a background writer's caller waits", *(seconds(r["files_s"].get("copy_s")) for r in records)],
+            ["capture read (all parts)", *(seconds(r["files_s"].get("read_s")) for r in records)]]
+    rows += [[text, *(seconds(r["phases_s"].get(name)) for r in records)] for name, text in PHASES]
+    rows += [["whole `glint replay`, all images written", *(seconds(r["whole_s"]) for r in records)],
+             ["peak memory of that process", *(f"{r['peak_bytes'] / 1e6:.0f} MB" for r in records)],
+             ["capture, run on disk", *(f"{r['capture_bytes'] / 1e6:.0f} MB, {r['run_bytes'] / 1e6:.0f} MB" for r in records)]]
+    return table(["step", *(r["as"] for r in records)], rows)
+
+
+def passes_table(records):
+    names = list(dict.fromkeys(name for r in records for name in r["passes_ns"]))
+    rows = [[f"`{name}`", *(milliseconds(r["passes_ns"].get(name)) for r in records)] for name in names]
+    total = [f"{sum(t['median'] for t in r['passes_ns'].values()) / 1e6:.3f}" for r in records]
+    return table(["pass, ms", *(r["as"] for r in records)], [*rows, ["**together**", *total]])
+
+
+def tables(options):
+    records = []
+    for path in options.records:
+        with open(path, encoding="utf-8") as text:
+            records.append(json.load(text))
+    with open("BENCHMARKS.md", encoding="utf-8") as text:
+        page = text.read()
+    for name, made in (("steps", steps_table(records)), ("passes", passes_table(records))):
+        begin, end = f"<!-- {name} -->\n", f"\n<!-- end {name} -->"
+        head, rest = page.split(begin)
+        page = head + begin + made + end + rest.split(end)[1]
+    with open("BENCHMARKS.md", "w", encoding="utf-8") as text:
+        text.write(page)
+    print("BENCHMARKS.md: tables rewritten from " + ", ".join(options.records))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    command = commands.add_parser("record")
+    command.add_argument("--glint", required=True)
+    command.add_argument("--as", dest="name", required=True, help="what the tables call this machine")
+    command.add_argument("--bench-capture")
+    command.add_argument("--rounds", type=int, default=5)
+    command.add_argument("--repeat", type=int, default=5, help="timed rounds of each pass")
+    command.add_argument("--work", help="folder for temporary files")
+    command.add_argument("-o", "--output", required=True)
+    command.set_defaults(run=record)
+    command = commands.add_parser("tables")
+    command.add_argument("records", nargs="+")
+    command.set_defaults(run=tables)
+    options = parser.parse_args()
+    result = options.run(options)
+    if result:
+        with open(options.output, "w", encoding="utf-8") as text:
+            json.dump(result, text, indent=1)
+            text.write("\n")
+
+
+main()
