@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "against.h"
 #include "pass_names.h"
 #include "pipe.h"
 #include "pipeline_args.h"
@@ -14,10 +15,10 @@ struct arguments {
     struct pipeline_args pipeline;
     struct list captures;
     const char *out;
-    bool json;
+    bool json, against;
 };
 
-enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE };
+enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_AGAINST };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -29,6 +30,8 @@ static const struct argp_option options[] = {
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
     {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches; changes no other bit", 0},
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed", 0},
+    {"against",     KEY_AGAINST,     "WHAT", 0, "Compare the rays with a better answer: truth, the mirror rays that the "
+        "capture carries (truth.mirror; turns --diagnostics on, wants downsample.jitter=false)", 0},
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
@@ -39,10 +42,12 @@ static const struct example examples[] = {
     {"glint replay street.exr -o run --set screen_trace.steps=64", "with another step count"},
     {"glint replay street.exr -o end --passes upscale,compose --inputs run", "only the end of the pipeline"},
     {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "with a shader of your own"},
+    {"glint replay street.exr --against truth --set downsample.jitter=false", "how many rays are right, and why not"},
     {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME"},
     {0},
 };
 static const char *const precisions[] = {"half", "float", NULL};
+static const char *const answers[] = {"truth", NULL};
 
 extern const struct command cmd_replay;
 
@@ -70,6 +75,10 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_NO_CACHE:
         r->no_cache = true;
+        return 0;
+    case KEY_AGAINST:
+        arg_choice("against", arg, answers, state);
+        a->against = r->diagnostics = true;
         return 0;
     case ARGP_KEY_ARG:
         list_add(&a->captures, arg, state);
@@ -121,7 +130,8 @@ static void print_passes(const struct glint_pass_result *results, size_t count) 
     table_destroy(&table);
 }
 
-static void print_run(const char *capture, const char *folder, const struct job *job) {
+static void print_run(const char *capture, const char *folder, const struct glint_trace_table *rays,
+                      const struct job *job) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(job->replay, &count);
     const struct glint_device_info *device = glint_device_get_info(job->device);
@@ -135,10 +145,11 @@ static void print_run(const char *capture, const char *folder, const struct job 
     putchar('\n');
     if (folder) printf("run: %s\n", folder);
     else puts("nothing written (-o RUN keeps the images)");
+    if (rays) against_print(rays);
 }
 
-static json_t *run_json(const char *capture, const char *folder, const struct glint_replay *replay,
-                        const struct glint_device_info *device) {
+static json_t *run_json(const char *capture, const char *folder, const struct glint_trace_table *rays,
+                        const struct glint_replay *replay, const struct glint_device_info *device) {
     json_t *passes = json_array(), *seconds = json_object();
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
@@ -152,8 +163,9 @@ static json_t *run_json(const char *capture, const char *folder, const struct gl
     }
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         json_object_set_new(seconds, phases[i], json_number(glint_replay_seconds(replay, phases[i])));
-    return json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o}", "capture", capture, "run", folder, "device", "name",
-                     device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes, "seconds", seconds);
+    return json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o, s:o*}", "capture", capture, "run", folder, "device",
+                     "name", device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes, "seconds",
+                     seconds, "against_truth", rays ? against_json(rays) : NULL);
 }
 
 /* RUN, or RUN/NAME when there are several captures; malloc'd. */
@@ -180,6 +192,7 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
     struct progress progress;
     struct pipe pipe;
+    struct glint_trace_table rays, *compared = job->a->against ? &rays : NULL;
     const char *file = pipe_input(&pipe, path, err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
     if (!capture) {
@@ -189,11 +202,13 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     progress_begin(&progress);
     bool ok = glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
-              (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err));
+              (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err)) &&
+              (!job->a->against || glint_study_trace(job->replay, capture, AGAINST_ROUGHNESS, &rays, err));
     progress_end(&progress);
     if (ok && job->runs)
-        json_array_append_new(job->runs, run_json(path, folder, job->replay, glint_device_get_info(job->device)));
-    else if (ok) print_run(path, folder, job);
+        json_array_append_new(job->runs,
+                              run_json(path, folder, compared, job->replay, glint_device_get_info(job->device)));
+    else if (ok) print_run(path, folder, compared, job);
     glint_replay_load(job->replay, NULL, NULL);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
