@@ -4,22 +4,17 @@
 #include <string.h>
 
 #include "args.h"
-#include "falsecolor.h"
-#include "ocio.h"
 #include "pipe.h"
 #include "png_file.h"
 #include "progress.h"
-#include "source.h"
+#include "render.h"
 
 struct arguments {
     struct source_choice choice;
     const char *out;
-    struct ocio_options ocio;
-    double exposure_ev;
-    enum kind kind;
-    struct falsecolor_options falsecolor;
-    bool has_crop, no_legend, faces;
-    uint32_t crop[4], zoom;
+    bool sheet;
+    struct list images; /* of --image */
+    struct render_options render;
 };
 
 enum {
@@ -37,13 +32,15 @@ enum {
     KEY_OCIO,
     KEY_INPUT,
     KEY_NO_LEGEND,
-    KEY_FACES
+    KEY_FACES,
+    KEY_SHEET
 };
 
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output",    'o',           "FILE",     0, "The PNG to write; - is stdout", 0},
-    {"image",     KEY_IMAGE,     "NAME",     0, "Image of a run (default: its last colour image)", 0},
+    {"image",     KEY_IMAGE,     "NAME,...", 0, "Image of a run (default: its last colour image); several for --sheet", 0},
+    {"sheet",     KEY_SHEET,     NULL,       0, "All images of a run on one picture, or those of --image", 0},
     {"part",      KEY_PART,      "NAME",     0, "Part of a file (default: lit, or the first with colour)", 0},
     {"layer",     KEY_LAYER,     "NAME",     0, "Layer or channel of the part: depth, normal, material.roughness", 0},
     {"as",        KEY_AS,        "KIND",     0, "How to show it (default: by unit and channels): ", 0},
@@ -64,6 +61,7 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint view run -o reflection.png", "the last colour image of a run, through the ACES view"},
     {"glint view run --image travelled -o travelled.png", "how far the rays went, with a scale"},
+    {"glint view run --sheet -o sheet.png", "every image of a run on one picture"},
     {"glint view run:screen_end -o why.png", "why each ray ended (of a run with --diagnostics)"},
     {"glint view street.exr:gbuffer:normal -o normals.png", "a layer of a capture"},
     {"glint view street.exr --part cubemap.003 -o cube.png", "a cube map as a cross"},
@@ -89,27 +87,27 @@ static void parse_crop(struct arguments *a, char *arg, struct argp_state *state)
             argp_error(state, "--crop: expected whole pixels: X,Y,WIDTH,HEIGHT");
             return;
         }
-        a->crop[i] = (uint32_t)v[i];
+        a->render.crop[i] = (uint32_t)v[i];
     }
-    a->has_crop = true;
+    a->render.has_crop = true;
 }
 
 static error_t parse_color(int key, char *arg, struct argp_state *state, struct arguments *a) {
     switch (key) {
     case KEY_EXPOSURE:
-        arg_numbers("exposure", arg, &a->exposure_ev, 1, state);
+        arg_numbers("exposure", arg, &a->render.exposure_ev, 1, state);
         return 0;
     case KEY_VIEW:
-        a->ocio.view = arg;
+        a->render.ocio.view = arg;
         return 0;
     case KEY_DISPLAY:
-        a->ocio.display = arg;
+        a->render.ocio.display = arg;
         return 0;
     case KEY_OCIO:
-        a->ocio.config = arg;
+        a->render.ocio.config = arg;
         return 0;
     case KEY_INPUT:
-        a->ocio.input = arg;
+        a->render.ocio.input = arg;
         return 0;
     case ARGP_KEY_ARG:
         if (a->choice.path) argp_error(state, "one image at a time: %s and %s", a->choice.path, arg);
@@ -118,6 +116,8 @@ static error_t parse_color(int key, char *arg, struct argp_state *state, struct 
     case ARGP_KEY_END:
         if (!a->choice.path) argp_error(state, "which image?");
         if (!a->out) argp_error(state, "where to? -o FILE.png");
+        if (!a->sheet && a->images.count > 1) argp_error(state, "several images need --sheet");
+        a->choice.image = a->images.count ? a->images.items[0] : NULL;
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -131,7 +131,7 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         a->out = arg;
         return 0;
     case KEY_IMAGE:
-        a->choice.image = arg;
+        list_split(&a->images, arg, state);
         return 0;
     case KEY_PART:
         a->choice.part = arg;
@@ -140,84 +140,43 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         a->choice.layer = arg;
         return 0;
     case KEY_AS:
-        a->kind = (enum kind)arg_choice("as", arg, kind_names, state);
+        a->render.kind = (enum kind)arg_choice("as", arg, kind_names, state);
         return 0;
     case KEY_RANGE:
         arg_numbers("range", arg, range, 2, state);
         if (!(range[0] < range[1])) argp_error(state, "--range=%s: the first must be the smaller", arg);
-        a->falsecolor.range_given = true;
-        a->falsecolor.low = range[0];
-        a->falsecolor.high = range[1];
+        a->render.falsecolor.range_given = true;
+        a->render.falsecolor.low = range[0];
+        a->render.falsecolor.high = range[1];
         return 0;
     case KEY_SCALE:
-        a->falsecolor.scale = (enum scale)arg_choice("scale", arg, scales, state);
+        a->render.falsecolor.scale = (enum scale)arg_choice("scale", arg, scales, state);
+        return 0;
+    case KEY_SHEET:
+        a->sheet = true;
         return 0;
     case KEY_NO_LEGEND:
-        a->no_legend = true;
+        a->render.no_legend = true;
         return 0;
     case KEY_FACES:
-        a->faces = true;
+        a->render.faces = true;
         return 0;
     case KEY_CROP:
         parse_crop(a, arg, state);
         return 0;
     case KEY_ZOOM:
-        a->zoom = arg_uint("zoom", arg, 1, 64, state);
+        a->render.zoom = arg_uint("zoom", arg, 1, 64, state);
         return 0;
     }
     return parse_color(key, arg, state, a);
 }
 
-/* RGBA with the exposure applied; one channel stands for all three. */
-static float *linear_rgba(const struct source *s, double exposure_ev) {
-    size_t texels = (size_t)s->width * s->height;
-    float *rgba = malloc(texels * 4 * sizeof *rgba), scale = (float)exp2(exposure_ev);
-    for (size_t i = 0; rgba && i < texels; i++) {
-        const float *v = s->texels + i * s->components;
-        for (uint32_t k = 0; k < 3; k++) rgba[4 * i + k] = v[s->components >= 3 ? k : 0] * scale;
-        rgba[4 * i + 3] = 1;
-    }
-    return rgba;
-}
-
-static bool invalid_color(const struct source *s, size_t i) {
-    for (uint32_t k = 0; k < 3 && k < s->components; k++)
-        if (!isfinite(s->texels[i * s->components + k])) return true;
-    return false;
-}
-
-static uint8_t to_byte(float v) {
-    return (uint8_t)((v > 0 ? v < 1 ? v : 1 : 0) * 255 + 0.5F);
-}
-
-static bool draw_color(struct picture *picture, const struct source *s, const struct arguments *a,
-                       struct glint_error *err) {
-    float *rgba = linear_rgba(s, a->exposure_ev);
-    if (!rgba) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    bool ok = ocio_apply(&a->ocio, rgba, s->width, s->height, err) &&
-              picture_init(picture, s->width, s->height, COLOR_BACKGROUND, err);
+static bool draw_one(struct picture *picture, const struct arguments *a, struct glint_error *err) {
+    struct source source = {0};
     size_t invalid = 0;
-    for (size_t i = 0; ok && i < (size_t)s->width * s->height; i++) {
-        bool bad = invalid_color(s, i);
-        invalid += bad;
-        struct rgb c = {to_byte(rgba[4 * i]), to_byte(rgba[4 * i + 1]), to_byte(rgba[4 * i + 2])};
-        picture_set(picture, (uint32_t)(i % s->width), (uint32_t)(i / s->width), bad ? COLOR_INVALID : c);
-    }
-    if (invalid) command_note(&cmd_view, "%s: %zu pixels are NaN or infinite (shown in magenta)", s->title, invalid);
-    free(rgba);
-    return ok;
-}
-
-static bool draw(struct picture *picture, const struct source *source, const struct arguments *a,
-                 struct glint_error *err) {
-    struct legend legend = {0};
-    enum kind kind = a->kind == KIND_AUTO ? kind_of(source) : a->kind;
-    bool ok = kind == KIND_COLOR ? draw_color(picture, source, a, err)
-                                 : falsecolor_draw(picture, &legend, source, kind, &a->falsecolor, err);
-    if (ok && source->cube && !a->faces) ok = picture_cross(picture, err);
-    if (ok && a->has_crop) ok = picture_crop(picture, a->crop[0], a->crop[1], a->crop[2], a->crop[3], err);
-    if (ok) ok = picture_zoom(picture, a->zoom, err);
-    if (ok && kind != KIND_COLOR && !a->no_legend) ok = legend_add(picture, &legend, err);
+    bool ok = source_open(&source, &a->choice, err) && render(picture, &source, &a->render, &invalid, err);
+    if (invalid) command_note(&cmd_view, "%s: %zu pixels are NaN or infinite, shown in magenta", source.title, invalid);
+    source_finish(&source);
     return ok;
 }
 
@@ -225,18 +184,19 @@ static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_view, argc, argv, &a);
     struct glint_error err = {0};
-    struct source source = {0};
     struct picture picture = {0};
     struct progress progress;
     struct pipe pipe;
     progress_begin(&progress);
     a.choice.path = pipe_input(&pipe, a.choice.path, &err);
-    bool ok = a.choice.path && source_open(&source, &a.choice, &err) && draw(&picture, &source, &a, &err) &&
-              png_file_write(a.out, &picture, &err);
+    bool ok = a.choice.path != NULL;
+    if (ok && a.sheet) ok = render_sheet(&picture, a.choice.path, list_or_null(&a.images), &a.render, &err);
+    else if (ok) ok = draw_one(&picture, &a, &err);
+    ok = ok && png_file_write(a.out, &picture, &err);
     progress_end(&progress);
     picture_finish(&picture);
-    source_finish(&source);
     pipe_finish(&pipe);
+    list_free(&a.images);
     return ok ? STATUS_DONE : command_fail(&cmd_view, &err);
 }
 

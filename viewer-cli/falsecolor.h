@@ -31,6 +31,8 @@ struct legend {
 /* Every kind but KIND_COLOR. Without a range, the 0.5 and 99.5 percentiles of the finite values. */
 bool falsecolor_draw(struct picture *picture, struct legend *legend, const struct source *source, enum kind kind,
                      const struct falsecolor_options *options, struct glint_error *err);
+/* A colour image's name, and nothing else. */
+struct legend legend_of_color(const struct source *source);
 /* Adds the legend below the picture. */
 bool legend_add(struct picture *picture, const struct legend *legend, struct glint_error *err);
 

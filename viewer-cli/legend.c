@@ -106,6 +106,12 @@ static void layout(struct flow *flow, const struct legend *l) {
     flow->y += MARGIN_PX / 2;
 }
 
+struct legend legend_of_color(const struct source *source) {
+    struct legend legend = {.kind = KIND_COLOR};
+    snprintf(legend.title, sizeof legend.title, "%s", source->title);
+    return legend;
+}
+
 bool legend_add(struct picture *picture, const struct legend *legend, struct glint_error *err) {
     struct picture canvas;
     uint32_t width = picture->width < LEAST_WIDTH_PX ? LEAST_WIDTH_PX : picture->width;

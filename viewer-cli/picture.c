@@ -85,6 +85,24 @@ bool picture_zoom(struct picture *picture, uint32_t factor, struct glint_error *
     return true;
 }
 
+bool picture_shrink(struct picture *picture, uint32_t factor, bool mean, struct glint_error *err) {
+    struct picture small;
+    if (factor <= 1) return true;
+    uint32_t width = picture->width / factor, height = picture->height / factor, taps = mean ? factor : 1;
+    if (!picture_init(&small, width ? width : 1, height ? height : 1, COLOR_BACKGROUND, err)) return false;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            uint32_t sum[3] = {0};
+            for (uint32_t j = 0; j < taps; j++)
+                for (uint32_t i = 0; i < taps; i++)
+                    for (int k = 0; k < 3; k++) sum[k] += pixel_at(picture, x * factor + i, y * factor + j)[k];
+            for (int k = 0; k < 3; k++)
+                pixel_at(&small, x, y)[k] = (uint8_t)((sum[k] + taps * taps / 2) / (taps * taps));
+        }
+    replace(picture, &small);
+    return true;
+}
+
 bool picture_cross(struct picture *picture, struct glint_error *err) {
     static const uint32_t places[6][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
     uint32_t n = picture->width, cubes = picture->height / (6 * n);

@@ -35,6 +35,8 @@ void picture_paste(struct picture *to, const struct picture *from, uint32_t x, u
 bool picture_crop(struct picture *picture, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
                   struct glint_error *err);
 bool picture_zoom(struct picture *picture, uint32_t factor, struct glint_error *err);
+/* Each pixel the mean of factor × factor, or its first; what is left over at the right and below is cut. */
+bool picture_shrink(struct picture *picture, uint32_t factor, bool mean, struct glint_error *err);
 /* Six faces below each other, +X −X +Y −Y +Z −Z as Vulkan orients them, become a horizontal cross with +Z in the middle;
    several cubes become crosses below each other. */
 bool picture_cross(struct picture *picture, struct glint_error *err);

@@ -134,6 +134,19 @@ static void validate_accepts_it_and_refuses_a_damaged_one(void **state) {
     else assert_contains(cut.err, "cut.exr");
     outcome_free(&cut);
     glint_fails(1, "nowhere.exr", "validate", "nowhere.exr");
+
+    /* An EXR file without what every capture has: each missing part is a violation of its own. */
+    struct outcome made =
+        run_program("oiiotool", "--pattern", "constant:color=1,1,1", "4x4", "3", "-o", in_folder("plain.exr"), NULL);
+    assert_int_equal(made.status, 0);
+    outcome_free(&made);
+    struct outcome plain = glint("validate", capture, in_folder("plain.exr"), NULL);
+    assert_int_equal(plain.status, 1);
+    assert_contains(plain.out, "box.exr: valid\n");
+    assert_contains(plain.out, "part gbuffer: missing");
+    assert_contains(plain.out, "part lit: missing");
+    assert_contains(plain.out, "plain.exr: 2 violations\n");
+    outcome_free(&plain);
 }
 
 static void plan_lists_every_pass_with_a_reason(void **state) {
@@ -301,6 +314,26 @@ static void view_shows_every_image_of_the_run(void **state) {
     free(a.rgb);
 }
 
+/* Each cell is the picture that the image has by itself, here three times as large. */
+static void sheet_shows_images_side_by_side(void **state) {
+    (void)state;
+    static const char *const images[] = {"composed", "reflection"};
+    free(glint_ok("view", run, "--sheet", "--image=composed,reflection", "-o", in_folder("sheet.png")));
+    struct pixels sheet = read_png(in_folder("sheet.png"));
+    for (uint32_t i = 0; i < 2; i++) {
+        free(glint_ok("view", run, "--image", images[i], "-o", in_folder("one.png")));
+        struct pixels one = read_png(in_folder("one.png"));
+        for (uint32_t y = 0; y < 270; y += 10)
+            for (uint32_t x = 0; x < 480; x += 10)
+                assert_memory_equal(pixel(&sheet, 12 + 492 * i + x, 12 + y), pixel(&one, x / 3, y / 3), 3);
+        free(one.rgb);
+    }
+    free(sheet.rgb);
+    free(glint_ok("view", run, "--sheet", "-o", in_folder("sheet.png")));
+    glint_fails(2, "several images need --sheet", "view", run, "--image=composed,reflection", "-o", "x.png");
+    glint_fails(2, "did you mean composed?", "view", run, "--sheet", "--image=compose", "-o", "x.png");
+}
+
 static void encodings_show_the_same_picture(void **state) {
     (void)state;
     free(glint_ok("sample", "mirror_box", "-o", in_folder("e.exr"), "--size=160x90", "--cube-size=64",
@@ -372,6 +405,7 @@ int main(void) {
         cmocka_unit_test(unknown_names_are_refused_with_the_nearest),
         cmocka_unit_test(passes_describe_what_replay_accepts),
         cmocka_unit_test(view_shows_every_image_of_the_run),
+        cmocka_unit_test(sheet_shows_images_side_by_side),
         cmocka_unit_test(encodings_show_the_same_picture),
         cmocka_unit_test(sample_writes_to_stdout_and_lists_its_scenes),
         cmocka_unit_test(ctrl_c_leaves_no_half_file),

@@ -1,0 +1,30 @@
+/* A source as a finished picture: colour through OpenColorIO or false colour, cross, crop, zoom, legend. */
+#ifndef GLINT_VIEWER_RENDER_H
+#define GLINT_VIEWER_RENDER_H
+
+#include "falsecolor.h"
+#include "ocio.h"
+
+struct render_options {
+    enum kind kind;
+    struct falsecolor_options falsecolor;
+    struct ocio_options ocio;
+    double exposure_ev;
+    bool faces;    /* cube maps as they are stored, not as a cross */
+    bool has_crop; /* x, y, width, height */
+    uint32_t crop[4], zoom;
+    bool no_legend;
+};
+
+/* Without zoom and legend. *invalid receives how many pixels of a colour image are NaN or infinite. */
+bool render_plain(struct picture *picture, struct legend *legend, const struct source *source,
+                  const struct render_options *options, size_t *invalid, struct glint_error *err);
+/* With them; colour explains itself and gets no legend. */
+bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
+            struct glint_error *err);
+
+/* All images of a run, or those of a NULL-terminated list, in rows of one width, each with its name or legend below. */
+bool render_sheet(struct picture *sheet, const char *run, const char *const *images,
+                  const struct render_options *options, struct glint_error *err);
+
+#endif
