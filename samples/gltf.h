@@ -1,4 +1,4 @@
-/* Scenes from glTF 2 files, through Assimp, and cube maps placed without a hand. */
+/* Scenes from glTF 2 files, through Assimp. */
 #ifndef SAMPLES_GLTF_H
 #define SAMPLES_GLTF_H
 
@@ -7,8 +7,5 @@
 /* Base colour, roughness, metalness, emission (factors; textures are not read), normals, the first camera; a scene
    without a camera is seen from where all of it fits. */
 bool gltf_load(const char *path, struct scene *scene, struct glint_error *err);
-
-/* Replaces the scene's cube maps by up to eight in free space. */
-bool place_probes(struct scene *scene, struct glint_error *err);
 
 #endif

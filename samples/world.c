@@ -93,7 +93,8 @@ static void fill_hit(const struct world *world, const struct RTCRayHit *found, v
     vec3 geometric = unit(v3(found->hit.Ng_x, found->hit.Ng_y, found->hit.Ng_z));
     vec3 normal =
         unit(along(along(scale(mesh->normals[index[0]], w), mesh->normals[index[1]], u), mesh->normals[index[2]], v));
-    if (dot(geometric, direction) > 0) geometric = scale(geometric, -1);
+    hit->from_behind = dot(geometric, direction) > 0;
+    if (hit->from_behind) geometric = scale(geometric, -1);
     if (dot(normal, geometric) < 0) normal = scale(normal, -1);
     hit->geometric = geometric;
     hit->normal = normal;

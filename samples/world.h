@@ -18,6 +18,7 @@ struct hit {
     vec3 light;     /* baked irradiance */
     const struct mesh *mesh;
     uint32_t triangle;
+    bool from_behind; /* of the triangle */
 };
 
 struct world;

@@ -1,0 +1,317 @@
+/* Container, buffers, views, accessors, and the references between them. What a glTF file says about its own sizes is
+   what importers get wrong; nothing else is judged here. */
+#include "gltf_check.h"
+
+#include <jansson.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_FILE ((uint64_t)1 << 31)
+
+struct check {
+    const char *path;
+    struct glint_error *err;
+    json_t *root;
+    uint64_t chunk_bytes; /* of a .glb's binary chunk */
+    bool binary;
+};
+
+static bool bad(const struct check *c, const char *what, size_t index, const char *rule) {
+    return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: %s %zu: %s", c->path, what, index, rule);
+}
+
+static bool ends_in(const char *text, const char *end) {
+    size_t n = strlen(text), k = strlen(end);
+    return n > k && !strcmp(text + n - k, end);
+}
+
+static uint32_t little_endian(const unsigned char *b) {
+    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+static unsigned char *read_file(const char *path, size_t *bytes, struct glint_error *err) {
+    FILE *file = fopen(path, "rb");
+    long end = -1;
+    if (file && !fseek(file, 0, SEEK_END)) end = ftell(file);
+    unsigned char *data = NULL;
+    if (!file || end < 0 || fseek(file, 0, SEEK_SET)) glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
+    else if ((uint64_t)end > MAX_FILE) glint_fail(err, GLINT_ERROR_LIMIT, "%s: larger than 2 GiB", path);
+    else if (!(data = malloc((size_t)end + 1))) glint_fail(err, GLINT_ERROR_MEMORY, "%s: no memory", path);
+    else if (fread(data, 1, (size_t)end, file) != (size_t)end) {
+        glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read to its end", path);
+        free(data);
+        data = NULL;
+    }
+    *bytes = end < 0 ? 0 : (size_t)end;
+    if (file) fclose(file);
+    return data;
+}
+
+/* Finds the JSON text: the whole of a .gltf, the first chunk of a .glb. */
+static bool find_text(struct check *c, const unsigned char *data, size_t bytes, const char **text, size_t *length) {
+    *text = (const char *)data;
+    *length = bytes;
+    if (!c->binary) return true;
+    if (bytes < 20 || memcmp(data, "glTF", 4))
+        return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: not a binary glTF file", c->path);
+    if (little_endian(data + 4) != 2)
+        return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: glTF version %u, expected 2", c->path,
+                          little_endian(data + 4));
+    uint32_t total = little_endian(data + 8), first = little_endian(data + 12);
+    if (total != bytes)
+        return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: %zu bytes long, its header says %u", c->path, bytes, total);
+    if (little_endian(data + 16) != 0x4e4f534a || first > bytes - 20)
+        return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: no complete JSON chunk", c->path);
+    *text = (const char *)data + 20;
+    *length = first;
+    size_t at = 20 + (size_t)first;
+    if (at == bytes) return true;
+    if (bytes - at < 8 || little_endian(data + at) > bytes - at - 8)
+        return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: its binary chunk is cut short", c->path);
+    c->chunk_bytes = little_endian(data + at);
+    return true;
+}
+
+/* A count or offset; absent is `fallback`. Anything but a number from 0 to 2^31 is refused. */
+static bool number(const json_t *object, const char *key, uint64_t fallback, uint64_t *value) {
+    const json_t *found = json_object_get(object, key);
+    *value = fallback;
+    if (!found) return true;
+    if (!json_is_integer(found)) return false;
+    json_int_t n = json_integer_value(found);
+    *value = n < 0 ? 0 : (uint64_t)n;
+    return n >= 0 && *value <= MAX_FILE;
+}
+
+/* An optional index into root's array `into`. */
+static bool refers(const struct check *c, const json_t *object, const char *key, const char *into) {
+    uint64_t index;
+    if (!json_object_get(object, key)) return true;
+    return number(object, key, 0, &index) && index < json_array_size(json_object_get(c->root, into));
+}
+
+static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) {
+    uint64_t bytes, there = 0;
+    const char *uri = json_string_value(json_object_get(buffer, "uri"));
+    if (!number(buffer, "byteLength", 0, &bytes)) return bad(c, "buffer", i, "byteLength is not a size");
+    if (!uri) there = c->binary && i == 0 ? c->chunk_bytes : 0;
+    else if (!strncmp(uri, "data:", 5)) {
+        const char *comma = strchr(uri, ',');
+        there = comma ? strlen(comma + 1) / 4 * 3 : 0;
+    } else {
+        char path[4096];
+        size_t folder = strrchr(c->path, '/') ? (size_t)(strrchr(c->path, '/') + 1 - c->path) : 0;
+        if (strchr(uri, '/') || strchr(uri, '\\') || strchr(uri, ':'))
+            return bad(c, "buffer", i, "its file must lie beside the glTF file");
+        snprintf(path, sizeof path, "%.*s%s", (int)folder, c->path, uri);
+        FILE *file = fopen(path, "rb");
+        long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
+        if (file) fclose(file);
+        if (end < 0) return bad(c, "buffer", i, "its file is missing");
+        there = (uint64_t)end;
+    }
+    return bytes <= there || bad(c, "buffer", i, "shorter than its byteLength");
+}
+
+static bool check_view(const struct check *c, size_t i, const json_t *view) {
+    uint64_t buffer, offset, bytes, stride, room;
+    const json_t *buffers = json_object_get(c->root, "buffers");
+    if (!number(view, "buffer", UINT64_MAX, &buffer) || buffer >= json_array_size(buffers))
+        return bad(c, "bufferView", i, "no such buffer");
+    if (!number(view, "byteOffset", 0, &offset) || !number(view, "byteLength", 0, &bytes) ||
+        !number(view, "byteStride", 0, &stride) || stride > 252 ||
+        !number(json_array_get(buffers, (size_t)buffer), "byteLength", 0, &room))
+        return bad(c, "bufferView", i, "a size or offset is out of range");
+    return offset + bytes <= room || bad(c, "bufferView", i, "ends behind its buffer");
+}
+
+static uint64_t element_bytes(const json_t *accessor) {
+    static const struct {
+        const char *name;
+        uint64_t count;
+    } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+    const char *type = json_string_value(json_object_get(accessor, "type"));
+    uint64_t component, size = 0;
+    if (!type || !number(accessor, "componentType", 0, &component)) return 0;
+    if (component == 5120 || component == 5121) size = 1;
+    if (component == 5122 || component == 5123) size = 2;
+    if (component == 5125 || component == 5126) size = 4;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (!strcmp(type, types[i].name)) return size * types[i].count;
+    return 0;
+}
+
+static bool check_accessor(const struct check *c, size_t i, const json_t *accessor) {
+    uint64_t view, offset, count, stride, room, size = element_bytes(accessor);
+    const json_t *views = json_object_get(c->root, "bufferViews");
+    if (!size) return bad(c, "accessor", i, "unknown type or componentType");
+    if (json_object_get(accessor, "sparse")) return bad(c, "accessor", i, "sparse accessors are not supported");
+    if (!number(accessor, "bufferView", UINT64_MAX, &view) || view >= json_array_size(views))
+        return bad(c, "accessor", i, "no such bufferView");
+    const json_t *found = json_array_get(views, (size_t)view);
+    if (!number(accessor, "byteOffset", 0, &offset) || !number(accessor, "count", 0, &count) || !count ||
+        !number(found, "byteStride", 0, &stride) || !number(found, "byteLength", 0, &room))
+        return bad(c, "accessor", i, "a count or offset is out of range");
+    if (stride && stride < size) return bad(c, "accessor", i, "elements overlap");
+    return offset + (count - 1) * (stride ? stride : size) + size <= room ||
+           bad(c, "accessor", i, "ends behind its bufferView");
+}
+
+/* The accessor that `index` names, or NULL. */
+static const json_t *accessor_at(const struct check *c, const json_t *index) {
+    const json_t *accessors = json_object_get(c->root, "accessors");
+    if (!json_is_integer(index) || json_integer_value(index) < 0) return NULL;
+    return json_array_get(accessors, (size_t)json_integer_value(index));
+}
+
+static bool is_type(const json_t *accessor, const char *type) {
+    const char *found = json_string_value(json_object_get(accessor, "type"));
+    return found && !strcmp(found, type);
+}
+
+/* All attributes of a vertex, of the primitive and of its morph targets, come in the same number. */
+static bool attributes_match(const struct check *c, const json_t *attributes, uint64_t vertices) {
+    const char *key;
+    json_t *index;
+    json_object_foreach((json_t *)(uintptr_t)attributes, key, index) {
+        const json_t *accessor = accessor_at(c, index);
+        uint64_t count;
+        if (!accessor || !number(accessor, "count", 0, &count) || count != vertices) return false;
+        if ((!strcmp(key, "NORMAL") || !strcmp(key, "POSITION")) && !is_type(accessor, "VEC3")) return false;
+    }
+    return true;
+}
+
+static bool check_mesh(const struct check *c, size_t i, const json_t *mesh) {
+    size_t k, t;
+    json_t *primitive, *target;
+    json_array_foreach(json_object_get(mesh, "primitives"), k, primitive) {
+        const json_t *attributes = json_object_get(primitive, "attributes"), *indices;
+        const json_t *positions = accessor_at(c, json_object_get(attributes, "POSITION"));
+        uint64_t vertices, mode;
+        if (!number(primitive, "mode", 4, &mode) || mode > 6) return bad(c, "mesh", i, "unknown mode");
+        if (!positions || !number(positions, "count", 0, &vertices)) return bad(c, "mesh", i, "no POSITION");
+        if (!attributes_match(c, attributes, vertices))
+            return bad(c, "mesh", i, "an attribute does not match POSITION");
+        json_array_foreach(
+            json_object_get(primitive, "targets"), t,
+            target) if (!attributes_match(c, target, vertices)) return bad(c, "mesh", i,
+                                                                           "a morph target does not match POSITION");
+        indices = json_object_get(primitive, "indices");
+        if (indices && !(accessor_at(c, indices) && is_type(accessor_at(c, indices), "SCALAR")))
+            return bad(c, "mesh", i, "indices are not SCALAR");
+        if (!refers(c, primitive, "material", "materials")) return bad(c, "mesh", i, "no such material");
+    }
+    return true;
+}
+
+static bool check_node(const struct check *c, size_t i, const json_t *node) {
+    size_t k, nodes = json_array_size(json_object_get(c->root, "nodes"));
+    json_t *child;
+    if (!refers(c, node, "mesh", "meshes") || !refers(c, node, "camera", "cameras") ||
+        !refers(c, node, "skin", "skins"))
+        return bad(c, "node", i, "no such mesh, camera or skin");
+    json_array_foreach(json_object_get(node, "children"), k,
+                       child) if (!json_is_integer(child) || json_integer_value(child) < 0 ||
+                                  (size_t)json_integer_value(child) >= nodes) return bad(c, "node", i, "no such child");
+    return true;
+}
+
+/* Nodes must be a forest: each has one parent at most, and going down ends. */
+static bool check_tree(const struct check *c) {
+    const json_t *nodes = json_object_get(c->root, "nodes");
+    size_t count = json_array_size(nodes), i, k;
+    size_t *parents = calloc(count + 1, sizeof *parents);
+    json_t *child;
+    if (!parents) return glint_fail(c->err, GLINT_ERROR_MEMORY, "%s: no memory", c->path);
+    bool ok = true;
+    for (i = 0; i < count && ok; i++)
+        json_array_foreach(json_object_get(json_array_get(nodes, i), "children"), k, child) {
+            size_t index = (size_t)json_integer_value(child);
+            if (parents[index]) ok = bad(c, "node", index, "has two parents");
+            parents[index] = i + 1;
+        }
+    for (i = 0; i < count && ok; i++) {
+        size_t steps = 0;
+        for (size_t at = i + 1; at && steps <= count; at = parents[at - 1]) steps++;
+        if (steps > count) ok = bad(c, "node", i, "is its own ancestor");
+    }
+    free(parents);
+    return ok;
+}
+
+static uint64_t count_triangles(const struct check *c) {
+    size_t i, k;
+    json_t *mesh, *primitive;
+    uint64_t sum = 0;
+    json_array_foreach(json_object_get(c->root, "meshes"), i, mesh)
+        json_array_foreach(json_object_get(mesh, "primitives"), k, primitive) {
+        const json_t *indices = json_object_get(primitive, "indices");
+        const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
+        uint64_t count = 0, mode = 4;
+        number(accessor_at(c, indices ? indices : position), "count", 0, &count);
+        number(primitive, "mode", 4, &mode);
+        if (mode == 4) sum += count / 3;
+        if (mode > 4 && count > 2) sum += count - 2; /* strips and fans */
+    }
+    return sum;
+}
+
+static bool check_scenes(const struct check *c, size_t i, const json_t *scene) {
+    size_t k, nodes = json_array_size(json_object_get(c->root, "nodes"));
+    json_t *node;
+    json_array_foreach(json_object_get(scene, "nodes"), k,
+                       node) if (!json_is_integer(node) || json_integer_value(node) < 0 ||
+                                 (size_t)json_integer_value(node) >= nodes) return bad(c, "scene", i, "no such node");
+    return true;
+}
+
+static bool check_all(const struct check *c) {
+    static const struct {
+        const char *array;
+        bool (*check)(const struct check *, size_t, const json_t *);
+    } parts[] = {{"buffers", check_buffer}, {"bufferViews", check_view}, {"accessors", check_accessor},
+                 {"meshes", check_mesh},    {"nodes", check_node},       {"scenes", check_scenes}};
+    const char *version = json_string_value(json_object_get(json_object_get(c->root, "asset"), "version"));
+    if (!version || version[0] != '2')
+        return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: glTF version %s, expected 2.0", c->path,
+                          version ? version : "missing");
+    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) {
+        size_t i;
+        json_t *element;
+        json_array_foreach(json_object_get(c->root, parts[p].array), i,
+                           element) if (!parts[p].check(c, i, element)) return false;
+    }
+    return (refers(c, c->root, "scene", "scenes") ||
+            glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: no such scene", c->path)) &&
+           check_tree(c);
+}
+
+bool gltf_check(const char *path, struct gltf_facts *facts, struct glint_error *err) {
+    struct check c = {.path = path, .err = err, .binary = ends_in(path, ".glb")};
+    if (!c.binary && !ends_in(path, ".gltf"))
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: neither a built-in scene nor a .gltf or .glb file", path);
+    size_t bytes, length;
+    const char *text;
+    json_error_t fault;
+    bool ok = false;
+    unsigned char *data = read_file(path, &bytes, err);
+    if (!data || !find_text(&c, data, bytes, &text, &length)) goto done;
+    c.root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &fault);
+    if (!c.root) {
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, fault.line, fault.text);
+        goto done;
+    }
+    ok = check_all(&c);
+    if (ok) {
+        const json_t *camera = json_array_get(json_object_get(c.root, "cameras"), 0);
+        facts->triangles = count_triangles(&c);
+        facts->fov_y_rad = json_number_value(json_object_get(json_object_get(camera, "perspective"), "yfov"));
+    }
+done:
+    json_decref(c.root);
+    free(data);
+    return ok;
+}
