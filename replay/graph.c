@@ -1,4 +1,4 @@
-/* Links passes by image name, orders them, decides which run, and finds each image's source. */
+/* Links passes by image name, orders them, and finds each image's source. */
 #include "graph.h"
 
 #include <stdio.h>
@@ -14,7 +14,7 @@ bool row_is_image(const struct glint_row *row) {
     return row->kind == GLINT_ROW_READ || row_is_output(row);
 }
 
-static bool in_list(const char *const *list, const char *name) {
+bool list_has(const char *const *list, const char *name) {
     for (; list && *list; list++)
         if (strcmp(*list, name) == 0) return true;
     return false;
@@ -26,7 +26,7 @@ struct graph_image *graph_find(const struct graph *graph, const char *name) {
     return NULL;
 }
 
-static const struct glint_row *output_row(const struct glint_pass *pass, const char *image) {
+const struct glint_row *pass_output(const struct glint_pass *pass, const char *image) {
     for (size_t i = 0; i < pass->row_count; i++)
         if (row_is_output(&pass->rows[i]) && strcmp(pass->rows[i].name, image) == 0) return &pass->rows[i];
     return NULL;
@@ -40,10 +40,9 @@ static const struct glint_row *capture_row(const char *image) {
     return NULL;
 }
 
-/* The pass of the graph that writes the image; pass_count when none does. */
-static size_t maker_of(const struct graph *graph, const char *image) {
+size_t graph_maker(const struct graph *graph, const char *image) {
     size_t i = 0;
-    while (i < graph->pass_count && !output_row(graph->passes[i].pass, image)) i++;
+    while (i < graph->pass_count && !pass_output(graph->passes[i].pass, image)) i++;
     return i;
 }
 
@@ -77,19 +76,18 @@ static void check_producers(const struct graph *graph, struct faults *faults) {
                 faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and the capture", image,
                            pass->slot, pass->variant);
             for (size_t j = i + 1; j < graph->pass_count; j++)
-                if (output_row(graph->passes[j].pass, image))
+                if (pass_output(graph->passes[j].pass, image))
                     faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and %s/%s", image,
                                pass->slot, pass->variant, graph->passes[j].pass->slot, graph->passes[j].pass->variant);
         }
     }
 }
 
-/* True when pass `later` reads something that pass `earlier` writes. */
-static bool depends(const struct glint_pass *later, const struct glint_pass *earlier) {
+bool pass_depends(const struct glint_pass *later, const struct glint_pass *earlier) {
     for (size_t r = 0; r < later->row_count; r++) {
         const char *names[2];
         for (size_t n = reads_of(&later->rows[r], names); n-- > 0;)
-            if (output_row(earlier, names[n])) return true;
+            if (pass_output(earlier, names[n])) return true;
     }
     return false;
 }
@@ -101,7 +99,7 @@ static void sort(struct graph *graph, struct faults *faults) {
         for (; next < graph->pass_count; next++) {
             bool ready = true;
             for (size_t j = done; j < graph->pass_count && ready; j++)
-                ready = !depends(graph->passes[next].pass, graph->passes[j].pass);
+                ready = !pass_depends(graph->passes[next].pass, graph->passes[j].pass);
             if (ready) break;
         }
         if (next == graph->pass_count) {
@@ -109,7 +107,7 @@ static void sort(struct graph *graph, struct faults *faults) {
             for (size_t i = done; i < graph->pass_count; i++) {
                 bool feeds = false; /* one that nobody left reads only hangs behind the cycle */
                 for (size_t j = done; j < graph->pass_count; j++)
-                    feeds |= depends(graph->passes[j].pass, graph->passes[i].pass);
+                    feeds |= pass_depends(graph->passes[j].pass, graph->passes[i].pass);
                 if (feeds) text_list(members, sizeof members, graph->passes[i].pass->slot);
             }
             faults_add(faults, GLINT_ERROR_USAGE, "passes read one another in a cycle: %s", members);
@@ -119,99 +117,6 @@ static void sort(struct graph *graph, struct faults *faults) {
         memmove(&graph->passes[done + 1], &graph->passes[done], (next - done) * sizeof chosen);
         graph->passes[done] = chosen;
     }
-}
-
-static void check_slots(const struct graph *graph, const char *option, const char *const *slots,
-                        struct faults *faults) {
-    char known[400] = "";
-    for (size_t i = 0; i < graph->pass_count; i++) text_list(known, sizeof known, graph->passes[i].pass->slot);
-    for (; slots && *slots; slots++) {
-        size_t i = 0;
-        while (i < graph->pass_count && strcmp(graph->passes[i].pass->slot, *slots) != 0) i++;
-        if (i == graph->pass_count)
-            faults_add(faults, GLINT_ERROR_USAGE, "%s: no slot '%s' in the pipeline; it has: %s", option, *slots,
-                       known);
-    }
-}
-
-/* Whether the frame gives the pass something to do; the reason states the figures. */
-static bool decide_by_facts(struct graph_pass *pass, const struct facts *facts, struct faults *faults,
-                            struct glint_error *err) {
-    char reason[192];
-    pass->runs = true;
-    for (size_t r = 0; r < pass->pass->row_count; r++) {
-        const struct glint_row *row = &pass->pass->rows[r];
-        if (row->kind != GLINT_ROW_NEEDS) continue;
-        bool known = true;
-        struct glint_error own = {0};
-        bool holds = facts->holds(facts->user, row->name, reason, sizeof reason, &known, &own);
-        if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
-        if (!known) {
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s needs an unknown fact '%s'", pass->pass->slot,
-                       pass->pass->variant, row->name);
-            continue;
-        }
-        if (holds && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
-        else if (!holds) {
-            if (pass->runs) pass->reason[0] = 0;
-            pass->runs = false;
-            text_list(pass->reason, sizeof pass->reason, reason);
-        }
-    }
-    if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
-    return true;
-}
-
-static bool decide(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
-                   struct glint_error *err) {
-    const struct glint_replay_options *options = inputs->options;
-    for (size_t i = 0; i < graph->pass_count; i++) {
-        struct graph_pass *pass = &graph->passes[i];
-        const char *slot = pass->pass->slot, *why = NULL;
-        if (options->passes && !in_list(options->passes, slot)) why = "not among the passes asked for";
-        else if (in_list(options->skip, slot)) why = "skipped on request";
-        else if (in_list(options->force, slot)) why = "forced on request", pass->runs = true;
-        else if (options->all) why = "all passes were asked for", pass->runs = true;
-        else if (!decide_by_facts(pass, &inputs->facts, faults, err)) return false;
-        if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
-    }
-    return true;
-}
-
-/* Drops what no wanted image depends on. */
-static void cull(struct graph *graph, const struct glint_replay_options *options, struct faults *faults) {
-    if (!options->outputs) return;
-    bool *needed = calloc(graph->pass_count + 1, sizeof *needed);
-    if (!needed) {
-        faults_add(faults, GLINT_ERROR_MEMORY, "out of memory");
-        return;
-    }
-    for (const char *const *name = options->outputs; *name; name++) {
-        size_t maker = maker_of(graph, *name);
-        if (maker == graph->pass_count) {
-            char known[600] = "";
-            for (size_t i = 0; i < graph->pass_count; i++)
-                for (size_t r = 0; r < graph->passes[i].pass->row_count; r++)
-                    if (row_is_output(&graph->passes[i].pass->rows[r]))
-                        text_list(known, sizeof known, graph->passes[i].pass->rows[r].name);
-            faults_add(faults, GLINT_ERROR_USAGE, "outputs: no pass makes '%s'; made are: %s", *name, known);
-        } else if (output_row(graph->passes[maker].pass, *name)->kind == GLINT_ROW_DIAGNOSTIC && !options->diagnostics)
-            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is a diagnostic image, and diagnostics are off", *name);
-        else if (options->passes && !in_list(options->passes, graph->passes[maker].pass->slot))
-            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is made by %s, which is not among the passes asked for",
-                       *name, graph->passes[maker].pass->slot);
-        else needed[maker] = true;
-    }
-    for (size_t i = graph->pass_count; i-- > 0;) {
-        for (size_t j = i + 1; j < graph->pass_count && !needed[i]; j++)
-            needed[i] = needed[j] && graph->passes[j].runs && depends(graph->passes[j].pass, graph->passes[i].pass);
-        if (graph->passes[i].runs && !needed[i]) {
-            graph->passes[i].runs = false;
-            snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason,
-                     "nothing that is wanted reads its images");
-        }
-    }
-    free(needed);
 }
 
 static bool capture_has(struct glint_capture *capture, const struct glint_row *row) {
@@ -260,17 +165,17 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
         return;
     }
     struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader};
-    size_t maker = maker_of(graph, name);
+    size_t maker = graph_maker(graph, name);
     bool dropped = false; /* by the plan: it gets nothing; one merely not asked for has to come from somewhere */
     if (maker < graph->pass_count) {
         fresh.pass = graph->passes[maker].pass;
-        fresh.row = output_row(fresh.pass, name);
-        dropped = !inputs->options->passes || in_list(inputs->options->passes, fresh.pass->slot);
+        fresh.row = pass_output(fresh.pass, name);
+        dropped = !inputs->options->passes || list_has(inputs->options->passes, fresh.pass->slot);
     } else if (!(fresh.row = capture_row(name))) {
         size_t count;
         const struct glint_pass *all = glint_passes(&count);
         for (size_t i = 0; i < count && !fresh.row; i++)
-            if ((fresh.row = output_row(&all[i], name))) fresh.pass = &all[i];
+            if ((fresh.row = pass_output(&all[i], name))) fresh.pass = &all[i];
     }
     char part[128];
     snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
@@ -306,7 +211,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                                      .row = row,
                                      .pass = pass->pass,
                                      .source = made ? SOURCE_MADE : SOURCE_NOTHING,
-                                     .wanted = made && (!options->outputs || in_list(options->outputs, row->name)),
+                                     .wanted = made && (!options->outputs || list_has(options->outputs, row->name)),
                                      .maker = i,
                                      .first_use = i,
                                      .last_use = i};
@@ -328,16 +233,11 @@ static bool allocate(struct graph *graph, const struct glint_pipeline *pipeline,
 
 bool graph_init(struct graph *graph, const struct graph_inputs *inputs, struct glint_error *err) {
     struct faults faults = {0};
-    const struct glint_replay_options *options = inputs->options;
     *graph = (struct graph){0};
     if (!allocate(graph, inputs->pipeline, err)) goto fail;
     check_producers(graph, &faults);
     sort(graph, &faults);
-    check_slots(graph, "passes", options->passes, &faults);
-    check_slots(graph, "skip", options->skip, &faults);
-    check_slots(graph, "force", options->force, &faults);
-    if (!decide(graph, inputs, &faults, err)) goto fail;
-    cull(graph, options, &faults);
+    if (!graph_decide(graph, inputs, &faults, err)) goto fail;
     link_images(graph, inputs, &faults);
     if (faults_none(&faults, inputs->pipeline->name, err)) return true;
 fail:

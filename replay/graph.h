@@ -2,6 +2,7 @@
 #ifndef GLINT_REPLAY_GRAPH_H
 #define GLINT_REPLAY_GRAPH_H
 
+#include "faults.h"
 #include "pipeline.h"
 
 enum source {
@@ -54,6 +55,18 @@ struct graph_inputs {
 bool graph_init(struct graph *graph, const struct graph_inputs *inputs, struct glint_error *err);
 void graph_finish(struct graph *graph);
 struct graph_image *graph_find(const struct graph *graph, const char *name);
+
+/* Sets `runs` and `reason` of passes that are in order already. False only when the facts cannot be had. */
+bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
+                  struct glint_error *err);
+/* The pass that writes the image; pass_count when none does. */
+size_t graph_maker(const struct graph *graph, const char *image);
+/* The row with which a pass writes the image, or NULL. */
+const struct glint_row *pass_output(const struct glint_pass *pass, const char *image);
+/* True when pass `later` reads something that pass `earlier` writes. */
+bool pass_depends(const struct glint_pass *later, const struct glint_pass *earlier);
+/* `list` is NULL-terminated, or NULL. */
+bool list_has(const char *const *list, const char *name);
 
 bool row_is_image(const struct glint_row *row);
 bool row_is_output(const struct glint_row *row);

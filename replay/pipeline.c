@@ -1,12 +1,10 @@
-/* Pipelines: checked against the declarations when they are made. */
+/* Pipelines: every change is checked against the declarations. */
 #include "pipeline.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <jansson.h>
 
 #include "faults.h"
 
@@ -63,7 +61,7 @@ static bool unknown_variant(const char *slot, const char *variant, struct glint_
 }
 
 /* Puts the variant into the slot; parameters of the old variant that the new one has too keep their values. */
-static bool use(struct glint_pipeline *pipeline, const char *slot, const char *variant, struct glint_error *err) {
+bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char *variant, struct glint_error *err) {
     struct pipeline_pass *old = find(pipeline, slot);
     if (strcmp(variant, "none") == 0 && !glint_pass_find(slot, "none")) {
         size_t count, i = 0;
@@ -132,8 +130,8 @@ static struct pipeline_pass *locate(struct glint_pipeline *pipeline, const char 
     return NULL;
 }
 
-bool pipeline_set_number(struct glint_pipeline *pipeline, const char *slot, const char *parameter, double value,
-                         struct glint_error *err) {
+static bool set_number(struct glint_pipeline *pipeline, const char *slot, const char *parameter, double value,
+                       struct glint_error *err) {
     size_t i;
     struct pipeline_pass *entry = locate(pipeline, slot, parameter, &i, err);
     if (!entry) return false;
@@ -179,7 +177,7 @@ static bool set_text(struct glint_pipeline *pipeline, const char *slot, const ch
         return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s from %g to %g (%s), found '%s'", slot, parameter,
                           row->type == GLINT_VALUE_BOOL ? "true, false or a number" : "a number", row->lowest,
                           row->highest, row->unit, text);
-    return pipeline_set_number(pipeline, slot, parameter, value, err);
+    return set_number(pipeline, slot, parameter, value, err);
 }
 
 /* Splits "left=right" (and, for `dotted`, "slot.parameter=right") into a copy that the caller frees. */
@@ -205,7 +203,7 @@ static char *split(const char *assignment, bool dotted, const char *form, char *
 
 bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err) {
     char *variant, *slot = split(assignment, false, "slot=variant", NULL, &variant, err);
-    bool ok = slot && use(pipeline, slot, variant, err);
+    bool ok = slot && pipeline_use(pipeline, slot, variant, err);
     free(slot);
     return ok;
 }
@@ -234,82 +232,6 @@ bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignme
     }
     free(slot);
     return ok;
-}
-
-/* "set": {"slot.parameter": value} */
-static bool apply_set(struct glint_pipeline *pipeline, const char *key, const json_t *value, struct glint_error *err) {
-    char text[64], *assignment = NULL;
-    if (json_is_string(value)) {
-        size_t size = strlen(key) + json_string_length(value) + 2;
-        if (!(assignment = malloc(size))) return no_memory(err);
-        snprintf(assignment, size, "%s=%s", key, json_string_value(value));
-    } else if (json_is_number(value) || json_is_boolean(value)) {
-        if (json_is_boolean(value)) snprintf(text, sizeof text, "%s", json_is_true(value) ? "1" : "0");
-        else snprintf(text, sizeof text, "%.17g", json_number_value(value));
-        size_t size = strlen(key) + strlen(text) + 2;
-        if (!(assignment = malloc(size))) return no_memory(err);
-        snprintf(assignment, size, "%s=%s", key, text);
-    } else return glint_fail(err, GLINT_ERROR_USAGE, "set: %s: expected a number, true, false or a name", key);
-    bool ok = glint_pipeline_set(pipeline, assignment, err);
-    free(assignment);
-    return ok;
-}
-
-static void apply_preset(struct glint_pipeline *pipeline, json_t *root, struct faults *faults) {
-    const char *key;
-    json_t *value, *slots = json_object_get(root, "slots"), *set = json_object_get(root, "set");
-    struct glint_error one;
-    if (!json_is_object(root)) {
-        faults_add(faults, GLINT_ERROR_FORMAT, "expected an object");
-        return;
-    }
-    json_object_foreach(root, key, value) {
-        bool text = strcmp(key, "name") == 0 || strcmp(key, "title") == 0 || strcmp(key, "source") == 0;
-        bool object = strcmp(key, "slots") == 0 || strcmp(key, "set") == 0;
-        if (!text && !object)
-            faults_add(faults, GLINT_ERROR_FORMAT, "unknown key '%s'; known: name, title, source, slots, set", key);
-        else if (text ? !json_is_string(value) : !json_is_object(value))
-            faults_add(faults, GLINT_ERROR_FORMAT, "%s: expected %s", key, text ? "a string" : "an object");
-    }
-    if (!slots) faults_add(faults, GLINT_ERROR_FORMAT, "expected 'slots'");
-    json_object_foreach(slots, key, value) if (!json_is_string(value))
-        faults_add(faults, GLINT_ERROR_FORMAT, "slots: %s: expected the name of a variant", key);
-    else if (!use(pipeline, key, json_string_value(value), &one)) faults_add(faults, one.code, "%s", one.message);
-    json_object_foreach(set, key, value) if (!apply_set(pipeline, key, value, &one))
-        faults_add(faults, one.code, "%s", one.message);
-}
-
-struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err) {
-    char *where = NULL, *text = preset_text(preset, &where, err);
-    struct glint_pipeline *pipeline = text ? calloc(1, sizeof *pipeline) : NULL;
-    json_t *root = NULL;
-    bool ok = false;
-    if (!text) goto done;
-    if (!pipeline) {
-        no_memory(err);
-        goto done;
-    }
-    json_error_t fault;
-    root = json_loads(text, JSON_REJECT_DUPLICATES, &fault);
-    if (!root) {
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s:%d:%d: %s", where, fault.line, fault.column, fault.text);
-        goto done;
-    }
-    const char *name = json_string_value(json_object_get(root, "name"));
-    pipeline->name = strdup(name ? name : preset);
-    if (!pipeline->name) {
-        no_memory(err);
-        goto done;
-    }
-    struct faults faults = {0};
-    apply_preset(pipeline, root, &faults);
-    ok = faults_none(&faults, where, err);
-done:
-    json_decref(root);
-    free(text);
-    free(where);
-    if (!ok) glint_pipeline_destroy(&pipeline);
-    return pipeline;
 }
 
 void glint_pipeline_destroy(struct glint_pipeline **pointer) {

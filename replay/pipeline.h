@@ -19,12 +19,8 @@ struct glint_pipeline {
 const struct pipeline_pass *pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
 bool row_is_parameter(const struct glint_row *row);
 
-/* Reads a preset's text; `where` names it in errors. Used by preset.c. */
-bool pipeline_set_number(struct glint_pipeline *pipeline, const char *slot, const char *parameter, double value,
-                         struct glint_error *err);
-
-/* The preset's JSON text by name or path; *where names the place. The caller frees both. NULL with an error. */
-char *preset_text(const char *preset, char **where, struct glint_error *err);
+/* Puts a variant into its slot; "none" empties it. */
+bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char *variant, struct glint_error *err);
 
 /* A whole text file of at most `limit` bytes, NUL-terminated. The caller frees it. */
 char *file_text(const char *path, size_t limit, struct glint_error *err);

@@ -18,6 +18,7 @@ struct glint_replay *glint_replay_create(struct glint_device *device, struct gli
         return NULL;
     }
     replay->device = device;
+    if (!device) return replay;
     if (!programs_init(&replay->programs, device, err) ||
         !host_buffer_init(&replay->frame, device, HOST_BUFFER_UNIFORM, sizeof(struct frame_block), "frame", err))
         glint_replay_destroy(&replay);
@@ -39,10 +40,12 @@ void glint_replay_destroy(struct glint_replay **pointer) {
     if (!replay) return;
     forget_results(replay);
     channels_finish(&replay->gbuffer);
-    replay_drop_images(replay, true);
-    programs_finish(&replay->programs, replay->device);
-    host_buffer_finish(&replay->frame, replay->device);
-    host_buffer_finish(&replay->staging, replay->device);
+    if (replay->device) {
+        replay_drop_images(replay, true);
+        programs_finish(&replay->programs, replay->device);
+        host_buffer_finish(&replay->frame, replay->device);
+        host_buffer_finish(&replay->staging, replay->device);
+    }
     free(replay->plan);
     free(replay);
 }
@@ -122,6 +125,7 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
                       .progress = progress,
                       .user = user};
     forget_results(replay);
+    if (!replay->device) return glint_fail(err, GLINT_ERROR_USAGE, "a replay without a device can only plan");
     bool ok = run_all(&run, err);
     channels_finish(&replay->gbuffer);
     if (!ok) forget_results(replay);

@@ -123,7 +123,9 @@ bool fixture_write_capture(const char *path, const struct fixture_options *optio
     ok = ok && add_gbuffer(writer, g, err);
     for (int i = 0; ok && i < FIXTURE_CUBEMAPS && !(options && options->no_cubemaps); i++)
         ok = add_cubemap(writer, i, err);
-    ok = ok && add_sky(writer, err) && glint_writer_finish(writer, err);
+    ok = ok && add_sky(writer, err);
+    if (options && options->extra) ok = ok && glint_writer_add_part(writer, options->extra, err);
+    ok = ok && glint_writer_finish(writer, err);
     glint_writer_destroy(&writer);
     free(g);
     return ok;

@@ -23,6 +23,7 @@ enum {
 struct fixture_options {
     bool matte; /* nothing reflects */
     bool no_cubemaps;
+    const struct glint_part *extra; /* one more part, or NULL */
 };
 /* Writes the capture. False when the writer refused it. */
 bool fixture_write_capture(const char *path, const struct fixture_options *options, struct glint_error *err);

@@ -234,6 +234,95 @@ static void a_frame_without_cube_maps_still_runs(void **state) {
                 "0 cube maps");
 }
 
+/* The engine's own intermediate in the capture replaces the pass that would make it. */
+static void an_engines_image_stands_in_for_a_pass(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    const char *const last[] = {"compose", NULL};
+    static float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4], composed[2][FIXTURE_HEIGHT][FIXTURE_WIDTH][4];
+    char path[128];
+    run(fixture, NULL);
+    assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "reflection"),
+                                        GLINT_F32, reflection, &err));
+    assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "composed"),
+                                        GLINT_F32, composed[0], &err));
+    struct glint_channel channels[4];
+    static const char *const names[] = {"R", "G", "B", "A"};
+    for (int c = 0; c < 4; c++)
+        channels[c] =
+            (struct glint_channel){names[c], GLINT_F32, &reflection[0][0][c], sizeof reflection[0][0], 0, NULL};
+    const struct glint_part part = {.name = "engine.upscale.reflection",
+                                    .width = FIXTURE_WIDTH,
+                                    .height = FIXTURE_HEIGHT,
+                                    .channels = channels,
+                                    .channel_count = 4};
+    snprintf(path, sizeof path, "%s/engine.exr", fixture->folder);
+    if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part}, &err)) fail_msg("%s", err.message);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    assert_true(glint_replay_load(fixture->replay, capture, &err));
+    run(fixture, &(struct glint_replay_options){.passes = last});
+    assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "composed"),
+                                        GLINT_F32, composed[1], &err));
+    assert_memory_equal(composed[0], composed[1], sizeof composed[0]);
+    assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
+/* What oiiotool says of a channel of a part: its least and greatest finite value. */
+static void foreign_range(const char *file, const char *channel, int subimage, double range[2]) {
+    char command[512], line[4096];
+    snprintf(command, sizeof command, "oiiotool '%s' --subimage %d --ch '%s' --printstats 2>&1", file, subimage,
+             channel);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    range[0] = NAN, range[1] = NAN;
+    while (fgets(line, sizeof line, pipe)) {
+        sscanf(line, " Stats Min: %lf", &range[0]);
+        sscanf(line, " Stats Max: %lf", &range[1]);
+    }
+    assert_int_equal(pclose(pipe), 0);
+}
+
+static void foreign_tools_read_the_same_values(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    char folder[128], file[256], command[512];
+    run(fixture, &(struct glint_replay_options){.diagnostics = true});
+    write_run(fixture, "foreign", folder);
+    snprintf(command, sizeof command, "exrheader %s/*.exr >/dev/null && exrinfo %s/*.exr >/dev/null", folder, folder);
+    assert_int_equal(system(command), 0);
+    const char *const images[][3] = {{"depth_half", "02-downsample.exr", "Z"},
+                                     {"reflection", "07-upscale.exr", "G"},
+                                     {"composed", "08-compose.exr", "B"},
+                                     {"screen_travelled", "03-screen_trace.exr", "Z"}};
+    for (size_t i = 0; i < 4; i++) {
+        const struct glint_image *image = glint_replay_find_image(fixture->replay, images[i][0]);
+        const size_t count = (size_t)image->width * image->height;
+        float *pixels = malloc(count * image->components * sizeof *pixels);
+        assert_true(glint_replay_read_image(fixture->replay, image, GLINT_F32, pixels, &err));
+        const size_t channel = strcspn("RGB", images[i][2]) % 3;
+        double low = INFINITY, high = -INFINITY, range[2];
+        for (size_t p = 0; p < count; p++) {
+            const double value = (double)pixels[p * image->components + channel];
+            if (!isfinite(value)) continue;
+            low = fmin(low, value), high = fmax(high, value);
+        }
+        /* The part's place in the file is that of the row among the pass's images. */
+        int subimage = 0;
+        for (size_t r = 0; r < image->pass->row_count && &image->pass->rows[r] != image->row; r++)
+            subimage +=
+                image->pass->rows[r].kind == GLINT_ROW_WRITE || image->pass->rows[r].kind == GLINT_ROW_DIAGNOSTIC;
+        snprintf(file, sizeof file, "%s/%s", folder, images[i][1]);
+        foreign_range(file, images[i][2], subimage, range);
+        /* It prints six decimals. */
+        assert_true(fabs(range[0] - low) <= 1e-6 * (1 + fabs(low)));
+        assert_true(fabs(range[1] - high) <= 1e-6 * (1 + fabs(high)));
+        free(pixels);
+    }
+}
+
 static void a_run_folder_reads_back_as_it_was(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -415,7 +504,9 @@ int main(void) {
         cmocka_unit_test(float_precision_widens_every_half_image),
         cmocka_unit_test(a_matte_frame_drops_all_but_the_last_pass),
         cmocka_unit_test(a_frame_without_cube_maps_still_runs),
+        cmocka_unit_test(an_engines_image_stands_in_for_a_pass),
         cmocka_unit_test(a_run_folder_reads_back_as_it_was),
+        cmocka_unit_test(foreign_tools_read_the_same_values),
         cmocka_unit_test(an_interrupted_write_never_looks_complete),
         cmocka_unit_test(an_interrupted_run_can_be_taken_up_again),
         cmocka_unit_test(missing_inputs_name_the_pass_that_makes_them),

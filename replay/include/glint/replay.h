@@ -71,15 +71,18 @@ bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *su
 /* ---- Replay ---- */
 
 struct glint_replay_options {
-    const char *const *passes;              /* slots to run, NULL-terminated; NULL: all that the plan keeps */
-    const char *const *outputs;             /* images wanted, NULL-terminated; NULL: all */
-    const char *inputs;                     /* a run folder to read missing images from, or NULL */
+    const char *const *passes; /* slots to run, NULL-terminated; NULL: all that the plan keeps */
+    /* Images wanted, NULL-terminated; NULL: all. The others then share memory and are computed anew in each run. */
+    const char *const *outputs;
+    /* A run folder, or NULL. Images that the passes read and no pass of this run makes come from there, else from the
+       capture's parts engine.SLOT.IMAGE, whose channels are named as the image's row names them. */
+    const char *inputs;
     const char *const *skip, *const *force; /* slots, NULL-terminated */
     bool all;                               /* no pass is dropped for having nothing to do */
     bool diagnostics;                       /* end reasons, steps, fetches; changes no bit of the other images */
     bool float_precision;                   /* every half image as float */
-    uint32_t repeat;                        /* timed rounds; 0: 1 */
-    uint32_t warmup;                        /* rounds before them; 0: 1 */
+    uint32_t repeat;                        /* timed rounds after a warm-up; 0: one round, first use included */
+    uint32_t warmup;                        /* rounds before the timed ones; 0: 1 */
     bool no_cache;                          /* run every pass although nothing changed */
 };
 
@@ -108,6 +111,7 @@ struct glint_image {
 };
 
 struct glint_replay;
+/* The device stays the caller's and must outlive the replay. NULL: plans only. */
 struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err);
 void glint_replay_destroy(struct glint_replay **replay);
 /* The capture stays the caller's and must outlive its use here; NULL unloads. */
@@ -129,10 +133,12 @@ const struct glint_image *glint_replay_find_image(const struct glint_replay *rep
    the image's own format (GLINT_F16, GLINT_U8). */
 bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
                              void *out, struct glint_error *err);
-/* Writes `folder`/run.json and one EXR a pass; each file appears complete or not at all, run.json last. */
+/* Writes `folder`/run.json and one EXR a pass, NN-SLOT.exr, where NN is the pass's place in the whole pipeline; each
+   file appears complete or not at all, run.json last. A run that was there before is removed first. */
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
                         struct glint_error *err);
-/* Seconds spent since the last load, by phase ("read", "upload", "passes", "readback", "write"). */
+/* Seconds spent since the last load, by phase ("read", "upload", "passes", "readback", "write"). Files are written
+   while the next pass is read back. */
 double glint_replay_seconds(const struct glint_replay *replay, const char *phase);
 
 /* ---- Run folders, read back ---- */

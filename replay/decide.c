@@ -1,0 +1,111 @@
+/* Which passes of a graph run, and why each other one does not. */
+#include "graph.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void check_slots(const struct graph *graph, const char *option, const char *const *slots,
+                        struct faults *faults) {
+    char known[400] = "";
+    for (size_t i = 0; i < graph->pass_count; i++) text_list(known, sizeof known, graph->passes[i].pass->slot);
+    for (; slots && *slots; slots++) {
+        size_t i = 0;
+        while (i < graph->pass_count && strcmp(graph->passes[i].pass->slot, *slots) != 0) i++;
+        if (i == graph->pass_count)
+            faults_add(faults, GLINT_ERROR_USAGE, "%s: no slot '%s' in the pipeline; it has: %s", option, *slots,
+                       known);
+    }
+}
+
+/* Whether the frame gives the pass something to do; the reason states the figures. */
+static bool decide_by_facts(struct graph_pass *pass, const struct facts *facts, struct faults *faults,
+                            struct glint_error *err) {
+    char reason[192];
+    pass->runs = true;
+    for (size_t r = 0; r < pass->pass->row_count; r++) {
+        const struct glint_row *row = &pass->pass->rows[r];
+        if (row->kind != GLINT_ROW_NEEDS) continue;
+        bool known = true;
+        struct glint_error own = {0};
+        bool holds = facts->holds(facts->user, row->name, reason, sizeof reason, &known, &own);
+        if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
+        if (!known) {
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s needs an unknown fact '%s'", pass->pass->slot,
+                       pass->pass->variant, row->name);
+            continue;
+        }
+        if (holds && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
+        else if (!holds) {
+            if (pass->runs) pass->reason[0] = 0;
+            pass->runs = false;
+            text_list(pass->reason, sizeof pass->reason, reason);
+        }
+    }
+    if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
+    return true;
+}
+
+static bool decide(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
+                   struct glint_error *err) {
+    const struct glint_replay_options *options = inputs->options;
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        struct graph_pass *pass = &graph->passes[i];
+        const char *slot = pass->pass->slot, *why = NULL;
+        if (options->passes && !list_has(options->passes, slot)) why = "not among the passes asked for";
+        else if (list_has(options->skip, slot)) why = "skipped on request";
+        else if (list_has(options->force, slot)) why = "forced on request", pass->runs = true;
+        else if (options->all) why = "all passes were asked for", pass->runs = true;
+        else if (!decide_by_facts(pass, &inputs->facts, faults, err)) return false;
+        if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
+    }
+    return true;
+}
+
+/* Drops what no wanted image depends on. */
+static void cull(struct graph *graph, const struct glint_replay_options *options, struct faults *faults) {
+    if (!options->outputs) return;
+    bool *needed = calloc(graph->pass_count + 1, sizeof *needed);
+    if (!needed) {
+        faults_add(faults, GLINT_ERROR_MEMORY, "out of memory");
+        return;
+    }
+    for (const char *const *name = options->outputs; *name; name++) {
+        size_t maker = graph_maker(graph, *name);
+        if (maker == graph->pass_count) {
+            char known[600] = "";
+            for (size_t i = 0; i < graph->pass_count; i++)
+                for (size_t r = 0; r < graph->passes[i].pass->row_count; r++)
+                    if (row_is_output(&graph->passes[i].pass->rows[r]))
+                        text_list(known, sizeof known, graph->passes[i].pass->rows[r].name);
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: no pass makes '%s'; made are: %s", *name, known);
+        } else if (pass_output(graph->passes[maker].pass, *name)->kind == GLINT_ROW_DIAGNOSTIC && !options->diagnostics)
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is a diagnostic image, and diagnostics are off", *name);
+        else if (options->passes && !list_has(options->passes, graph->passes[maker].pass->slot))
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is made by %s, which is not among the passes asked for",
+                       *name, graph->passes[maker].pass->slot);
+        else needed[maker] = true;
+    }
+    for (size_t i = graph->pass_count; i-- > 0;) {
+        for (size_t j = i + 1; j < graph->pass_count && !needed[i]; j++)
+            needed[i] =
+                needed[j] && graph->passes[j].runs && pass_depends(graph->passes[j].pass, graph->passes[i].pass);
+        if (graph->passes[i].runs && !needed[i]) {
+            graph->passes[i].runs = false;
+            snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason,
+                     "nothing that is wanted reads its images");
+        }
+    }
+    free(needed);
+}
+
+bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
+                  struct glint_error *err) {
+    const struct glint_replay_options *options = inputs->options;
+    check_slots(graph, "passes", options->passes, faults);
+    check_slots(graph, "skip", options->skip, faults);
+    check_slots(graph, "force", options->force, faults);
+    if (!decide(graph, inputs, faults, err)) return false;
+    cull(graph, options, faults);
+    return true;
+}
