@@ -21,8 +21,10 @@ void list_add(struct list *list, const char *item, struct argp_state *state) {
 }
 
 void list_split(struct list *list, char *text, struct argp_state *state) {
-    for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;)
-        if (*piece) list_add(list, piece, state);
+    for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;) {
+        if (!*piece) argp_error(state, "an empty name in a list");
+        list_add(list, piece, state);
+    }
 }
 
 void list_free(struct list *list) {

@@ -4,6 +4,7 @@
 #include "args.h"
 #include "glint/capture.h"
 #include "pipe.h"
+#include "table.h"
 
 struct arguments {
     bool json;
@@ -45,7 +46,12 @@ struct listing {
 static void on_violation(void *user, const char *rule, const char *message) {
     struct listing *listing = user;
     if (listing->json) json_array_append_new(listing->json, json_pack("{s:s, s:s}", "rule", rule, "message", message));
-    else printf("%s  [%s]\n", message, rule);
+    else {
+        char text[1200];
+        snprintf(text, sizeof text, "%s", message);
+        text_clean(text);
+        printf("%s  [%s]\n", text, rule);
+    }
 }
 
 static enum status validate(const char *path, json_t *files) {

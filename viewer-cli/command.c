@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "table.h"
+
 struct parsing {
     const struct command *command;
     void *input;
@@ -85,7 +87,7 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
 }
 
 enum status command_fail(const struct command *command, const struct glint_error *err) {
-    fprintf(stderr, "glint %s: %s\n", command->name, err->message[0] ? err->message : "failed without a message");
+    command_note(command, "%s", err->message[0] ? err->message : "failed without a message");
     switch (err->code) {
     case GLINT_ERROR_USAGE:
         return STATUS_USAGE;
@@ -97,10 +99,11 @@ enum status command_fail(const struct command *command, const struct glint_error
 }
 
 void command_note(const struct command *command, const char *format, ...) {
+    char text[2048];
     va_list args;
     va_start(args, format);
-    fprintf(stderr, "glint %s: ", command->name);
-    vfprintf(stderr, format, args);
-    fputc('\n', stderr);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    text_clean(text);
+    fprintf(stderr, "glint %s: %s\n", command->name, text);
 }

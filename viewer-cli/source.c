@@ -237,12 +237,15 @@ static bool read_run(struct source *source, const struct source_choice *choice, 
     const struct glint_run_image *image =
         run ? find_run_image(run, choice->path, choice->image ? choice->image : choice->part, err) : NULL;
     bool ok = false;
-    if (image) {
+    if (image && image->components > 4)
+        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: image %s has %u channels, at most 4 can be shown", choice->path,
+                   image->name, image->components);
+    else if (image) {
         snprintf(source->title, sizeof source->title, "%s", image->name);
         snprintf(source->unit, sizeof source->unit, "%s", image->unit);
         source->width = image->width;
         source->height = image->height;
-        source->components = image->components > 4 ? 4 : image->components;
+        source->components = image->components;
         source->integer = image->integer;
         source->cube = image->width > 0 && image->height % (6 * image->width) == 0;
         const char *name = image->channels;

@@ -47,7 +47,10 @@ void table_cell(struct table *t, const char *format, ...) {
     va_start(args, format);
     char *text = NULL;
     if (vasprintf(&text, format, args) < 0) t->failed = true;
-    else t->cells[t->count++] = text;
+    else {
+        text_clean(text);
+        t->cells[t->count++] = text;
+    }
     va_end(args);
 }
 
@@ -55,6 +58,14 @@ int terminal_width(void) {
     struct winsize size = {0};
     if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return 0;
     return size.ws_col;
+}
+
+void text_clean(char *text) {
+    for (unsigned char *p = (unsigned char *)text; *p; p++) {
+        bool high = p[0] == 0xC2 && p[1] >= 0x80 && p[1] < 0xA0; /* C1 controls in UTF-8 */
+        if (*p < 0x20 || *p == 0x7F || high) *p = '?';
+        if (high) p[1] = '?';
+    }
 }
 
 size_t text_width(const char *text) {

@@ -26,6 +26,8 @@ bool table_is_empty(const struct table *table);
 int terminal_width(void);
 /* Columns that a UTF-8 text takes. */
 size_t text_width(const char *text);
+/* Names in files are written by strangers: replaces control characters, which a terminal would obey. */
+void text_clean(char *text);
 
 /* "12.3 ms", "456 µs", "1.20 s"; static storage for a few calls within one expression. */
 const char *time_text(double seconds);

@@ -197,6 +197,25 @@ static void replay_reports_times_and_leaves_a_run(void **state) {
     free(text);
 }
 
+/* In the closed box with a mirror floor nearly every ray that starts on screen ends where the path tracer's does. */
+static void replay_compares_with_the_truth(void **state) {
+    (void)state;
+    free(glint_ok("sample", "mirror_box", "-o", in_folder("truth.exr"), "--size=160x90", "--cube-size=64",
+                  "--probes=perfect", "--truth=2"));
+    char *text =
+        glint_ok("replay", in_folder("truth.exr"), "--against=truth", "--set=downsample.jitter=false", "--json");
+    json_t *json = parse_json(text);
+    const json_t *against = json_object_get(json_array_get(json_object_get(json, "runs"), 0), "against_truth");
+    const json_t *all = named(json_object_get(against, "rays"), "tracer", "all");
+    assert_true(number(all, "rays") > 100);
+    assert_true(number(all, "right") > 0.9);
+    json_decref(json);
+    free(text);
+    glint_fails(1, "truth.mirror missing", "replay", capture, "--against=truth", "--set=downsample.jitter=false");
+    glint_fails(2, "expected one of truth", "replay", capture, "--against=lies");
+    glint_fails(2, "an empty name", "replay", capture, "--passes=");
+}
+
 static void several_captures_get_a_folder_each(void **state) {
     (void)state;
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.exr"), "--size=32x18", "--cube-size=16", "--frames=2"));
@@ -399,6 +418,7 @@ int main(void) {
         cmocka_unit_test(validate_accepts_it_and_refuses_a_damaged_one),
         cmocka_unit_test(plan_lists_every_pass_with_a_reason),
         cmocka_unit_test(replay_reports_times_and_leaves_a_run),
+        cmocka_unit_test(replay_compares_with_the_truth),
         cmocka_unit_test(several_captures_get_a_folder_each),
         cmocka_unit_test(info_shows_a_run),
         cmocka_unit_test(a_machine_without_a_driver_is_told_so),

@@ -318,6 +318,21 @@ static void wrong_use_and_bad_files(void **state) {
     free(path);
 }
 
+/* A terminal would obey what a stranger wrote into a name. */
+static void control_characters_in_names_do_not_reach_the_terminal(void **state) {
+    (void)state;
+    const float v[] = {1, 1, 1};
+    write_exr(in_folder("e.exr"), "a\033[31mb\302\233c", 1, 1, "R G B", v, GLINT_STORED_FLOAT, "\033]0;title");
+    char *info = glint_ok("info", in_folder("e.exr"));
+    assert_contains(info, "a?[31mb??c");
+    assert_null(strchr(info, '\033'));
+    struct outcome view = glint("view", in_folder("e.exr"), "--part=\033[2J", "-o", "x.png", NULL);
+    assert_int_equal(view.status, 2);
+    assert_null(strchr(view.err, '\033'));
+    outcome_free(&view);
+    free(info);
+}
+
 static void a_dash_is_stdout(void **state) {
     (void)state;
     const float v[] = {1, 1, 1};
@@ -341,6 +356,7 @@ int main(void) {
         cmocka_unit_test(cube_map_is_a_seamless_cross),
         cmocka_unit_test(layers_are_named_after_a_colon),
         cmocka_unit_test(wrong_use_and_bad_files),
+        cmocka_unit_test(control_characters_in_names_do_not_reach_the_terminal),
         cmocka_unit_test(a_dash_is_stdout),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
