@@ -239,3 +239,27 @@ size_t snapshot_compare(const struct snapshot *part, const struct snapshot *whol
     }
     return part->count;
 }
+
+void fixture_run(struct fixture *fixture, const struct glint_replay_options *options) {
+    struct glint_error err = {0};
+    if (!glint_replay_run(fixture->replay, fixture->pipeline, options, NULL, NULL, &err)) fail_msg("%s", err.message);
+}
+
+void fixture_write_run(struct fixture *fixture, const char *name, char path[128]) {
+    struct glint_error err = {0};
+    snprintf(path, 128, "%s/%s", fixture->folder, name);
+    if (!glint_replay_write(fixture->replay, path, NULL, NULL, &err)) fail_msg("%s", err.message);
+}
+
+const struct glint_pass_result *fixture_result(const struct fixture *fixture, const char *slot) {
+    size_t count;
+    const struct glint_pass_result *results = glint_replay_results(fixture->replay, &count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(results[i].pass->slot, slot) == 0) return &results[i];
+    fail_msg("no result of %s", slot);
+    return NULL;
+}
+
+void fixture_says(const struct glint_error *err, const char *part) {
+    if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
+}

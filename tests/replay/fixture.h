@@ -35,6 +35,13 @@ int fixture_teardown(void **state);
 /* Skips the calling test when there is no device, unless GLINT_REQUIRE_DEVICE=1. */
 struct fixture *fixture_need_device(void **state);
 
+/* Runs the fixture's pipeline, writes the last run to a folder beside the capture, finds a result: or fail the test. */
+void fixture_run(struct fixture *fixture, const struct glint_replay_options *options);
+void fixture_write_run(struct fixture *fixture, const char *name, char path[128]);
+const struct glint_pass_result *fixture_result(const struct fixture *fixture, const char *slot);
+/* Fails the calling test unless the message holds `part`. */
+void fixture_says(const struct glint_error *err, const char *part);
+
 /* Fails the calling test when the validation layer said anything. */
 void fixture_check_messages(const struct fixture *fixture);
 

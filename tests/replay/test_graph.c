@@ -62,10 +62,6 @@ static bool build(void **state, struct graph *graph, const struct pipeline *made
                       err);
 }
 
-static void assert_says(const struct glint_error *err, const char *part) {
-    if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
-}
-
 static void passes_run_in_the_order_of_their_images(void **state) {
     struct pipeline made;
     struct graph graph;
@@ -141,7 +137,7 @@ static void diagnostic_images_exist_only_on_request(void **state) {
     graph_finish(&graph);
     const char *const outputs[] = {"why", NULL};
     assert_false(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs}, &err));
-    assert_says(&err, "why is a diagnostic image");
+    fixture_says(&err, "why is a diagnostic image");
 }
 
 static void a_missing_input_names_the_pass_that_makes_it(void **state) {
@@ -151,12 +147,12 @@ static void a_missing_input_names_the_pass_that_makes_it(void **state) {
     const char *const only[] = {"mid", NULL};
     MAKE(&made, &alpha, &mid, &zeta);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){.passes = only}, &err));
-    assert_says(&err, "mid/v reads a, which alpha makes");
+    fixture_says(&err, "mid/v reads a, which alpha makes");
     DEFINE_PASS(reader, "v", READS("depth_half"), READS("unheard_of"), WRITES("r"));
     MAKE(&made, &reader);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    assert_says(&err, "reads depth_half, which downsample makes"); /* a slot that the pipeline lacks */
-    assert_says(&err, "unheard_of, which no known pass makes");
+    fixture_says(&err, "reads depth_half, which downsample makes"); /* a slot that the pipeline lacks */
+    fixture_says(&err, "unheard_of, which no known pass makes");
 }
 
 static void two_producers_are_a_fault(void **state) {
@@ -167,8 +163,8 @@ static void two_producers_are_a_fault(void **state) {
     struct glint_error err;
     MAKE(&made, &second, &third, &zeta);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    assert_says(&err, "image z has two producers: second/w and zeta/v");
-    assert_says(&err, "image lit has two producers: third/w and the capture");
+    fixture_says(&err, "image z has two producers: second/w and zeta/v");
+    fixture_says(&err, "image lit has two producers: third/w and the capture");
 }
 
 static void a_cycle_names_its_members_only(void **state) {
@@ -180,7 +176,7 @@ static void a_cycle_names_its_members_only(void **state) {
     struct glint_error err;
     MAKE(&made, &behind, &one, &two, &zeta);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    assert_says(&err, "in a cycle: one, two");
+    fixture_says(&err, "in a cycle: one, two");
     assert_null(strstr(err.message, "behind"));
 }
 
@@ -192,11 +188,11 @@ static void all_faults_come_together(void **state) {
     const char *const skip[] = {"nobody", NULL}, *const outputs[] = {"z", "nowhere", NULL};
     MAKE(&made, &odd, &zeta);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){.skip = skip, .outputs = outputs}, &err));
-    assert_says(&err, "two producers: odd/v and zeta/v");
-    assert_says(&err, "gone, which no known pass makes");
-    assert_says(&err, "unknown fact 'maybe'");
-    assert_says(&err, "skip: no slot 'nobody'");
-    assert_says(&err, "no pass makes 'nowhere'");
+    fixture_says(&err, "two producers: odd/v and zeta/v");
+    fixture_says(&err, "gone, which no known pass makes");
+    fixture_says(&err, "unknown fact 'maybe'");
+    fixture_says(&err, "skip: no slot 'nobody'");
+    fixture_says(&err, "no pass makes 'nowhere'");
 }
 
 static void images_are_read_as_what_they_are(void **state) {
@@ -207,8 +203,8 @@ static void images_are_read_as_what_they_are(void **state) {
     struct glint_error err;
     MAKE(&made, &wrong, &zeta);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    assert_says(&err, "wrong/v reads z as utexture2D, but it is a float image");
-    assert_says(&err, "wrong/v reads sky as texture2D, but it is a cube map");
+    fixture_says(&err, "wrong/v reads z as utexture2D, but it is a float image");
+    fixture_says(&err, "wrong/v reads sky as texture2D, but it is a cube map");
 }
 
 /* Every pipeline that the table allows has to link: the real declarations agree with one another. */

@@ -14,10 +14,6 @@
 #include "fixture.h"
 #include "glint/exr.h"
 
-static void assert_says(const struct glint_error *err, const char *part) {
-    if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
-}
-
 /* The fixture's floor is metal in columns 0, 11, …, dielectric elsewhere; its wall is metal in those columns only. */
 static void the_survey_counts_what_the_frame_holds(void **state) {
     const struct fixture *fixture = *state;
@@ -66,7 +62,7 @@ static void a_plan_needs_no_device(void **state) {
             assert_non_null(strstr(entries[i].reason, "3 cube maps"));
     }
     assert_false(glint_replay_run(replay, fixture->pipeline, NULL, NULL, NULL, &err));
-    assert_says(&err, "without a device");
+    fixture_says(&err, "without a device");
     assert_false(glint_replay_write(replay, fixture->folder, NULL, NULL, &err));
     glint_replay_destroy(&replay);
 }
@@ -132,7 +128,7 @@ static void bad_runs_are_refused_by_name(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct glint_error err = {0};
         assert_null(glint_run_open(make_run(*state, cases[i].json), &err));
-        assert_says(&err, cases[i].says);
+        fixture_says(&err, cases[i].says);
     }
 }
 
@@ -156,7 +152,7 @@ static void what_the_json_promises_is_checked_when_read(void **state) {
         struct glint_run *run = glint_run_open(make_run(*state, cases[i].json), &err);
         if (!run) fail_msg("%s", err.message);
         assert_false(glint_run_read(run, glint_run_find(run, "i"), GLINT_F32, values, &err));
-        assert_says(&err, cases[i].says);
+        fixture_says(&err, cases[i].says);
         glint_run_close(&run);
     }
 }

@@ -31,10 +31,6 @@ static bool compile(char *path, struct spirv *spirv, struct glint_error *err) {
     return spirv_init(spirv, &pass, err);
 }
 
-static void assert_says(const struct glint_error *err, const char *part) {
-    if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
-}
-
 #define START                                                                                                          \
     "#version 460\n"                                                                                                   \
     "#extension GL_GOOGLE_include_directive : require\n"                                                               \
@@ -87,7 +83,7 @@ static void errors_name_the_users_file_and_line(void **state) {
     char *path = write_text(state, "mine.comp", START "void main() {\n    float x = 1.0;\n    y = x;\n}\n");
     assert_false(compile(path, &spirv, &err));
     assert_int_equal(err.code, GLINT_ERROR_FORMAT);
-    assert_says(&err, "/mine.comp:10: 'y' : undeclared identifier");
+    fixture_says(&err, "/mine.comp:10: 'y' : undeclared identifier");
 }
 
 static void errors_in_an_included_file_name_that_file(void **state) {
@@ -96,7 +92,7 @@ static void errors_in_an_included_file_name_that_file(void **state) {
     write_text(state, "helper.glsl", "float half_of(float x) {\n    return x * zz;\n}\n");
     char *path = write_text(state, "mine.comp", START "#include \"helper.glsl\"\nvoid main() { half_of(1); }\n");
     assert_false(compile(path, &spirv, &err));
-    assert_says(&err, "/helper.glsl:2: 'zz'");
+    fixture_says(&err, "/helper.glsl:2: 'zz'");
 }
 
 static void lines_after_an_include_keep_their_numbers(void **state) {
@@ -105,7 +101,7 @@ static void lines_after_an_include_keep_their_numbers(void **state) {
     write_text(state, "helper.glsl", "\n\n\nfloat half_of(float x) { return x / 2; }\n");
     char *path = write_text(state, "mine.comp", START "#include \"helper.glsl\"\n\nvoid main() {\n    oops;\n}\n");
     assert_false(compile(path, &spirv, &err));
-    assert_says(&err, "/mine.comp:11: 'oops'");
+    fixture_says(&err, "/mine.comp:11: 'oops'");
 }
 
 static void a_missing_include_is_placed(void **state) {
@@ -113,7 +109,7 @@ static void a_missing_include_is_placed(void **state) {
     struct glint_error err;
     char *path = write_text(state, "mine.comp", "#version 460\n\n#include \"nowhere.glsl\"\n");
     assert_false(compile(path, &spirv, &err));
-    assert_says(&err, "/mine.comp:3: include \"nowhere.glsl\" not found");
+    fixture_says(&err, "/mine.comp:3: include \"nowhere.glsl\" not found");
 }
 
 static void a_file_that_includes_itself_is_an_error(void **state) {
@@ -121,19 +117,19 @@ static void a_file_that_includes_itself_is_an_error(void **state) {
     struct glint_error err;
     char *path = write_text(state, "mine.comp", "#version 460\n#include \"mine.comp\"\n");
     assert_false(compile(path, &spirv, &err));
-    assert_says(&err, "includes nest deeper");
+    fixture_says(&err, "includes nest deeper");
 }
 
 static void what_is_no_shader_is_an_error(void **state) {
     struct spirv spirv;
     struct glint_error err;
     assert_false(compile(write_text(state, "empty.comp", ""), &spirv, &err));
-    assert_says(&err, "empty.comp");
+    fixture_says(&err, "empty.comp");
     assert_false(compile(write_text(state, "text.comp", "not a shader\n"), &spirv, &err));
-    assert_says(&err, "text.comp:1: expected #version");
+    fixture_says(&err, "text.comp:1: expected #version");
     assert_false(compile(write_text(state, "none.comp", "#version 460\n"), &spirv, &err));
     assert_int_equal(err.code, GLINT_ERROR_FORMAT);
-    assert_says(&err, "none.comp");
+    fixture_says(&err, "none.comp");
     char missing[] = "/nowhere/x.comp";
     assert_false(compile(missing, &spirv, &err));
     assert_int_equal(err.code, GLINT_ERROR_IO);
@@ -156,7 +152,7 @@ static void foreign_bindings_are_refused(void **state) {
         char text[1024];
         snprintf(text, sizeof text, START "%s\nvoid main() { %s }\n", cases[i].declaration, cases[i].use);
         assert_false(compile(write_text(state, "foreign.comp", text), &spirv, &err));
-        assert_says(&err, cases[i].says);
+        fixture_says(&err, cases[i].says);
         spirv_finish(&spirv);
     }
 }
