@@ -1,0 +1,184 @@
+/* Cube maps in a sibling file: found by name in the same folder, used only when their content hash is right. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include "fixture.h"
+
+static struct fixture fixture;
+static char probes[512], capture_path[512];
+
+/* The cube maps alone; a channel less shifts nothing but the bytes. */
+static void write_probes(size_t drop) {
+    struct glint_error err = {0};
+    struct glint_writer *writer = glint_writer_create(probes, NULL, &err);
+    bool ok = writer != NULL;
+    for (int p = FIXTURE_CUBEMAP_0; ok && p <= FIXTURE_CUBEMAP_1; p++) {
+        struct fixture_channels channels;
+        struct glint_part part = fixture_part(&fixture, (enum fixture_part)p, &channels);
+        part.channel_count -= drop;
+        ok = glint_writer_add_part(writer, &part, &err);
+    }
+    ok = ok && glint_writer_finish(writer, &err);
+    glint_writer_destroy(&writer);
+    if (!ok) fail_msg("%s", err.message);
+}
+
+static bool write_capture(const char *sibling, bool background, struct glint_error *err) {
+    const struct glint_writer_options options = {.background = background};
+    struct glint_writer *writer = glint_writer_create(capture_path, &options, err);
+    const struct glint_frame frame = fixture_frame();
+    bool ok = writer && glint_writer_set_frame(writer, &frame, err);
+    for (int p = 0; ok && p <= FIXTURE_CUBEMAP_1; p++) {
+        struct fixture_channels channels;
+        struct glint_part part = fixture_part(&fixture, (enum fixture_part)p, &channels);
+        struct glint_cubemap moved = fixture.cubemap;
+        if (part.cubemap) {
+            /* The capture's own attributes hold for its frame: fade and age change from frame to frame. */
+            moved.fade = 0.75;
+            part.cubemap = &moved;
+            part.channel_count = 0;
+            part.sibling = sibling;
+        }
+        ok = glint_writer_add_part(writer, &part, err);
+    }
+    ok = ok && glint_writer_finish(writer, err) && glint_writer_wait(writer, err);
+    glint_writer_destroy(&writer);
+    return ok;
+}
+
+static void pixels_come_from_the_sibling(void **state) {
+    (void)state;
+    static float out[6 * FIX_CUBE * FIX_CUBE * 5];
+    static const char *const names[] = {"R", "G", "B", "A", "distance.Z"};
+    write_probes(0);
+    for (int background = 0; background < 2; background++) {
+        struct glint_error err = {0};
+        if (!write_capture("probes.exr", background, &err)) fail_msg("%s", err.message);
+        struct glint_capture *capture = glint_capture_open(capture_path, NULL, &err);
+        if (!capture) fail_msg("%s", err.message);
+        const struct glint_part_info *part = glint_capture_find(capture, "cubemap.017");
+        assert_string_equal(part->sibling, "probes.exr");
+        assert_int_equal(part->width, FIX_CUBE);
+        assert_int_equal(part->height, 6 * FIX_CUBE);
+        assert_int_equal(part->channel_count, 5);
+        assert_true(part->cubemap.fade == 0.75);
+        if (!glint_capture_read_raw(capture, part, names, 5, GLINT_F32, out, 0, &err)) fail_msg("%s", err.message);
+        assert_memory_equal(out, fixture.cube, sizeof fixture.cube);
+        glint_capture_close(&capture);
+    }
+}
+
+static void refused(const char *words) {
+    struct glint_error err = {0};
+    struct glint_capture *capture = glint_capture_open(capture_path, NULL, &err);
+    if (capture) fail_msg("taken, expected \"%s\"", words);
+    if (!strstr(err.message, words) || !strstr(err.message, "cubemap.000"))
+        fail_msg("expected \"%s\", found \"%s\"", words, err.message);
+}
+
+static void one_changed_byte_is_refused(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    write_probes(0);
+    assert_true(write_capture("probes.exr", false, &err));
+    /* The last byte: pixels of the last chunk, no header. */
+    FILE *file = fopen(probes, "r+b");
+    fseek(file, -1, SEEK_END);
+    const int last = fgetc(file);
+    fseek(file, -1, SEEK_END);
+    fputc(last ^ 1, file);
+    fclose(file);
+    refused("expected the hash");
+}
+
+static void another_file_of_that_name_is_refused(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    write_probes(0);
+    assert_true(write_capture("probes.exr", false, &err));
+    write_probes(1);
+    refused("expected the hash");
+    unlink(probes);
+    refused("No such file");
+}
+
+/* The hash is right, but the file holds no such part: only a writer that lies can make one. */
+static void a_sibling_without_the_part_is_refused(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, probes, FIXTURE_LIT + 1, NULL, &err));
+    assert_true(write_capture("probes.exr", false, &err));
+    refused("expected a part of this name");
+}
+
+static void a_sibling_that_is_not_there_is_an_error_of_the_writer(void **state) {
+    (void)state;
+    for (int background = 0; background < 2; background++) {
+        struct glint_error err = {0};
+        unlink(probes);
+        unlink(capture_path);
+        assert_false(write_capture("probes.exr", background, &err));
+        assert_int_equal(err.code, GLINT_ERROR_IO);
+        assert_non_null(strstr(err.message, "probes.exr"));
+        assert_true(access(capture_path, F_OK) != 0);
+    }
+}
+
+static void cube_maps_alone_are_no_capture(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    write_probes(0);
+    assert_null(glint_capture_open(probes, NULL, &err));
+    assert_non_null(strstr(err.message, "gbuffer"));
+}
+
+static void count_violation(void *user, const char *rule, const char *message) {
+    (void)rule, (void)message;
+    ++*(size_t *)user;
+}
+
+/* They are valid all the same. */
+static void cube_maps_alone_validate(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    size_t reported = 0, count = 0;
+    write_probes(0);
+    assert_true(glint_capture_validate(probes, NULL, count_violation, &reported, &count, &err));
+    assert_int_equal(count, 0);
+    assert_int_equal(reported, 0);
+}
+
+/* The placeholder and the sibling open in any EXR tool: see test_tools. */
+static int setup(void **state) {
+    (void)state;
+    fixture_init(&fixture);
+    fixture_path(probes, "probes.exr");
+    fixture_path(capture_path, "shot.0001.exr");
+    return 0;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    unlink(probes);
+    unlink(capture_path);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pixels_come_from_the_sibling),
+        cmocka_unit_test(one_changed_byte_is_refused),
+        cmocka_unit_test(another_file_of_that_name_is_refused),
+        cmocka_unit_test(a_sibling_without_the_part_is_refused),
+        cmocka_unit_test(a_sibling_that_is_not_there_is_an_error_of_the_writer),
+        cmocka_unit_test(cube_maps_alone_are_no_capture),
+        cmocka_unit_test(cube_maps_alone_validate),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
