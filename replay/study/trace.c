@@ -41,7 +41,7 @@ static bool get(struct glint_replay *replay, const char *name, enum glint_type t
 static float *read_truth(struct glint_capture *capture, uint32_t *width, uint32_t *height, struct glint_error *err) {
     const struct glint_part_info *part = glint_capture_find(capture, "truth.mirror");
     if (!part) {
-        glint_fail(err, GLINT_ERROR_USAGE, "%s: part truth.mirror missing", glint_capture_path(capture));
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part truth.mirror: missing", glint_capture_path(capture));
         return NULL;
     }
     *width = part->width;

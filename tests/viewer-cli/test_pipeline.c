@@ -211,7 +211,7 @@ static void replay_compares_with_the_truth(void **state) {
     assert_true(number(all, "right") > 0.9);
     json_decref(json);
     free(text);
-    glint_fails(1, "truth.mirror missing", "replay", capture, "--against=truth", "--set=downsample.jitter=false");
+    glint_fails(1, "truth.mirror: missing", "replay", capture, "--against=truth", "--set=downsample.jitter=false");
     glint_fails(2, "expected one of truth", "replay", capture, "--against=lies");
     glint_fails(2, "an empty name", "replay", capture, "--passes=");
 }
