@@ -14,7 +14,7 @@
 struct arguments {
     struct pipeline_args pipeline;
     struct list captures;
-    const char *out;
+    const char *out, *device;
     bool json, against;
 };
 
@@ -25,6 +25,7 @@ static const struct argp_option options[] = {
     {"output",      'o',             "RUN",  0, "Folder for the run: run.json and one EXR a pass. With several captures, "
         "RUN/NAME for each. Without it nothing is written, only measured", 0},
     PIPELINE_OPTIONS,
+    {"device",      'd',             "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
     {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round, not warmed up)", 0},
     {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before the timed ones of --repeat (default 1)", 0},
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
@@ -60,6 +61,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case 'j':
         a->json = true;
+        return 0;
+    case 'd':
+        a->device = arg;
         return 0;
     case KEY_REPEAT:
         r->repeat = arg_uint("repeat", arg, 1, 100000, state);
@@ -238,7 +242,7 @@ static enum status run(int argc, char **argv) {
     command_parse(&cmd_replay, argc, argv, &a);
     struct job job = {.a = &a};
     struct glint_error err = {0};
-    struct glint_device_options device_options = {.select = a.pipeline.device};
+    struct glint_device_options device_options = {.select = a.device};
     enum status status;
     job.pipeline = pipeline_args_create(&a.pipeline, &err);
     if (job.pipeline) job.device = glint_device_create(&device_options, &err);

@@ -10,9 +10,6 @@ error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct
     case 'p':
         args->preset = arg;
         return 0;
-    case KEY_DEVICE:
-        args->device = arg;
-        return 0;
     case KEY_INPUTS:
         args->replay.inputs = arg;
         return 0;

@@ -1,4 +1,4 @@
-/* The options that plan and replay share: which pipeline, on which device, which part of it. */
+/* The options that plan and replay share: which pipeline, which part of it. */
 #ifndef GLINT_VIEWER_PIPELINE_ARGS_H
 #define GLINT_VIEWER_PIPELINE_ARGS_H
 
@@ -7,24 +7,12 @@
 
 struct pipeline_args {
     const char *preset; /* NULL: mafia3 */
-    const char *device;
     struct list use, set, shader;
     struct list passes, outputs, skip, force;
     struct glint_replay_options replay; /* its lists are filled by pipeline_args_options */
 };
 
-enum {
-    KEY_USE = 512,
-    KEY_SET,
-    KEY_SHADER,
-    KEY_PASSES,
-    KEY_INPUTS,
-    KEY_OUTPUTS,
-    KEY_SKIP,
-    KEY_FORCE,
-    KEY_ALL,
-    KEY_DEVICE
-};
+enum { KEY_USE = 512, KEY_SET, KEY_SHADER, KEY_PASSES, KEY_INPUTS, KEY_OUTPUTS, KEY_SKIP, KEY_FORCE, KEY_ALL };
 
 /* clang-format off */
 #define PIPELINE_OPTIONS \
@@ -37,8 +25,7 @@ enum {
     {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, and what they need (default: all)", 0}, \
     {"all",     KEY_ALL,     NULL,             0, "Run every pass, even one that has nothing to do", 0}, \
     {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these", 0}, \
-    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when they have nothing to do", 0}, \
-    {"device",  KEY_DEVICE,  "INDEX|NAME",     0, "The Vulkan device; glint devices lists them", 0}
+    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when they have nothing to do", 0}
 /* clang-format on */
 
 /* Reads one of PIPELINE_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */

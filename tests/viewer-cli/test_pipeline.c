@@ -250,6 +250,9 @@ static void a_machine_without_a_driver_is_told_so(void **state) {
     setenv("VK_DRIVER_FILES", "/nowhere.json", 1);
     glint_fails(1, "Vulkan", "devices");
     glint_fails(1, "Vulkan", "replay", capture);
+    char *plan = glint_ok("plan", capture); /* needs none */
+    assert_contains(plan, "screen_trace");
+    free(plan);
     unsetenv("VK_ICD_FILENAMES");
     unsetenv("VK_DRIVER_FILES");
     glint_fails(2, "no device matches 'nothing like it'", "replay", capture, "--device", "nothing like it");
