@@ -75,8 +75,9 @@ static bool prepare_frame_set(struct run *run, struct glint_error *err) {
 
 static bool prepare_queries(struct run *run, struct glint_error *err) {
     if (!run->replay->device->timestamp_mask) return true;
-    const VkQueryPoolCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_TIMESTAMP, .queryCount = 2};
+    const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                        .queryCount = 2 * (uint32_t)run->graph.pass_count};
     VkResult result = vkCreateQueryPool(run->replay->device->device, &info, NULL, &run->queries);
     return result == VK_SUCCESS || vk_fail(err, "creating timestamp queries", result);
 }
@@ -118,6 +119,7 @@ static bool record_step(const struct run *run, struct step *step, struct glint_e
     struct glint_device *device = run->replay->device;
     const struct glint_pass *pass = step->pass->pass;
     const struct image *whole = dispatched(run, pass);
+    const uint32_t query = 2 * (uint32_t)(step - run->steps);
     if (!whole)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s declares no image to dispatch over", pass->slot,
                           pass->variant);
@@ -129,33 +131,52 @@ static bool record_step(const struct run *run, struct step *step, struct glint_e
     VkCommandBuffer commands = device->commands;
     char label[128];
     snprintf(label, sizeof label, "%s/%s", pass->slot, pass->variant);
-    if (run->queries) vkCmdResetQueryPool(commands, run->queries, 0, 2);
+    if (run->queries) vkCmdResetQueryPool(commands, run->queries, query, 2);
     device_begin_label(device, label);
     barriers_record(&barriers, device);
-    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, 0);
+    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, query);
     const VkDescriptorSet sets[] = {step->set, run->frame_set};
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->layout, 0, 2, sets, 0, NULL);
     vkCmdPushConstants(commands, step->program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
                        step->constants.push);
     vkCmdDispatch(commands, (whole->desc.width + 7) / 8, (whole->desc.height + 7) / 8, 1);
-    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, 1);
+    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, query + 1);
     device_end_label(device);
     return true;
 }
 
-static bool execute_step(struct run *run, struct step *step, bool timed, struct glint_error *err) {
+/* Somebody who follows the progress gets each pass submitted by itself, and can stop between two; otherwise a round is
+   one command buffer. */
+static bool execute_round(struct run *run, double done, double share, struct glint_error *err) {
     struct glint_device *device = run->replay->device;
-    char what[160];
-    snprintf(what, sizeof what, "running %s/%s", step->pass->pass->slot, step->pass->pass->variant);
-    if (!device_begin(device, err) || !record_step(run, step, err) || !device_submit(device, what, err)) return false;
-    uint64_t ticks[2];
-    if (!run->queries || !timed) return true;
-    VkResult result = vkGetQueryPoolResults(device->device, run->queries, 0, 2, sizeof ticks, ticks, sizeof ticks[0],
-                                            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
-    if (result != VK_SUCCESS) return vk_fail(err, "reading timestamps", result);
-    step->ns[step->timed++] =
-        (uint64_t)((double)((ticks[1] - ticks[0]) & device->timestamp_mask) * device->timestamp_ns);
+    bool recording = false;
+    for (size_t p = 0; p < run->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        if (!step->execute) continue;
+        const char *slot = step->pass->pass->slot;
+        const double here = done + share * (double)p / (double)run->graph.pass_count;
+        if (!report_progress(run->progress, run->user, slot, 0.2 + 0.8 * here, err)) return false;
+        if (!recording && !device_begin(device, err)) return false;
+        if (!record_step(run, step, err)) return false;
+        recording = !run->progress;
+        if (!recording && !device_submit(device, slot, err)) return false;
+    }
+    return !recording || device_submit(device, "running the passes", err);
+}
+
+static bool read_times(struct run *run, struct glint_error *err) {
+    const struct glint_device *device = run->replay->device;
+    for (size_t p = 0; run->queries && p < run->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        uint64_t ticks[2];
+        if (!step->execute) continue;
+        VkResult result = vkGetQueryPoolResults(device->device, run->queries, 2 * (uint32_t)p, 2, sizeof ticks, ticks,
+                                                sizeof ticks[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        if (result != VK_SUCCESS) return vk_fail(err, "reading timestamps", result);
+        const uint64_t passed = (ticks[1] - ticks[0]) & device->timestamp_mask;
+        step->ns[step->timed++] = (uint64_t)((double)passed * device->timestamp_ns);
+    }
     return true;
 }
 
@@ -171,14 +192,9 @@ bool run_execute(struct run *run, struct glint_error *err) {
             if (run->graph.images[i].source == SOURCE_MADE && run->graph.images[i].maker == p) run->images[i]->key = 0;
     }
     for (uint32_t round = 0; round < rounds; round++)
-        for (size_t p = 0; p < run->graph.pass_count; p++) {
-            struct step *step = &run->steps[p];
-            if (!step->execute) continue;
-            double done = ((double)round + (double)p / (double)run->graph.pass_count) / rounds;
-            if (!report_progress(run->progress, run->user, step->pass->pass->slot, 0.2 + 0.8 * done, err) ||
-                !execute_step(run, step, round >= warmup, err))
-                return false;
-        }
+        if (!execute_round(run, (double)round / rounds, 1.0 / rounds, err) ||
+            (round >= warmup && !read_times(run, err)))
+            return false;
     for (size_t i = 0; i < run->graph.image_count; i++)
         if (run->graph.images[i].source == SOURCE_MADE && !run->images[i]->transient)
             run->images[i]->key = run->keys[i];

@@ -108,7 +108,9 @@ static bool run_all(struct run *run, struct glint_error *err) {
         !run_sizes(run, err))
         return false;
     frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
-    if (!run_allocate(run, err) || !run_keys(run, err) || !run_upload(run, err)) return false;
+    if (!run_allocate(run, err) || !run_keys(run, err)) return false;
+    run->touched = true;
+    if (!run_upload(run, err)) return false;
     start = now_seconds();
     bool ok = run_prepare(run, err) && run_execute(run, err);
     replay->seconds[PHASE_PASSES] += now_seconds() - start;
@@ -126,12 +128,16 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
                       .user = user};
     forget_results(replay);
     if (!replay->device) return glint_fail(err, GLINT_ERROR_USAGE, "a replay without a device can only plan");
-    bool ok = run_all(&run, err);
+    struct glint_error own = {0};
+    bool ok = run_all(&run, &own);
     channels_finish(&replay->gbuffer);
     if (!ok) forget_results(replay);
     run_release(&run);
-    if (ok) replay_drop_images(replay, false);
-    return ok;
+    if (ok)
+        replay_drop_images(replay, false);
+    else if (run.touched && own.code != GLINT_ERROR_INTERRUPTED)
+        replay_drop_images(replay, true); /* what the device did to them is not known */
+    return ok || glint_fail(err, own.code, "%s", own.message);
 }
 
 const struct glint_pass_result *glint_replay_results(const struct glint_replay *replay, size_t *count) {

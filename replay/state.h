@@ -64,6 +64,7 @@ struct run {
     VkQueryPool queries;
     glint_progress progress;
     void *user;
+    bool touched; /* images may have changed */
 };
 
 /* plan.c: survey, graph. */
