@@ -112,6 +112,7 @@ static void cube_row(void *user, uint32_t row) {
         struct hit hit = {.t = INFINITY};
         texel->color =
             work->sky_only ? world_sky(work->world, direction) : world_look(work->world, work->center, direction, &hit);
+        if (!work->sky_only && !(hit.t < INFINITY)) texel->color = gray(0); /* the sky has a cube map of its own */
         texel->alpha = hit.t < INFINITY ? 1 : 0;
         texel->distance = hit.t;
     }

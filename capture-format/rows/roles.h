@@ -33,7 +33,7 @@ ROLE(scene, "scene", FRAME, false, false, true, false, "the finished picture wit
     CHANNEL("B", true, "radiance", "color", "")
 END(scene)
 ROLE(cubemap, "cubemap", CUBE, false, true, false, false, "a local cube map: six square faces below each other, +X −X +Y −Y +Z −Z")
-    CHANNEL("R",          true,  "radiance", "color", "diffuse shading, no specular")
+    CHANNEL("R",          true,  "radiance", "color", "diffuse shading, no specular; black where sky, so that it can be filtered")
     CHANNEL("G",          true,  "radiance", "color", "")
     CHANNEL("B",          true,  "radiance", "color", "")
     CHANNEL("A",          true,  "1",        "",      "0 where the direction sees sky, 1 elsewhere")

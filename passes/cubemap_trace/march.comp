@@ -70,59 +70,85 @@ void fall_back(inout Result result, uint best, uint reason) {
     }
 }
 
+// A sample of the ray: its parameter and how far it lies behind the surface that is seen in its direction, < 0 in front.
+struct Sample {
+    float t, gap, distance_m, seen_m;
+};
+
+Sample sample_at(vec3 from_center, vec3 direction, float t, uint place) {
+    precise vec3 at = from_center + direction * t;
+    precise float distance_m = length(at), seen_m = seen_distance(at, place);
+    return Sample(t, distance_m - seen_m, distance_m, seen_m);
+}
+
+// Between a sample in front and one behind, where the straight line between their gaps is 0. A sample in front of the sky
+// (gap -inf) says nothing, nor does a sample from another cube map (gap NaN).
+float secant_between(Sample front, Sample behind) {
+    if (!(front.gap > -LARGEST)) return behind.t;
+    float gap = min(front.gap, 0.0);
+    return mix(front.t, behind.t, gap / (gap - behind.gap));
+}
+
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
 // the cube maps' spaces, so that nothing adds up; and the step grows only while no hit is being closed in on.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
+    const Sample NONE = Sample(start_m, 0.0 / 0.0, 0.0, 0.0);
     int longest = min(chain, int(frame.flags.z));
+    uint fetches = bilinear ? 2u : 1u;
     Result result = Result(start_m, best, END_steps_exhausted, 0u, 0u);
     vec3 from_center = origin - center_of(best);
-    precise float t = start_m, step_m = quality.first_m;
-    precise float front_t = start_m, front_gap = 1.0, hit_t = start_m, hit_gap = 0.0; // front_gap > 0: none known yet
+    precise float step_m = quality.first_m;
+    Sample front = NONE, behind = NONE, now = NONE;
     int used = 0, refined = 0;
-    bool in_sky = false;
     for (int i = 0; i < quality.steps; ++i) {
         result.steps++;
-        result.fetches += bilinear ? 2u : 1u;
-        t += step_m;
-        vec3 at = from_center + direction * t;
-        precise float distance_m = length(at);
-        precise float seen_m = seen_distance(at, result.place);
-        precise float gap = distance_m - seen_m;
-        in_sky = seen_m == INFINITE;
-        if (!(gap > bias * seen_m + bias_m)) {
-            front_t = t;
-            front_gap = min(gap, 0.0);
+        result.fetches += fetches;
+        now = sample_at(from_center, direction, now.t + step_m, result.place);
+        if (!(now.gap > bias * now.seen_m + bias_m)) {
+            front = now;
             if (refined == 0) step_m *= quality.ratio;
-        } else if (gap < mass_depth(at, distance_m, direction, step_m)) {
-            hit_t = t;
-            hit_gap = gap;
-            if (++refined >= quality.refinements) break;
-            t -= step_m;
-            step_m *= 0.5;
-        } else {
-            if (++used >= longest) {
-                result.travelled_m = t;
-                fall_back(result, best, END_shadow_region);
-                return result;
-            }
-            result.place = texelFetch(active_chain, ivec2(used, best), 0).x;
-            from_center = origin - center_of(result.place);
-            if (step_back) t -= step_m;
-            else step_m *= quality.ratio;
-            front_gap = 1.0;
-            refined = 0;
+            continue;
         }
+        vec3 at = from_center + direction * now.t;
+        if (now.gap < mass_depth(at, now.distance_m, direction, step_m)) {
+            behind = now;
+            if (++refined < quality.refinements) {
+                now.t -= step_m;
+                step_m *= 0.5;
+                continue;
+            }
+            result.travelled_m = secant ? secant_between(front, behind) : behind.t;
+            result.end = END_hit;
+            if (!verify) return result;
+            result.fetches += fetches;
+            Sample end = sample_at(from_center, direction, result.travelled_m, result.place);
+            if (abs(end.gap) <= verify_part * end.seen_m) return result;
+        }
+        if (++used >= longest) {
+            result.travelled_m = now.t;
+            fall_back(result, best, END_shadow_region);
+            return result;
+        }
+        result.place = texelFetch(active_chain, ivec2(used, best), 0).x;
+        from_center = origin - center_of(result.place);
+        if (step_back) now.t -= step_m;
+        else step_m *= quality.ratio;
+        front.gap = NONE.gap;
+        refined = 0;
     }
-    result.travelled_m = t;
+    result.travelled_m = now.t;
+    result.end = END_steps_exhausted;
     if (refined > 0) {
+        result.travelled_m = secant ? secant_between(front, behind) : behind.t;
         result.end = END_hit;
-        bool between = secant && front_gap > -LARGEST && front_gap <= 0.0;
-        result.travelled_m = between ? mix(front_t, hit_t, front_gap / (front_gap - hit_gap)) : hit_t;
+    } else if (now.seen_m == INFINITE) {
+        result.travelled_m = INFINITE;
+        result.end = END_sky;
+        if (frame.counts.w > 0u) result.place = NO_PLACE; // else the cube map holds what there is of the sky
     } else if (exhausted == exhausted_fallback) {
         fall_back(result, best, END_steps_exhausted);
     } else if (exhausted == exhausted_direction) {
         result.travelled_m = INFINITE;
-        if (in_sky) result.end = END_sky;
     }
     return result;
 }

@@ -51,9 +51,14 @@ vec4 reflected_color(ivec2 pixel, float depth_m, vec3 normal) {
         color = screen_color(mat3(frame.view_from_world) * end, endless);
     } else {
         uint place = texelFetch(cubemap_index, pixel, 0).x;
-        if (place >= frame.counts.x) return vec4(0.0);
-        vec3 center = texelFetch(active_center, ivec2(place, 0), 0).xyz;
-        color = cubemap_lookup(endless ? direction : end - center, direction, place);
+        if (place < frame.counts.x) {
+            vec3 center = texelFetch(active_center, ivec2(place, 0), 0).xyz;
+            color = cubemap_lookup(endless ? direction : end - center, direction, place);
+        } else if (endless) {
+            color = vec4(sky_color(direction), 1.0);
+        } else {
+            return vec4(0.0);
+        }
     }
     if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, position, direction, travelled_m);
     return color;
