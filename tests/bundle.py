@@ -35,8 +35,14 @@ def main():
     for path in libraries(os.path.join(build, "viewer-cli", "glint")):
         target = os.path.join(lib, os.path.basename(path))
         shutil.copy(path, target)
-        subprocess.run(["strip", "--strip-unneeded", target], check=False)
-    subprocess.run(["strip", os.path.join(temporary, "bin", "glint")], check=True)
+        subprocess.run(["strip", "--strip-unneeded", target], check=True)
+        subprocess.run(["patchelf", "--set-rpath", "$ORIGIN", target], check=True)
+    program = os.path.join(temporary, "bin", "glint")
+    subprocess.run(["strip", program], check=True)
+    subprocess.run(["patchelf", "--set-rpath", "$ORIGIN/../lib", program], check=True)
+    strays = [p for p in libraries(program) if os.path.dirname(os.path.realpath(p)) != os.path.realpath(lib)]
+    if strays:
+        sys.exit("bundle: still taken from this machine: " + ", ".join(strays))
     shutil.copy(capture, os.path.join(temporary, "sample.exr"))
     shutil.copy("LICENSE", temporary)
     with open(os.path.join(temporary, "README"), "w", encoding="utf-8") as readme:
