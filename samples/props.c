@@ -75,7 +75,7 @@ void prop_street_lamp(struct scene *scene, vec3 intensity) {
                                   .specular = 0.5f,
                                   .stencil = STENCIL_WORLD};
     const struct material glow = {.albedo = gray(0.5f),
-                                  .emission = scale(intensity, 0.16f),
+                                  .emission = scale(intensity, 0.05f),
                                   .roughness = 0.3f,
                                   .specular = 0.4f,
                                   .stencil = STENCIL_WORLD};

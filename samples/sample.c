@@ -22,6 +22,9 @@ const struct glint_sample *glint_samples(size_t *count) {
 
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, DEFAULT_CUBE = 256, MAX_SIDE = 16384, MAX_CUBE = 4096 };
 
+/* What an engine with pre-exposed buffers would have had; any factor but 1 does. */
+#define PRE_EXPOSURE 0.375
+
 /* Everything between the options and the files. */
 struct session {
     struct scene scene;
@@ -88,7 +91,7 @@ static struct glint_frame frame_of_views(const struct session *s, const struct v
                                 .has_previous = true,
                                 .has_player = true,
                                 .number = number,
-                                .exposure = scene->exposure,
+                                .exposure = 1,
                                 .depth_near = VIEW_NEAR,
                                 .depth_far = VIEW_FAR,
                                 .motion_range = 1,
@@ -96,7 +99,7 @@ static struct glint_frame frame_of_views(const struct session *s, const struct v
                                 .pre_exposure = 1,
                                 .has_fog = scene->has_fog,
                                 .fog = scene->fog};
-    if (s->options.encodings.color == GLINT_COLOR_PRE_EXPOSED) frame.pre_exposure = scene->exposure;
+    if (s->options.encodings.color == GLINT_COLOR_PRE_EXPOSED) frame.pre_exposure = PRE_EXPOSURE;
     memcpy(frame.jitter_px, view->jitter_px, sizeof frame.jitter_px);
     move_camera(&frame.camera, offset);
     move_camera(&frame.previous, offset);
@@ -195,7 +198,7 @@ static bool write_frame(struct session *s, const char *path, uint32_t number, bo
 
 static bool write_shared_cubemaps(struct session *s, struct glint_error *err) {
     struct dump dump = {.encodings = s->options.encodings, .pre_exposure = 1};
-    if (dump.encodings.color == GLINT_COLOR_PRE_EXPOSED) dump.pre_exposure = s->scene.exposure;
+    if (dump.encodings.color == GLINT_COLOR_PRE_EXPOSED) dump.pre_exposure = PRE_EXPOSURE;
     dump.writer = glint_writer_create(
         s->cubemaps_path,
         &(struct glint_writer_options){.compression = s->options.compression, .threads = s->options.threads}, err);

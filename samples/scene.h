@@ -75,6 +75,7 @@ struct scene {
     uint32_t contact_count;
     vec3 sun_direction, sun_irradiance; /* towards the sun */
     vec3 (*sky)(vec3 direction);        /* radiance; NULL: black */
+    float gain;                         /* of every source of light, so that the picture needs no exposure */
     bool unlit;                         /* radiance is emission alone */
     uint32_t light_samples, bounces;    /* of baked light, by default */
     float fill;                         /* radiance of what the last bounce would still bring, per albedo */
@@ -83,7 +84,6 @@ struct scene {
     vec3 eye_step, target_step; /* each frame */
     float fov_y_rad;
     vec3 player, player_step;
-    double exposure;
     enum glint_probes probes;
     struct glint_cubemap cubemaps[SCENE_MAX_CUBEMAPS];
     uint32_t cubemap_count;

@@ -164,6 +164,7 @@ struct surface world_surface(const struct world *world, const struct hit *hit, f
                               .specular = material->specular,
                               .stencil = material->stencil};
     if (material->paint) material->paint(&surface);
+    surface.emission = scale(surface.emission, world->scene->gain);
     if (world->kind == WORLD_SIMPLIFIED) surface.metalness = 0;
     return surface;
 }
@@ -180,13 +181,14 @@ vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
         float square = dot(way, way), cosine = dot(way, normal);
         if (square > light->range * light->range || cosine <= 0) continue;
         float distance = sqrtf(square), ratio = square / (light->range * light->range);
-        float factor = (1 - ratio) * (1 - ratio) * cosine / (distance * fmaxf(square, 0.01f));
+        /* 0.12 m²: a lamp of some size, whose light does not grow without bound */
+        float factor = (1 - ratio) * (1 - ratio) * cosine / (distance * (square + 0.12f));
         if (light->cos_outer < 1)
             factor *= smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / distance);
         if (factor > 0 && !world_blocked(world, from, way, 1 - light->radius / fmaxf(distance, 2 * light->radius)))
             sum = along(sum, light->intensity, factor);
     }
-    return sum;
+    return scale(sum, scene->gain);
 }
 
 /* Baked light knows nothing of what moves; near a moving box it fades. */
@@ -216,7 +218,7 @@ vec3 world_radiance(const struct world *world, const struct hit *hit) {
 }
 
 vec3 world_sky(const struct world *world, vec3 direction) {
-    return world->scene->sky ? world->scene->sky(unit(direction)) : gray(0);
+    return world->scene->sky ? scale(world->scene->sky(unit(direction)), world->scene->gain) : gray(0);
 }
 
 vec3 world_look(const struct world *world, vec3 origin, vec3 direction, struct hit *hit) {

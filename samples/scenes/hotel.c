@@ -89,7 +89,7 @@ static const struct material brass = {
 static const struct material column = {
     .albedo = {0.035f, 0.07f, 0.055f}, .roughness = 0.1f, .specular = 0.6f, .stencil = STENCIL_WORLD};
 static const struct material glow = {.albedo = {0.5f, 0.5f, 0.5f},
-                                     .emission = {4.2f, 2.9f, 1.6f},
+                                     .emission = {1.5f, 1.05f, 0.6f},
                                      .roughness = 0.5f,
                                      .specular = 0.4f,
                                      .stencil = STENCIL_WORLD};
@@ -192,7 +192,7 @@ static void lights(struct scene *scene) {
 
 static void furniture(struct scene *scene) {
     const struct material shade = {.albedo = {0.5f, 0.4f, 0.3f},
-                                   .emission = {1.5f, 0.9f, 0.4f},
+                                   .emission = {0.8f, 0.5f, 0.22f},
                                    .roughness = 0.9f,
                                    .specular = 0.3f,
                                    .stencil = STENCIL_WORLD};
@@ -274,7 +274,7 @@ void build_hotel(struct scene *scene) {
     scene->sky = sky;
     scene->light_samples = 144;
     scene->bounces = 2;
-    scene->exposure = 1.6;
+    scene->gain = 2.9f;
     shell(scene);
     columns(scene);
     gallery(scene);

@@ -20,9 +20,9 @@ void build_matte(struct scene *scene) {
     scene->sky = sky;
     scene->sun_direction = unit(v3(-0.72f, 0.55f, 0.18f));
     scene->sun_irradiance = v3(3.6f, 3.2f, 2.6f);
-    scene->exposure = 0.62;
+    scene->gain = 0.8f;
     scene->cell = 0.35f;
-    scene_mesh(scene, &(struct material){.albedo = {0.62f, 0.55f, 0.45f}, .roughness = 1, .stencil = STENCIL_WORLD},
+    scene_mesh(scene, &(struct material){.albedo = {0.42f, 0.34f, 0.26f}, .roughness = 1, .stencil = STENCIL_WORLD},
                MESH_PLAIN);
     scene_quad(scene, v3(-14, 0, -16), v3(0, 0, 24), v3(28, 0, 0));
     block(scene, v3(-6, 0, -9), v3(-1.5f, 3.2f, -7.5f), paint(0.75f, 0.30f, 0.20f));

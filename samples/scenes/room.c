@@ -138,7 +138,7 @@ static void furniture(struct scene *scene) {
                                     .stencil = STENCIL_WORLD,
                                     .paint = paint_picture};
     const struct material bulb = {.albedo = gray(0.5f),
-                                  .emission = {5, 3.9f, 2.5f},
+                                  .emission = {1.8f, 1.45f, 0.95f},
                                   .roughness = 0.4f,
                                   .specular = 0.4f,
                                   .stencil = STENCIL_WORLD};
@@ -217,7 +217,7 @@ void build_room(struct scene *scene) {
     scene->sun_irradiance = v3(12, 10.2f, 7.6f);
     scene->light_samples = 160;
     scene->bounces = 3;
-    scene->exposure = 1.1;
+    scene->gain = 2;
     shell(scene);
     pillar(scene);
     stairway(scene);

@@ -37,14 +37,14 @@ static void paint_road(struct surface *s) {
     float x = s->position.x, z = s->position.z;
     float worn = fractal2(1.7f * x, 1.7f * z, 3, 11), deep = fractal2(0.23f * x + 5, 0.17f * z, 4, 21);
     /* wheels have pressed tracks into the asphalt, where water stays longer */
-    float track = expf(-4 * (fabsf(x) - 2) * (fabsf(x) - 2)), puddle = smooth(0.515f, 0.56f, deep + 0.035f * track);
+    float track = expf(-4 * (fabsf(x) - 2) * (fabsf(x) - 2)), puddle = smooth(0.50f, 0.55f, deep + 0.035f * track);
     float shade = 0.040f + 0.035f * worn;
     s->albedo = v3(shade, shade, 1.04f * shade);
     bool dash = fabsf(x) < 0.07f && z - 6 * floorf(z / 6) < 3, edge = fabsf(fabsf(x) - 3.55f) < 0.06f;
     bool zebra = z < -17 && z > -20.2f && fabsf(x) < 3.3f && x / 1.1f - floorf(x / 1.1f) < 0.5f;
     float paint = (dash || edge || zebra) ? smooth(0.25f, 0.5f, worn) : 0;
     s->albedo = mix(s->albedo, v3(0.42f, 0.41f, 0.38f), 0.85f * paint);
-    float wet = 0.24f + 0.26f * fractal2(0.9f * x, 0.9f * z, 3, 41) - 0.05f * paint;
+    float wet = 0.13f + 0.26f * fractal2(0.9f * x, 0.9f * z, 3, 41) - 0.05f * paint;
     float still = 0.02f + 0.09f * smooth(0.45f, 0.75f, noise2(0.11f * x, 0.09f * z, 51));
     s->normal = grain(s, 0.05f, 0.09f * (1 - puddle));
     s->roughness = wet * (1 - puddle) + still * puddle;
@@ -343,7 +343,7 @@ static void probes(struct scene *scene) {
 
 void build_street(struct scene *scene) {
     scene->sky = sky;
-    scene->exposure = 1.7;
+    scene->gain = 3;
     scene->light_samples = 96;
     ground(scene);
     scene->cell = 1.25f;

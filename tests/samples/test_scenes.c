@@ -189,6 +189,48 @@ static void test_a_shot_shares_its_cubemaps(void **state) {
     assert_valid(in_folder(state, "shot.0003.exr"));
 }
 
+/* The car of the street drives 0.16 m a frame along -Z: its motion is the camera's and its own. */
+static void test_motion_of_what_moves(void **state) {
+    enum { WIDE = 160, HIGH = 90 };
+    struct glint_sample_options o = options();
+    o.width = WIDE;
+    o.height = HIGH;
+    write_sample("street", in_folder(state, "car.exr"), &o);
+    struct glint_capture *capture = open_capture(in_folder(state, "car.exr"));
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    float *g = read_part(capture, "gbuffer", "depth.Z motion.X motion.Y albedo.R albedo.G", NULL, NULL);
+    double eye[3];
+    size_t still = 0, moving = 0, wrong = 0;
+    camera_eye(&frame->camera, eye);
+    for (uint32_t y = 0; y < HIGH; y++)
+        for (uint32_t x = 0; x < WIDE; x++) {
+            const float *p = g + 5 * (y * WIDE + x);
+            double ray[3], point[3], expected[2][2], now[2] = {(x + 0.5) / WIDE, (y + 0.5) / HIGH};
+            if (isinf(p[0])) continue;
+            camera_ray(&frame->camera, x, y, WIDE, HIGH, ray);
+            for (int moved = 0; moved < 2; moved++) {
+                for (int i = 0; i < 3; i++) point[i] = eye[i] + (double)p[0] * ray[i];
+                if (moved) point[2] += 0.16; /* where it was a frame ago */
+                camera_project(&frame->previous, point, expected[moved]);
+            }
+            double off[2] = {0};
+            for (int moved = 0; moved < 2; moved++)
+                for (int i = 0; i < 2; i++) {
+                    double uv = expected[moved][i] - now[i];
+                    /* half floats, and depth that is a float */
+                    off[moved] = fmax(off[moved], fabs((double)p[1 + i] - uv) / (fabs(uv) / 1024 + 1e-5));
+                }
+            bool paint = p[3] > 0.38f && p[4] < 0.06f; /* the red of the car's body */
+            if (paint && off[1] <= 1) moving++;
+            else if (!paint && off[0] <= 1) still++;
+            else if (paint || off[1] > 1) wrong++; /* glass and wheels move too */
+        }
+    assert_true(moving > 50 && still > WIDE * HIGH / 2);
+    assert_int_equal(wrong, 0);
+    free(g);
+    glint_capture_close(&capture);
+}
+
 static bool stop_late(void *user, const char *what, double done) {
     (void)what;
     return done < *(const double *)user;
@@ -240,6 +282,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_same_options_same_bytes, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_offset_moves_the_doubles_and_no_pixel, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_a_shot_shares_its_cubemaps, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_motion_of_what_moves, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_interrupted_work_leaves_complete_files_only, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_wrong_options_are_errors, folder_make, folder_remove),
     };
