@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the pass table: C that includes every declaration, its SPIR-V and the text of every shader file.
 
-table.py SOURCE_DIR OUT.c OUT.d SLOT/VARIANT[:spirv|:host]…
+table.py SOURCE_DIR OUT.c OUT.d SLOT/VARIANT:spirv|host…
 """
 import pathlib
 import sys

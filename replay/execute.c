@@ -74,7 +74,7 @@ static bool prepare_frame_set(struct run *run, struct glint_error *err) {
 }
 
 static bool prepare_queries(struct run *run, struct glint_error *err) {
-    if (!run->replay->device->timestamp_mask) return true;
+    if (!run->replay->device->timestamp_mask || !run->graph.pass_count) return true;
     const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                         .queryCount = 2 * (uint32_t)run->graph.pass_count};
@@ -212,6 +212,8 @@ void run_release(struct run *run) {
     free(run->steps);
     free(run->images);
     free(run->keys);
+    for (size_t i = 0; run->given && i < run->graph.image_count; i++) free(run->given[i]);
+    free(run->given);
     free(run->needed);
     free(run->active);
     free(run->host_seconds);

@@ -7,6 +7,8 @@
 
 #include <xxhash.h>
 
+#include "timing.h"
+
 static uint64_t mix(uint64_t key, const void *data, size_t size) {
     return XXH3_64bits_withSeed(data, size, key);
 }
@@ -28,7 +30,7 @@ static uint64_t table_key(const struct glint_table *table) {
     return mix(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
 }
 
-/* Of an image that no shader of this run makes. Images of a run folder are told apart by their pixels. */
+/* Of an image that no shader of this run makes. Images of a run folder are read, and told apart by their pixels. */
 static bool given_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph.images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->desc.format), image->name);
@@ -38,13 +40,20 @@ static bool given_key(const struct run *run, size_t i, uint64_t *key, struct gli
         *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
     if (image->source != SOURCE_RUN) return true;
     const struct glint_run_image *info = glint_run_find(run->inputs, image->name);
-    size_t size = (size_t)info->width * info->height * info->components * 4;
-    void *pixels = malloc(size);
-    bool ok = pixels ? glint_run_read(run->inputs, info, info->integer ? GLINT_U32 : GLINT_F32, pixels, err)
-                     : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
-    if (ok) *key = mix(*key, pixels, size);
-    free(pixels);
-    return ok;
+    const struct image_desc *desc = &run->images[i]->desc;
+    if (info->components != format_components(desc->format) || info->integer != format_is_uint(desc->format))
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u %s channels, found %u %s",
+                          run->options->inputs, info->name, format_components(desc->format),
+                          format_is_uint(desc->format) ? "uint" : "float", info->components,
+                          info->integer ? "uint" : "float");
+    const size_t size = (size_t)info->width * info->height * info->components * 4;
+    if (!(run->given[i] = malloc(size)))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
+    const double start = now_seconds();
+    if (!glint_run_read(run->inputs, info, info->integer ? GLINT_U32 : GLINT_F32, run->given[i], err)) return false;
+    run->replay->seconds[PHASE_READ] += now_seconds() - start;
+    *key = mix(*key, run->given[i], size);
+    return true;
 }
 
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {

@@ -68,9 +68,10 @@ static bool allocate_run(struct run *run, struct glint_error *err) {
     run->images = calloc(images, sizeof *run->images);
     run->keys = calloc(images, sizeof *run->keys);
     run->needed = calloc(images, sizeof *run->needed);
+    run->given = calloc(images, sizeof *run->given);
     run->steps = calloc(passes, sizeof *run->steps);
     run->host_seconds = calloc(passes, sizeof *run->host_seconds);
-    return (run->images && run->keys && run->needed && run->steps && run->host_seconds) ||
+    return (run->images && run->keys && run->needed && run->given && run->steps && run->host_seconds) ||
            glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
@@ -133,8 +134,7 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
     channels_finish(&replay->gbuffer);
     if (!ok) forget_results(replay);
     run_release(&run);
-    if (ok)
-        replay_drop_images(replay, false);
+    if (ok) replay_drop_images(replay, false);
     else if (run.touched && own.code != GLINT_ERROR_INTERRUPTED)
         replay_drop_images(replay, true); /* what the device did to them is not known */
     return ok || glint_fail(err, own.code, "%s", own.message);

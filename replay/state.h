@@ -58,6 +58,7 @@ struct run {
     struct image **images; /* beside graph.images */
     uint64_t *keys;        /* what the images' contents will depend on */
     bool *needed;          /* read or wanted by what will be executed */
+    void **given;          /* values read from the run folder, as float or uint; NULL for other images */
     struct step *steps;    /* beside graph.passes */
     VkDescriptorPool pool;
     VkDescriptorSet frame_set;

@@ -155,22 +155,6 @@ static bool upload_values(struct run *run, size_t i, const void *values, struct 
     return submit(run, err);
 }
 
-static bool upload_from_run(struct run *run, size_t i, struct glint_error *err) {
-    const struct glint_run_image *info = glint_run_find(run->inputs, run->graph.images[i].name);
-    const struct image_desc *desc = &run->images[i]->desc;
-    if (info->components != format_components(desc->format) || info->integer != format_is_uint(desc->format))
-        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u %s channels, found %u %s",
-                          run->options->inputs, info->name, format_components(desc->format),
-                          format_is_uint(desc->format) ? "uint" : "float", info->components,
-                          info->integer ? "uint" : "float");
-    void *values = malloc((size_t)info->width * info->height * info->components * 4);
-    bool ok = values ? glint_run_read(run->inputs, info, info->integer ? GLINT_U32 : GLINT_F32, values, err)
-                     : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", info->name);
-    ok = ok && upload_values(run, i, values, err);
-    free(values);
-    return ok;
-}
-
 static bool upload_from_engine(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph.images[i];
     const struct image_desc *desc = &run->images[i]->desc;
@@ -198,7 +182,7 @@ static bool upload_from_engine(struct run *run, size_t i, struct glint_error *er
 static bool upload_given(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph.images[i];
     const struct glint_table *table = tables_find(&run->tables, image->name);
-    if (image->source == SOURCE_RUN) return upload_from_run(run, i, err);
+    if (image->source == SOURCE_RUN) return upload_values(run, i, run->given[i], err);
     if (image->source == SOURCE_ENGINE) return upload_from_engine(run, i, err);
     if (image->source == SOURCE_MADE && table && table->width && table->height)
         return upload_values(run, i, table->texels.u, err);

@@ -237,6 +237,21 @@ static void an_interrupted_run_can_be_taken_up_again(void **state) {
     fixture_check_messages(fixture);
 }
 
+static void a_pipeline_of_nothing_runs(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", &err);
+    char assignment[64];
+    while (glint_pipeline_pass_count(pipeline)) {
+        snprintf(assignment, sizeof assignment, "%s=none", glint_pipeline_pass(pipeline, 0)->slot);
+        assert_true(glint_pipeline_use(pipeline, assignment, &err));
+    }
+    if (!glint_replay_run(fixture->replay, pipeline, NULL, NULL, NULL, &err)) fail_msg("%s", err.message);
+    assert_int_equal(glint_replay_image_count(fixture->replay), 0);
+    glint_pipeline_destroy(&pipeline);
+    fixture_check_messages(fixture);
+}
+
 static void missing_inputs_name_the_pass_that_makes_them(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -280,6 +295,7 @@ int main(void) {
         cmocka_unit_test(a_matte_frame_drops_all_but_the_last_pass),
         cmocka_unit_test(a_frame_without_cube_maps_still_runs),
         cmocka_unit_test(an_interrupted_run_can_be_taken_up_again),
+        cmocka_unit_test(a_pipeline_of_nothing_runs),
         cmocka_unit_test(missing_inputs_name_the_pass_that_makes_them),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);

@@ -151,7 +151,11 @@ struct glint_run_image {
 };
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
 void glint_run_close(struct glint_run **run);
-/* The whole of run.json, as text. */
+/* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
+   driver, driver_version, times_are}, "preset", "resolution" {full, half}, "precision", "diagnostics", "inputs",
+   "active_cubemaps", "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
+   cached, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
+   unit, meaning, width, height, format}}. */
 const char *glint_run_json(const struct glint_run *run);
 size_t glint_run_image_count(const struct glint_run *run);
 const struct glint_run_image *glint_run_image(const struct glint_run *run, size_t i);
