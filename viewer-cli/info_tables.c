@@ -14,31 +14,61 @@ static size_t stem_length(const char *part) {
     return digits == 3 && length > 4 && part[length - 4] == '.' ? length - 4 : length;
 }
 
-static bool same_group(const struct channel_row *a, const struct channel_row *b) {
+static bool same_part(const struct channel_row *a, const struct channel_row *b) {
     size_t n = stem_length(a->part);
-    return n == stem_length(b->part) && !strncmp(a->part, b->part, n) && !strcmp(a->channel, b->channel);
+    return n == stem_length(b->part) && !strncmp(a->part, b->part, n);
 }
 
-static void print_channel(struct table *table, const struct channel_table *all, size_t first) {
-    struct channel_row row = all->rows[first];
-    size_t parts = 1;
-    for (size_t i = first + 1; i < all->count; i++) {
-        if (!same_group(&row, &all->rows[i])) continue;
-        stats_merge(&row.stats, &all->rows[i].stats);
-        parts++;
+/* R G B, or X Y Z, of one layer are one line. */
+static bool same_vector(const struct channel_row *a, const struct channel_row *b) {
+    int ra = channel_rank(a->channel), rb = channel_rank(b->channel);
+    size_t n = channel_layer_length(a->channel);
+    bool color = ra < 3 && rb<3, vector = ra> 3 && ra < 7 && rb > 3 && rb < 7;
+    return n == channel_layer_length(b->channel) && !strncmp(a->channel, b->channel, n) && (color || vector);
+}
+
+static bool same_line(const struct channel_row *a, const struct channel_row *b) {
+    return same_part(a, b) && (!strcmp(a->channel, b->channel) || same_vector(a, b));
+}
+
+static const struct channel_row *first_like(const struct channel_table *all, size_t i,
+                                            bool (*alike)(const struct channel_row *, const struct channel_row *)) {
+    size_t k = 0;
+    while (k < i && !alike(&all->rows[k], &all->rows[i])) k++;
+    return &all->rows[k];
+}
+
+static void print_part_line(struct table *table, const struct channel_table *all, const struct channel_row *first) {
+    size_t parts = 0;
+    for (size_t i = 0; i < all->count; i++)
+        parts += same_part(first, &all->rows[i]) && !strcmp(first->channel, all->rows[i].channel);
+    if (parts > 1) table_cell(table, "%.*s.NNN × %zu", (int)stem_length(first->part), first->part, parts);
+    else table_cell(table, "%s", first->part);
+    for (int k = 0; k < 8; k++) table_cell(table, "%s", "");
+}
+
+static void print_channel_line(struct table *table, const struct channel_table *all, const struct channel_row *first) {
+    struct channel_row row = *first;
+    char name[300];
+    int length = snprintf(name, sizeof name, "  %s", row.channel);
+    for (const struct channel_row *r = first + 1; r < all->rows + all->count; r++) {
+        if (!same_line(first, r)) continue;
+        stats_merge(&row.stats, &r->stats);
+        if (!strcmp(r->part, row.part) && length < (int)sizeof name - 8)
+            length += snprintf(name + length, sizeof name - (size_t)length, " %s",
+                               strrchr(r->channel, '.') ? strrchr(r->channel, '.') + 1 : r->channel);
     }
-    if (parts > 1) table_cell(table, "%.*s.NNN × %zu", (int)stem_length(row.part), row.part, parts);
-    else table_cell(table, "%s", row.part);
-    table_cell(table, "%s", row.channel);
-    table_cell(table, "%s%s%s", row.stored, *row.storage && strcmp(row.storage, row.stored) ? " of " : "",
-               strcmp(row.storage, row.stored) ? row.storage : "");
-    table_cell(table, "%s", row.encoding);
-    table_cell(table, "%s", strcmp(row.unit, "1") ? row.unit : "");
     const struct channel_stats *s = &row.stats;
     bool finite = row.has_stats && s->count > s->nan + s->inf;
-    table_cell(table, "%s", finite ? number_text(s->min) : "");
-    table_cell(table, "%s", finite ? number_text(s->max) : "");
-    table_cell(table, "%s", finite ? number_text(stats_mean(s)) : "");
+    bool declared = *row.storage && strcmp(row.storage, row.stored) != 0;
+    table_cell(table, "%s", name);
+    table_cell(table, "%s%s%s", row.stored, declared ? "/" : "", declared ? row.storage : "");
+    table_cell(table, "%s", row.encoding);
+    table_cell(table, "%s", strcmp(row.unit, "1") ? row.unit : "");
+    const double values[] = {s->min, s->max, stats_mean(s)};
+    for (int k = 0; k < 3; k++)
+        if (finite) table_cell(table, "%.3g", values[k]);
+        else table_cell(table, "%s", "");
     for (int k = 0; k < 2; k++) {
         uint64_t n = k ? s->inf : s->nan;
         if (row.has_stats && n) table_cell(table, "%llu", (unsigned long long)n);
@@ -47,13 +77,13 @@ static void print_channel(struct table *table, const struct channel_table *all, 
 }
 
 void info_print_channels(const struct channel_table *all) {
-    static const char *const titles[] = {"<part", "<channel", "<stored", "<encoding", "<unit", ">min",
-                                         ">max",  ">mean",    ">NaN",    ">Inf",      NULL};
+    static const char *const titles[] = {"<channels", "<stored", "<encoding", "<unit", ">min",
+                                         ">max",      ">mean",   ">NaN",      ">Inf",  NULL};
     struct table *table = table_create(titles);
     for (size_t i = 0; i < all->count; i++) {
-        bool seen = false;
-        for (size_t k = 0; k < i && !seen; k++) seen = same_group(&all->rows[k], &all->rows[i]);
-        if (!seen) print_channel(table, all, i);
+        const struct channel_row *row = &all->rows[i];
+        if (first_like(all, i, same_part) == row) print_part_line(table, all, row);
+        if (first_like(all, i, same_line) == row) print_channel_line(table, all, row);
     }
     table_print(table, stdout);
     table_destroy(&table);
