@@ -10,12 +10,12 @@ static const struct material car_glass = {.albedo = {0.015f, 0.018f, 0.02f},
                                           .specular = 0.6f,
                                           .stencil = STENCIL_WORLD | STENCIL_VEHICLE};
 static const struct material tail_light = {.albedo = {0.3f, 0.02f, 0.02f},
-                                           .emission = {3.2f, 0.06f, 0.03f},
+                                           .emission = {1.1f, 0.015f, 0.008f},
                                            .roughness = 0.2f,
                                            .specular = 0.5f,
                                            .stencil = STENCIL_WORLD | STENCIL_VEHICLE};
 static const struct material head_light = {.albedo = {0.5f, 0.5f, 0.5f},
-                                           .emission = {4, 3.7f, 3.2f},
+                                           .emission = {2, 1.85f, 1.6f},
                                            .roughness = 0.1f,
                                            .specular = 0.5f,
                                            .stencil = STENCIL_WORLD | STENCIL_VEHICLE};

@@ -42,13 +42,14 @@ static struct pixel seen(const struct frame_work *work, const struct hit *hit, v
                           .roughness = surface.roughness,
                           .metalness = surface.metalness,
                           .specular = surface.specular,
-                          .stencil = surface.stencil,
-                          .position = hit->position,
-                          .geometric = hit->geometric};
+                          .stencil = surface.stencil};
     pixel.normal = to_half(bent(surface.normal, hit, to_eye));
-    pixel.leave = world_leave(hit, hit->geometric);
     pixel.lit = world_radiance(work->world, hit);
     return pixel;
+}
+
+struct hit primary_hit(const struct world *world, const struct view *view, uint32_t x, uint32_t y) {
+    return world_trace(world, view_eye(view), view_ray(view, x, y), (float)VIEW_NEAR);
 }
 
 static void frame_row(void *user, uint32_t y) {
@@ -56,7 +57,7 @@ static void frame_row(void *user, uint32_t y) {
     for (uint32_t x = 0; x < work->view->width; x++) {
         struct pixel *pixel = &work->pixels[(size_t)y * work->view->width + x];
         vec3 direction = view_ray(work->view, x, y);
-        struct hit hit = world_trace(work->world, view_eye(work->view), direction, (float)VIEW_NEAR);
+        struct hit hit = primary_hit(work->world, work->view, x, y);
         if (hit.t < INFINITY) {
             *pixel = seen(work, &hit, direction);
             vec3 step = hit.mesh->flags & MESH_MOVING ? hit.mesh->step : gray(0);

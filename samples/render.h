@@ -14,8 +14,10 @@ struct pixel {
     float motion[2]; /* uv one frame earlier minus uv now */
     uint32_t stencil;
     vec3 lit;
-    vec3 position, leave, geometric; /* of the surface; `leave` is where reflected rays start */
 };
+
+/* What the ray through a pixel's jittered centre meets. */
+struct hit primary_hit(const struct world *world, const struct view *view, uint32_t x, uint32_t y);
 
 /* `pixels` has room for the view's size. */
 bool render_frame(const struct world *world, const struct view *view, const struct view *previous, struct pixel *pixels,

@@ -20,7 +20,14 @@ const struct glint_sample *glint_samples(size_t *count) {
     return samples;
 }
 
-enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, DEFAULT_CUBE = 256, MAX_SIDE = 16384, MAX_CUBE = 4096 };
+enum {
+    DEFAULT_WIDTH = 1280,
+    DEFAULT_HEIGHT = 720,
+    DEFAULT_CUBE = 256,
+    MAX_SIDE = 16384,
+    MAX_CUBE = 4096,
+    MAX_FRAME = 1000000
+};
 
 /* What an engine with pre-exposed buffers would have had; any factor but 1 does. */
 #define PRE_EXPOSURE 0.375
@@ -39,23 +46,44 @@ struct session {
     char cubemaps_path[4096];
 };
 
+static bool check_encodings(const struct glint_encodings *e, struct glint_error *err) {
+    const struct {
+        const char *which;
+        int value;
+    } all[] = {{"depth", (int)e->depth},
+               {"normal", (int)e->normal},
+               {"vertex_normal", (int)e->vertex_normal},
+               {"normal_space", (int)e->normal_space},
+               {"roughness", (int)e->roughness},
+               {"motion", (int)e->motion},
+               {"color", (int)e->color}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i].value < 0 || !glint_encoding_name(all[i].which, all[i].value))
+            return glint_fail(err, GLINT_ERROR_USAGE, "encoding of %s: there is no number %d", all[i].which,
+                              all[i].value);
+    return true;
+}
+
+static bool finite3(const double v[3]) {
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
 static bool check_options(const struct glint_sample_options *o, struct glint_error *err) {
     if (o->width > MAX_SIDE || o->height > MAX_SIDE || !o->width != !o->height)
         return glint_fail(err, GLINT_ERROR_USAGE, "size %u x %u: expected 1 to %d a side", o->width, o->height,
                           MAX_SIDE);
     if (o->cube_size > MAX_CUBE)
         return glint_fail(err, GLINT_ERROR_USAGE, "cube size %u: expected at most %d", o->cube_size, MAX_CUBE);
-    if (o->fov_y_rad < 0 || !(o->fov_y_rad < 3.0))
+    if (o->frames > MAX_FRAME || o->first_frame > MAX_FRAME)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%u frames from %u: expected at most %d", o->frames, o->first_frame,
+                          MAX_FRAME);
+    if (!(o->fov_y_rad >= 0 && o->fov_y_rad < 3.0))
         return glint_fail(err, GLINT_ERROR_USAGE, "field of view %g rad: expected between 0 and 3", o->fov_y_rad);
-    double apart = 0;
-    for (int i = 0; i < 3; i++) {
-        double moved = o->target[i] - o->eye[i];
-        apart += moved * moved;
-        if (!isfinite(o->offset[i])) return glint_fail(err, GLINT_ERROR_USAGE, "offset: expected finite numbers");
-    }
-    if (o->camera_given && !(apart > 1e-12 && isfinite(apart)))
+    if (!finite3(o->offset)) return glint_fail(err, GLINT_ERROR_USAGE, "offset: expected finite numbers");
+    bool looks = finite3(o->eye) && finite3(o->target) && memcmp(o->eye, o->target, sizeof o->eye);
+    if (o->camera_given && !looks)
         return glint_fail(err, GLINT_ERROR_USAGE, "camera: expected a position and another point to look at");
-    return true;
+    return check_encodings(&o->encodings, err);
 }
 
 static bool build_scene(const char *name, struct session *s, struct glint_error *err) {

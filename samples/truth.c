@@ -40,18 +40,25 @@ static vec3 result(const struct mean *mean, uint32_t samples, float *weight, flo
     return color;
 }
 
+/* The surface that a pixel shows, and what its lobes are around. */
+struct start {
+    vec3 to_eye, normal; /* unit; the G-buffer's normal */
+    vec3 geometric, leave;
+    float roughness;
+};
+
 /* Draws that go below the horizon, of the normal or of the surface itself, are repeated. */
-static vec3 average(const struct truth_work *work, const struct pixel *pixel, vec3 to_eye, vec3 normal, lobe *draw,
-                    uint32_t seed, float *weight, float *error) {
+static vec3 average(const struct truth_work *work, const struct start *start, lobe *draw, uint32_t seed, float *weight,
+                    float *error) {
     enum { MOST_REPEATS = 64 };
     struct mean mean = {0};
     for (uint32_t i = 0; i < work->samples; i++) {
         float u, v;
         r2_point(i, seed, &u, &v);
         for (uint32_t k = 0; k < MOST_REPEATS; k++) {
-            vec3 direction = draw(to_eye, normal, pixel->roughness, u, v);
-            if (dot(direction, normal) > 0 && dot(direction, pixel->geometric) > 0) {
-                gather(&mean, world_look(work->world, pixel->leave, direction, NULL));
+            vec3 direction = draw(start->to_eye, start->normal, start->roughness, u, v);
+            if (dot(direction, start->normal) > 0 && dot(direction, start->geometric) > 0) {
+                gather(&mean, world_look(work->world, start->leave, direction, NULL));
                 break;
             }
             uint32_t again = hash_two(hash_two(seed, i), k);
@@ -72,24 +79,30 @@ static bool on_screen(const struct truth_work *work, const struct hit *hit) {
     return !world_blocked(work->world, from, sub(view_eye(work->view), from), 1);
 }
 
+static struct truth truth_of(const struct truth_work *work, uint32_t x, uint32_t y) {
+    uint32_t index = y * work->view->width + x;
+    struct truth truth = {.distance = INFINITY};
+    struct hit seen = primary_hit(work->world, work->view, x, y);
+    if (!(seen.t < INFINITY)) return truth;
+    struct start start = {.to_eye = unit(sub(view_eye(work->view), seen.position)),
+                          .normal = unit(work->pixels[index].normal),
+                          .geometric = seen.geometric,
+                          .leave = world_leave(&seen, seen.geometric),
+                          .roughness = work->pixels[index].roughness};
+    truth.ggx = average(work, &start, lobe_ggx, 2 * index, &truth.ggx_weight, &truth.ggx_error);
+    truth.blinn_phong = average(work, &start, lobe_blinn_phong, 2 * index + 1, &truth.phong_weight, &truth.phong_error);
+    vec3 mirror = unit(reflected(start.to_eye, start.normal));
+    struct hit hit = world_trace(work->world, start.leave, mirror, 0);
+    if (!(hit.t < INFINITY)) return truth;
+    truth.distance = length(sub(hit.position, seen.position));
+    truth.visible = on_screen(work, &hit) ? 1 : 0;
+    return truth;
+}
+
 static void truth_row(void *user, uint32_t y) {
     const struct truth_work *work = user;
-    for (uint32_t x = 0; x < work->view->width; x++) {
-        uint32_t index = y * work->view->width + x;
-        const struct pixel *pixel = &work->pixels[index];
-        struct truth *truth = &work->truth[index];
-        *truth = (struct truth){.distance = INFINITY};
-        if (!(pixel->depth < INFINITY)) continue;
-        vec3 to_eye = unit(sub(view_eye(work->view), pixel->position)), normal = unit(pixel->normal);
-        truth->ggx = average(work, pixel, to_eye, normal, lobe_ggx, 2 * index, &truth->ggx_weight, &truth->ggx_error);
-        truth->blinn_phong = average(work, pixel, to_eye, normal, lobe_blinn_phong, 2 * index + 1, &truth->phong_weight,
-                                     &truth->phong_error);
-        vec3 mirror = unit(reflected(to_eye, normal));
-        struct hit hit = world_trace(work->world, pixel->leave, mirror, 0);
-        if (!(hit.t < INFINITY)) continue;
-        truth->distance = length(sub(hit.position, pixel->position));
-        truth->visible = on_screen(work, &hit) ? 1 : 0;
-    }
+    for (uint32_t x = 0; x < work->view->width; x++)
+        work->truth[(size_t)y * work->view->width + x] = truth_of(work, x, y);
 }
 
 bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,

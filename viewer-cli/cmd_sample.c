@@ -289,7 +289,8 @@ const struct command cmd_sample = {
     .summary = "write a capture with the stand-in engine",
     .description =
         "Renders a built-in scene or a glTF file and dumps it as an engine would: G-buffer, lit colour, cube "
-        "maps, sky, camera, and on request the path traced truth. The same options give the same bytes.",
+        "maps, sky, camera, and on request the path traced truth. The same options give the same bytes. Of a glTF "
+        "file's materials the factors are used (base colour, roughness, metalness, emission), not the textures.",
     .options = options,
     .parse = parse,
     .examples = examples,

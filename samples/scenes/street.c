@@ -112,7 +112,7 @@ static void paint_shop(struct surface *s) {
     float hue = cell_random((int32_t)floorf(1.5f * z), (int32_t)floorf(board), 5);
     vec3 tint =
         goods ? mix(v3(0.9f - 0.7f * hue, 0.2f + 0.3f * height, 0.15f + 0.6f * hue), gray(0.3f), 0.35f) : gray(0.9f);
-    float ceiling = 0.22f + 0.5f * smooth(0.6f, 3, y);
+    float ceiling = 0.14f + 0.34f * smooth(0.6f, 3, y);
     s->emission = times(scale(s->emission, ceiling * (above < 0.06f && y < 2.3f ? 0.25f : 1)), tint);
 }
 

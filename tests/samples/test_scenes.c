@@ -270,6 +270,10 @@ static void test_wrong_options_are_errors(void **state) {
     assert_false(glint_sample_write("matte", path, &o, NULL, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     o = options();
+    o.encodings.motion = (enum glint_motion_encoding)9;
+    assert_false(glint_sample_write("matte", path, &o, NULL, NULL, &err));
+    assert_non_null(strstr(err.message, "motion"));
+    o = options();
     assert_false(glint_sample_write("no_such_scene", path, &o, NULL, NULL, &err));
     assert_non_null(strstr(err.message, "no_such_scene"));
     assert_null(fopen(path, "rb"));

@@ -240,7 +240,7 @@ static void test_a_mirrored_wall_is_lit_like_the_wall(void **state) {
     for (uint32_t k = 0; k < W * H; k++) {
         if (isinf(pixels[k].depth) || pixels[k].metalness < 1 || isinf(truth[k].distance)) continue;
         vec3 d = unit(view_ray(&view, k % W, k / W)), up = v3(d.x, -d.y, d.z);
-        vec3 from = v3(pixels[k].position.x, 0, pixels[k].position.z);
+        vec3 from = along(scene.eye, d, -scene.eye.y / d.y);
         float t = (-2 - from.z) / up.z;
         vec3 at = along(from, up, t);
         struct hit hit = world_trace(world, add(at, v3(0, 0, 1)), v3(0, 0, -1), 0); /* straight at that point */
