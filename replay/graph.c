@@ -63,6 +63,11 @@ static size_t reads_of(const struct glint_row *row, const char *names[2]) {
 static void check_producers(const struct graph *graph, struct faults *faults) {
     for (size_t i = 0; i < graph->pass_count; i++) {
         const struct glint_pass *pass = graph->passes[i].pass;
+        size_t images = 0;
+        for (size_t r = 0; r < pass->row_count; r++) images += row_is_image(&pass->rows[r]);
+        if (images > PASS_IMAGES_MAX)
+            faults_add(faults, GLINT_ERROR_LIMIT, "%s/%s: %zu images, expected at most %d", pass->slot, pass->variant,
+                       images, PASS_IMAGES_MAX);
         for (size_t r = 0; r < pass->row_count; r++) {
             if (!row_is_output(&pass->rows[r])) {
                 if (pass->rows[r].kind == GLINT_ROW_READ && pass->host)

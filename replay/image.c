@@ -144,7 +144,7 @@ void image_access(struct image *image, enum image_access access, struct barriers
     bool write = accesses[access].write, takes_over = block->owner != image;
     bool unseen_write = block->write_stage && !(block->read_stages & stage);
     bool after_others = block->write_stage || block->read_stages;
-    if ((takes_over || (write ? after_others : unseen_write)) && barriers->count < BARRIERS_MAX)
+    if ((takes_over || (write ? after_others : unseen_write)) && barriers->count < PASS_IMAGES_MAX)
         barriers->images[barriers->count++] = (VkImageMemoryBarrier2){
             .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
             .srcStageMask = write || takes_over ? block->write_stage | block->read_stages : block->write_stage,

@@ -3,6 +3,7 @@
 #define GLINT_REPLAY_IMAGE_H
 
 #include "device.h"
+#include "pipeline.h"
 
 struct image;
 
@@ -52,9 +53,8 @@ bool image_bind(struct image *image, struct glint_device *device, struct block *
 void image_destroy(struct image **image, struct glint_device *device);
 
 /* Barriers gathered for one step. */
-enum { BARRIERS_MAX = 64 };
 struct barriers {
-    VkImageMemoryBarrier2 images[BARRIERS_MAX];
+    VkImageMemoryBarrier2 images[PASS_IMAGES_MAX];
     uint32_t count;
 };
 enum image_access { IMAGE_SHADER_READ, IMAGE_SHADER_WRITE, IMAGE_COPY_READ, IMAGE_COPY_WRITE, IMAGE_CLEAR };

@@ -4,6 +4,8 @@
 
 #include "glint/replay.h"
 
+enum { PASS_IMAGES_MAX = 64 }; /* that one pass may read and write */
+
 struct pipeline_pass {
     const struct glint_pass *pass;
     double *values; /* one for each row; rows without a value hold 0 */

@@ -93,9 +93,9 @@ void programs_finish(struct programs *programs, struct glint_device *device) {
 
 static VkResult create_layouts(struct program *program, struct glint_device *device, VkDescriptorSetLayout frame,
                                const struct glint_pass *pass, const struct constants *constants, const char *name) {
-    VkDescriptorSetLayoutBinding bindings[64];
+    VkDescriptorSetLayoutBinding bindings[PASS_IMAGES_MAX];
     uint32_t count = 0;
-    for (size_t i = 0; i < pass->row_count && count < 64; i++) {
+    for (size_t i = 0; i < pass->row_count && count < PASS_IMAGES_MAX; i++) {
         enum glint_row_kind kind = pass->rows[i].kind;
         if (kind != GLINT_ROW_READ && kind != GLINT_ROW_WRITE && kind != GLINT_ROW_DIAGNOSTIC) continue;
         bindings[count++] = (VkDescriptorSetLayoutBinding){pass->rows[i].id,

@@ -40,6 +40,16 @@ static json_t *device_record(const struct glint_device_info *info) {
                      info->driver_version, "times_are", info->is_cpu ? "CPU times of a software device" : "GPU times");
 }
 
+/* Whether the images that were read instead of computed come from this capture. */
+static bool inputs_match(const struct run *run) {
+    char hash[33];
+    json_t *inputs = json_loads(glint_run_json(run->inputs), 0, NULL);
+    const char *theirs = json_string_value(json_object_get(json_object_get(inputs, "capture"), "xxh3_128"));
+    bool match = theirs && glint_capture_hash(run->replay->capture, hash, NULL) && strcmp(theirs, hash) == 0;
+    json_decref(inputs);
+    return match;
+}
+
 static json_t *warnings(const struct run *run) {
     json_t *list = json_array();
     for (size_t i = 0; i < run->graph.image_count; i++) {
@@ -48,6 +58,8 @@ static json_t *warnings(const struct run *run) {
             json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
                                                      image->row->role, image->name, image->row->nothing));
     }
+    if (run->inputs && !inputs_match(run))
+        json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
     const char *last = NULL;
     uint32_t messages = glint_device_messages(run->replay->device, &last);
     if (messages) json_array_append_new(list, json_sprintf("%u validation messages, the last: %s", messages, last));

@@ -12,14 +12,14 @@
 #include "glint/exr.h"
 #include "timing.h"
 
-enum { IMAGES_MAX = 32, PATH_SIZE = 4096, CHANNELS = 4 };
+enum { PATH_SIZE = 4096, CHANNELS = 4 };
 
 /* One EXR file, written by a worker while the next pass is read back. */
 struct job {
     const struct glint_pass *pass;
     struct host_buffer buffer;
-    struct image *images[IMAGES_MAX];
-    VkDeviceSize offsets[IMAGES_MAX];
+    struct image *images[PASS_IMAGES_MAX];
+    VkDeviceSize offsets[PASS_IMAGES_MAX];
     size_t count;
     char path[PATH_SIZE];
     pthread_t thread;
@@ -91,7 +91,7 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
 static void *write_file(void *argument) {
     struct job *job = argument;
     double start = now_seconds();
-    struct glint_exr_part parts[IMAGES_MAX] = {0};
+    struct glint_exr_part parts[PASS_IMAGES_MAX] = {0};
     struct part_memory *memory = calloc(job->count, sizeof *memory);
     job->ok = memory || glint_fail(&job->err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     for (size_t i = 0; job->ok && i < job->count; i++) job->ok = fill_part(job, i, &memory[i], &parts[i], &job->err);
@@ -120,6 +120,16 @@ static json_t *image_record(const struct image *image, const char *file) {
     return json_pack("{ssssssssssss si si ss}", "name", image->name, "file", file, "part", image->name, "channels",
                      row->channels, "unit", row->unit, "meaning", row->help, "width", (int)image->info.width, "height",
                      (int)image->info.height, "format", format_name(image->desc.format));
+}
+
+/* Replacing the run that this one was made from would lose what this one left out. */
+static bool check_not_inputs(const struct glint_replay *replay, const char *folder, struct glint_error *err) {
+    const char *inputs = json_string_value(json_object_get(replay->record, "inputs"));
+    struct stat from, to;
+    if (!inputs || stat(inputs, &from) != 0 || stat(folder, &to) != 0 || from.st_dev != to.st_dev ||
+        from.st_ino != to.st_ino)
+        return true;
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s: the inputs of this run lie here; expected another folder", folder);
 }
 
 /* Removes the files that an earlier run.json lists, and that file first: no mixture ever looks complete. */
@@ -175,7 +185,7 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
     const struct glint_pass_result *result = &replay->results[p];
     char file[128];
     job->pass = result->pass;
-    job->count = images_of_pass(replay, result->pass, job->images, IMAGES_MAX);
+    job->count = images_of_pass(replay, result->pass, job->images, PASS_IMAGES_MAX);
     snprintf(file, sizeof file, "%02zu-%s.exr", p + 1, result->pass->slot);
     if (snprintf(job->path, sizeof job->path, "%s/%s", folder, file) >= (int)sizeof job->path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
@@ -192,7 +202,7 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
     if (!replay->record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
-    if (!remove_old(folder, err)) return false;
+    if (!check_not_inputs(replay, folder, err) || !remove_old(folder, err)) return false;
     json_t *root = json_deep_copy(replay->record);
     struct job *jobs = calloc(2, sizeof *jobs);
     bool ok = (root && jobs) || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);

@@ -131,7 +131,7 @@ static void an_unchanged_pass_does_not_run_again(void **state) {
     assert_true(fixture_result(fixture, "screen_trace")->cached);
     assert_false(fixture_result(fixture, "cubemap_trace")->cached);
     assert_false(fixture_result(fixture, "compose")->cached);
-    assert_true(glint_replay_seconds(fixture->replay, "read") == seconds); /* nothing was read for it */
+    assert_true(glint_replay_seconds(fixture->replay, "read") == seconds);         /* nothing was read for it */
     assert_true(glint_pipeline_set(pipeline, "cubemap_trace.length_m=300", &err)); /* the default: others share it */
     fixture_check_messages(fixture);
 }

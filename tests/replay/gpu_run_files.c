@@ -147,6 +147,43 @@ static bool stop_late(void *user, const char *what, double done) {
     return strcmp(what, "resolve") != 0;
 }
 
+static void a_run_does_not_replace_its_own_inputs(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    const char *const last[] = {"compose", NULL};
+    char folder[128];
+    fixture_run(fixture, NULL);
+    fixture_write_run(fixture, "inputs", folder);
+    fixture_run(fixture, &(struct glint_replay_options){.passes = last, .inputs = folder});
+    assert_false(glint_replay_write(fixture->replay, folder, NULL, NULL, &err));
+    fixture_says(&err, "the inputs of this run lie here");
+    assert_true(exists(folder, "run.json"));
+    assert_true(exists(folder, "02-downsample.exr"));
+}
+
+static void inputs_of_another_capture_are_warned_of(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    const char *const last[] = {"compose", NULL};
+    char folder[128], path[128];
+    fixture_run(fixture, NULL);
+    fixture_write_run(fixture, "inputs", folder);
+    snprintf(path, sizeof path, "%s/other.exr", fixture->folder);
+    assert_true(fixture_write_capture(path, &(struct fixture_options){.no_cubemaps = true}, &err));
+    struct glint_capture *other = glint_capture_open(path, NULL, &err);
+    assert_non_null(other);
+    for (int same = 0; same < 2; same++) {
+        assert_true(glint_replay_load(fixture->replay, same ? fixture->capture : other, &err));
+        fixture_run(fixture, &(struct glint_replay_options){.passes = last, .inputs = folder});
+        fixture_write_run(fixture, "warned", path);
+        struct glint_run *run = glint_run_open(path, &err);
+        assert_non_null(run);
+        assert_true((strstr(glint_run_json(run), "was made from another capture") != NULL) == !same);
+        glint_run_close(&run);
+    }
+    glint_capture_close(&other);
+}
+
 static void an_interrupted_write_never_looks_complete(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -227,6 +264,8 @@ int main(void) {
         cmocka_unit_test(an_engines_image_stands_in_for_a_pass),
         cmocka_unit_test(a_run_folder_reads_back_as_it_was),
         cmocka_unit_test(foreign_tools_read_the_same_values),
+        cmocka_unit_test(a_run_does_not_replace_its_own_inputs),
+        cmocka_unit_test(inputs_of_another_capture_are_warned_of),
         cmocka_unit_test(an_interrupted_write_never_looks_complete),
         cmocka_unit_test(a_users_shader_replaces_the_pass),
         cmocka_unit_test(a_users_shader_with_foreign_bindings_is_refused),
