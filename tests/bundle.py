@@ -19,6 +19,17 @@ def libraries(program):
     return sorted(p for p in paths if p and not GLIBC.search(p))
 
 
+def licences(paths, folder):
+    """The copyright files of the packages that the libraries, and the font in the program, come from."""
+    os.mkdir(folder)
+    packages = {"fonts-dejavu-core"}
+    for path in paths:
+        found = subprocess.run(["dpkg", "-S", os.path.realpath(path)], capture_output=True, text=True)
+        packages.update(line.split(":")[0] for line in found.stdout.split("\n") if line)
+    for package in packages:
+        shutil.copy(f"/usr/share/doc/{package}/copyright", os.path.join(folder, package))
+
+
 def main():
     build, capture, folder = sys.argv[1:]
     if os.path.exists(folder) and os.listdir(folder) and not os.path.exists(os.path.join(folder, "bin", "glint")):
@@ -32,7 +43,9 @@ def main():
         shutil.move(os.path.join(prefix, part), os.path.join(temporary, part))
     lib = os.path.join(temporary, "lib")
     os.mkdir(lib)
-    for path in libraries(os.path.join(build, "viewer-cli", "glint")):
+    needed = libraries(os.path.join(build, "viewer-cli", "glint"))
+    licences(needed, os.path.join(temporary, "licences"))
+    for path in needed:
         target = os.path.join(lib, os.path.basename(path))
         shutil.copy(path, target)
         subprocess.run(["strip", "--strip-unneeded", target], check=True)
