@@ -106,7 +106,7 @@ static bool hand_over(struct bake *bake, struct glint_error *err) {
 
 bool bake_light(struct scene *scene, uint32_t samples, struct job *job, double weight, struct glint_error *err) {
     bool ok = false;
-    struct bake bake = {.scene = scene, .samples = samples};
+    struct bake bake = {.scene = scene};
     struct world *world = NULL;
     vec3 *sums = NULL;
     uint32_t *counts = NULL;
@@ -126,10 +126,12 @@ bool bake_light(struct scene *scene, uint32_t samples, struct job *job, double w
     if (!world) goto done;
     bake.world = world;
     uint32_t pieces = (bake.vertex_count + PIECE - 1) / PIECE, passes = scene->bounces + 1;
-    weight /= passes;
     if (!parallel_for(job, "lighting", 0, pieces, direct_piece, &bake, err)) goto done;
     for (uint32_t i = 0; i < passes; i++) {
-        if (!parallel_for(job, "lighting", weight, pieces, gather_piece, &bake, err)) goto done;
+        bool last = i + 1 == passes; /* what is gathered before it gets averaged once more, and may be rough */
+        bake.samples = last ? samples : (samples + 3) / 4;
+        double share = (double)bake.samples / (samples + (passes - 1.0) * ((samples + 3) / 4));
+        if (!parallel_for(job, "lighting", weight * share, pieces, gather_piece, &bake, err)) goto done;
         for (uint32_t k = 0; k < 2 * scene->mesh_count; k++) /* twice */
             smooth_mesh(&scene->meshes[k / 2], bake.next + bake.first[k / 2], sums, counts);
         vec3 *swapped = bake.gathered;

@@ -286,12 +286,13 @@ static bool prepare(struct session *s, struct glint_error *err) {
     if (s->options.truth_samples) s->truth = calloc(pixels, sizeof *s->truth);
     if (!s->pixels || !s->previous || !s->texels || (s->options.truth_samples && !s->truth))
         return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for %u x %u pixels", s->options.width, s->options.height);
-    if (s->options.probes == GLINT_PROBES_AUTO) s->scene.cubemap_count = 8; /* to be placed */
+    bool placed = s->options.probes == GLINT_PROBES_AUTO || !s->scene.cubemap_count;
+    if (placed) s->scene.cubemap_count = 8; /* at most, for the progress */
     s->job.total = total_work(s);
     if (!s->scene.unlit && !bake_light(&s->scene, s->light_samples, &s->job, 5, err)) return false;
     enum world_kind kind = s->options.probes == GLINT_PROBES_IMPERFECT ? WORLD_SIMPLIFIED : WORLD_ALL;
     s->probes = world_create(&s->scene, kind, s->options.first_frame - 1.0, err);
-    if (s->probes && s->options.probes == GLINT_PROBES_AUTO) place_probes(&s->scene, s->probes);
+    if (s->probes && placed) place_probes(&s->scene, s->probes);
     return s->probes != NULL;
 }
 

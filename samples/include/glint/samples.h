@@ -22,7 +22,9 @@ struct glint_sample_options {
     bool probes_given;      /* false: the scene's default */
     enum glint_probes probes;
     struct glint_encodings encodings;
-    uint32_t truth_samples; /* rays a pixel for truth.*; 0: none of these parts */
+    /* Rays a pixel for truth.*; 0: none of these parts. The parts of a lobe say it in `truthSamples`, and in
+       `truthNoise` the median over the pixels of the mean's standard error, relative. */
+    uint32_t truth_samples;
     uint32_t light_samples; /* rays a point for indirect light; 0: the scene's default */
     double fov_y_rad;       /* 0: the scene's */
     bool camera_given;      /* position, then a point looked at, in world units */
