@@ -19,7 +19,8 @@ vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
     float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);
-    return environment_reflectance(f0, clamp(surface.w, 0.0, 1.0), cosine);
+    float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0; // NaN is 0
+    return environment_reflectance(f0, roughness, cosine);
 }
 
 void main() {

@@ -20,7 +20,8 @@ static const double farthest = 1.95 / 128; /* √DRAWS */
 static void load(struct gpu *gpu, float roughness) {
     char path[256], name[32];
     snprintf(name, sizeof name, "plane%.0f", (double)roughness * 100);
-    plain_capture(gpu_path(gpu, name, path), SIZE, SIZE, roughness, 0.5);
+    plain_capture(gpu_path(gpu, name, path),
+                  &(struct plain){.width = SIZE, .height = SIZE, .roughness = roughness, .fov_y_degrees = 0.5});
     gpu_load(gpu, name);
     gpu_reset(gpu);
     gpu->float_precision = true;

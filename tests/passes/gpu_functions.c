@@ -23,7 +23,8 @@ static int evaluate(void **state) {
     if (gpu_set_up(state) != 0) return -1;
     struct gpu *gpu = *state;
     char path[256];
-    plain_capture(gpu_path(gpu, "plain", path), 2 * COLUMNS, 2 * ROWS, 0.5f, 60);
+    plain_capture(gpu_path(gpu, "plain", path),
+                  &(struct plain){.width = 2 * COLUMNS, .height = 2 * ROWS, .roughness = 0.5f, .fov_y_degrees = 60});
     gpu_load(gpu, "plain");
     gpu_shader(gpu, "downsample", "functions.comp");
     gpu->float_precision = true;

@@ -1,10 +1,27 @@
-/* The smallest capture that traces: a plane of one roughness that faces the camera. */
+/* Small captures by closed form, without cube maps. */
 #ifndef GLINT_TESTS_PASSES_PLAIN_CAPTURE_H
 #define GLINT_TESTS_PASSES_PLAIN_CAPTURE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
-/* The camera at the origin looks along -z at the plane z = -5 m with the given vertical field of view. No cube maps. */
-void plain_capture(const char *path, uint32_t width, uint32_t height, float roughness, double fov_y_degrees);
+/* Planes of values, in this order. */
+enum plain_channel {
+    PLAIN_DEPTH, PLAIN_NORMAL_X, PLAIN_NORMAL_Y, PLAIN_NORMAL_Z, PLAIN_ROUGHNESS, PLAIN_METALNESS, PLAIN_SPECULAR,
+    PLAIN_ALBEDO_R, PLAIN_ALBEDO_G, PLAIN_ALBEDO_B, PLAIN_MOTION_X, PLAIN_MOTION_Y, PLAIN_LIT_R, PLAIN_LIT_G, PLAIN_LIT_B,
+    PLAIN_CHANNELS
+};
+
+/* The camera at the origin looks along -z at the wall z = -5 m; with `floor`, y = -1 m is a mirror-like floor below it and
+   the wall's light depends on the place. */
+struct plain {
+    uint32_t width, height;
+    float roughness;
+    double fov_y_degrees;
+    bool floor;
+    /* Changes the values before they are written; NULL: not. values[channel · pixels + y · width + x]. */
+    void (*spoil)(const struct plain *plain, float *values);
+};
+void plain_capture(const char *path, const struct plain *plain);
 
 #endif
