@@ -38,21 +38,20 @@ static bool get(struct glint_replay *replay, const char *name, enum glint_type t
     return glint_replay_read_image(replay, image, type, out->data.any, err);
 }
 
-static float *read_truth(struct glint_capture *capture, uint32_t *width, uint32_t *height, struct glint_error *err) {
-    const struct glint_part_info *part = glint_capture_find(capture, "truth.mirror");
+/* Channels of a part of the truth, interleaved; NULL with an error. */
+static float *read_truth(struct glint_capture *capture, const char *name, const char *const *channels, size_t count,
+                         struct glint_error *err) {
+    const struct glint_part_info *part = glint_capture_find(capture, name);
     if (!part) {
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part truth.mirror: missing", glint_capture_path(capture));
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
         return NULL;
     }
-    *width = part->width;
-    *height = part->height;
-    float *truth = malloc((size_t)part->width * part->height * sizeof *truth);
+    float *truth = malloc((size_t)part->width * part->height * count * sizeof *truth);
     if (!truth) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "part truth.mirror: out of memory");
+        glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
         return NULL;
     }
-    if (glint_capture_read(capture, part, (const char *const[]){"distance.Z"}, 1, GLINT_F32, truth, 0, err))
-        return truth;
+    if (glint_capture_read(capture, part, channels, count, GLINT_F32, truth, 0, err)) return truth;
     free(truth);
     return NULL;
 }
@@ -63,7 +62,7 @@ static double relative_error(double found, double truth) {
 }
 
 struct sample {
-    double error;
+    double error, radiance_error;
     uint32_t group;
 };
 
@@ -80,10 +79,12 @@ static void summarize(const struct sample *samples, size_t count, uint32_t first
         if (samples[i].group < first || samples[i].group > last) continue;
         ++row->rays;
         right += samples[i].error <= 0.05;
+        row->radiance_error += samples[i].radiance_error;
     }
     if (row->rays == 0) return;
     row->share = (double)row->rays / (double)count;
     row->right = (double)right / (double)row->rays;
+    row->radiance_error /= (double)row->rays;
     for (size_t i = 0; i < count; ++i) {
         if (samples[i].group < first || samples[i].group > last) continue;
         if (seen == row->rays / 2) row->median_error = samples[i].error;
@@ -106,56 +107,92 @@ static void fill(struct sample *samples, size_t count, struct glint_trace_table 
     table->rows[table->count++] = all;
 }
 
+/* What is compared: images of the run at its resolution, the truth at the capture's. */
+struct inputs {
+    struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, reflection;
+    float *distance, *radiance;
+    uint32_t width, height; /* of the truth */
+};
+
+static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct glint_capture *capture,
+                        struct glint_error *err) {
+    static const char *const rgb[] = {"R", "G", "B"}, *const distance[] = {"distance.Z"};
+    in->distance = read_truth(capture, "truth.mirror", distance, 1, err);
+    if (!in->distance) return false;
+    in->width = glint_capture_find(capture, "truth.mirror")->width;
+    in->height = glint_capture_find(capture, "truth.mirror")->height;
+    if (glint_capture_find(capture, "truth.reflection.ggx")) {
+        in->radiance = read_truth(capture, "truth.reflection.ggx", rgb, 3, err);
+        if (!in->radiance) return false;
+    }
+    return get(replay, "normal_half", GLINT_F32, true, &in->normal, err) &&
+           get(replay, "pick", GLINT_U32, true, &in->pick, err) &&
+           get(replay, "travelled", GLINT_F32, true, &in->travelled, err) &&
+           get(replay, "screen_finished", GLINT_U32, false, &in->finished, err) &&
+           get(replay, "screen_end", GLINT_U32, false, &in->screen_end, err) &&
+           get(replay, "cubemap_end", GLINT_U32, false, &in->cubemap_end, err) &&
+           get(replay, "reflection_half", GLINT_F32, false, &in->reflection, err);
+}
+
+static void free_inputs(struct inputs *in) {
+    struct pixels *images[] = {&in->normal,     &in->pick,        &in->travelled, &in->finished,
+                               &in->screen_end, &in->cubemap_end, &in->reflection};
+    for (size_t i = 0; i < sizeof images / sizeof images[0]; ++i) free(images[i]->data.any);
+    free(in->distance);
+    free(in->radiance);
+}
+
 /* Reasons of images that the run lacks are 0, not traced. */
 static uint32_t reason_at(const struct pixels *image, size_t i) {
     uint32_t reason = image->data.u ? image->data.u[i] : 0;
     return reason < REASONS ? reason : 0;
 }
 
+static double radiance_error(const struct inputs *in, size_t texel, size_t pixel) {
+    if (!in->reflection.data.f || !in->radiance) return NAN;
+    double sum = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        double found = (double)in->reflection.data.f[4 * texel + k], truth = (double)in->radiance[3 * pixel + k];
+        sum += fabs(found - truth) / (found + truth + 0.05) / 3;
+    }
+    return sum;
+}
+
+/* One texel of the run; false when it has no ray to compare. */
+static bool compare(const struct inputs *in, size_t i, double max_roughness, struct sample *sample) {
+    uint32_t scale = in->travelled.width == in->width && in->travelled.height == in->height ? 1 : 2;
+    uint32_t pick = in->pick.data.u[i] < 4 && scale == 2 ? in->pick.data.u[i] : 0;
+    uint32_t x = scale * (uint32_t)(i % in->travelled.width) + (pick & 1);
+    uint32_t y = scale * (uint32_t)(i / in->travelled.width) + (pick >> 1);
+    if (x >= in->width || y >= in->height) return false;
+    size_t pixel = (size_t)y * in->width + x;
+    bool on_screen = in->finished.data.u && in->finished.data.u[i] != 0;
+    uint32_t reason = reason_at(on_screen ? &in->screen_end : &in->cubemap_end, i);
+    double distance = (double)in->distance[pixel];
+    if (reason == 0 || !(in->normal.data.f[4 * i + 3] <= (float)max_roughness) || !(distance > 0)) return false;
+    *sample = (struct sample){relative_error((double)in->travelled.data.f[i], distance), radiance_error(in, i, pixel),
+                              (on_screen ? 0 : REASONS) + reason};
+    return true;
+}
+
 bool glint_study_trace(struct glint_replay *replay, struct glint_capture *capture, double max_roughness,
                        struct glint_trace_table *table, struct glint_error *err) {
-    struct pixels normal = {0}, pick = {0}, travelled = {0}, finished = {0}, screen_end = {0}, cubemap_end = {0};
+    struct inputs in = {0};
     struct sample *samples = NULL;
-    uint32_t width = 0, height = 0;
-    bool ok = false;
+    size_t count = 0;
     *table = (struct glint_trace_table){0};
-    float *truth = read_truth(capture, &width, &height, err);
-    if (!truth || !get(replay, "normal_half", GLINT_F32, true, &normal, err) ||
-        !get(replay, "pick", GLINT_U32, true, &pick, err) ||
-        !get(replay, "travelled", GLINT_F32, true, &travelled, err) ||
-        !get(replay, "screen_finished", GLINT_U32, false, &finished, err) ||
-        !get(replay, "screen_end", GLINT_U32, false, &screen_end, err) ||
-        !get(replay, "cubemap_end", GLINT_U32, false, &cubemap_end, err))
-        goto done;
-    size_t count = 0, pixels = (size_t)travelled.width * travelled.height;
-    samples = malloc(pixels * sizeof *samples);
+    bool ok = read_inputs(&in, replay, capture, err);
+    size_t texels = (size_t)in.travelled.width * in.travelled.height;
+    if (!ok) goto done;
+    samples = malloc(texels * sizeof *samples);
     if (!samples) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "trace table: out of memory");
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "trace table: out of memory");
         goto done;
     }
-    uint32_t scale = travelled.width == width && travelled.height == height ? 1 : 2;
-    for (size_t i = 0; i < pixels; ++i) {
-        uint32_t at = pick.data.u[i] < 4 && scale == 2 ? pick.data.u[i] : 0;
-        uint32_t x = scale * (uint32_t)(i % travelled.width) + (at & 1),
-                 y = scale * (uint32_t)(i / travelled.width) + (at >> 1);
-        const float *n = &normal.data.f[4 * i];
-        bool on_screen = finished.data.u && finished.data.u[i] != 0;
-        uint32_t reason = reason_at(on_screen ? &screen_end : &cubemap_end, i);
-        double distance = x < width && y < height ? (double)truth[(size_t)y * width + x] : 0;
-        if (reason == 0 || n[3] > (float)max_roughness || !(distance > 0)) continue;
-        samples[count++] =
-            (struct sample){relative_error((double)travelled.data.f[i], distance), (on_screen ? 0 : REASONS) + reason};
-    }
+    for (size_t i = 0; i < texels; ++i) count += compare(&in, i, max_roughness, &samples[count]);
     if (count > 0) fill(samples, count, table);
-    ok = true;
 done:
-    free(truth);
     free(samples);
-    free(normal.data.any);
-    free(pick.data.any);
-    free(travelled.data.any);
-    free(finished.data.any);
-    free(screen_end.data.any);
-    free(cubemap_end.data.any);
+    free_inputs(&in);
     return ok;
 }

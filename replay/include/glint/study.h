@@ -20,6 +20,8 @@ struct glint_trace_row {
     double right;        /* share of this row's rays within 5 % of the truth */
     double median_error; /* relative */
     double p95_error;
+    double radiance_error; /* mean of |found - truth|/(found + truth + 0.05) over R G B of reflection_half and
+                              truth.reflection.ggx; NAN when one is missing. The truth has no fog: compare without */
 };
 struct glint_trace_table {
     struct glint_trace_row rows[32]; /* those with rays, tracer by tracer; the last one is all of them */
