@@ -186,10 +186,19 @@ bool fixture_write(const struct fixture *f, const char *path, int count, const s
     return ok;
 }
 
+static char folder[512];
+
+static void remove_folder(void) {
+    rmdir(folder);
+}
+
 const char *fixture_path(char buffer[512], const char *name) {
     const char *root = getenv("TMPDIR");
-    snprintf(buffer, 512, "%s/glint-test-%ld", root ? root : "/tmp", (long)getpid());
-    mkdir(buffer, 0700);
+    snprintf(buffer, 512, "%.400s/glint-test-%ld", root ? root : "/tmp", (long)getpid());
+    if (!mkdir(buffer, 0700) && !folder[0]) {
+        snprintf(folder, sizeof folder, "%s", buffer);
+        atexit(remove_folder);
+    }
     const size_t length = strlen(buffer);
     snprintf(buffer + length, 512 - length, "/%s", name);
     return buffer;

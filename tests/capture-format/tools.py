@@ -35,7 +35,8 @@ def main(example, expected):
         path = os.path.join(folder, "tools.exr")
         for compression in range(6):
             lines = run(expected, path, str(compression)).split("\n")
-            header, info = run("exrheader", path), run("exrinfo", "-v", path)
+            if compression == 0:
+                header, info = run("exrheader", path), run("exrinfo", "-v", path)
             found = statistics(path)
             compared = 0
             for line in filter(None, lines):
