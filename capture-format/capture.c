@@ -12,12 +12,22 @@ static bool memory(const struct glint_check *check) {
 
 /* ---- siblings ---- */
 
+/* A shot shares one; with GLINT_SIBLING_SHARE this bounds what they take together. */
+#define MAX_SIBLINGS 8
+
 static struct glint_sibling *open_sibling(struct glint_capture *capture, struct glint_check *check,
                                           const struct glint_part_info *part) {
     for (size_t i = 0; i < capture->sibling_count; i++)
         if (!strcmp(capture->siblings[i].name, part->sibling)) return &capture->siblings[i];
+    if (capture->sibling_count == MAX_SIBLINGS) {
+        glint_fail(check->err, GLINT_ERROR_LIMIT, "%s: more than %d siblings, which is the limit", check->file,
+                   MAX_SIBLINGS);
+        return NULL;
+    }
     struct glint_sibling *sibling = &capture->siblings[capture->sibling_count];
     struct glint_error err = {0};
+    struct glint_limits limits = capture->exr->limits;
+    limits.memory_bytes /= GLINT_SIBLING_SHARE;
     char *path = glint_sibling_path(capture->exr->path, part->sibling);
     sibling->name = glint_arena_string(&capture->arena, part->sibling);
     if (!path || !sibling->name) {
@@ -25,7 +35,7 @@ static struct glint_sibling *open_sibling(struct glint_capture *capture, struct 
         memory(check);
         return NULL;
     }
-    sibling->exr = glint_exr_open(path, &capture->exr->limits, &err);
+    sibling->exr = glint_exr_open(path, &limits, &err);
     if (sibling->exr && !glint_hash_fd(sibling->exr->stream.fd, path, sibling->hex, &err))
         glint_exr_close(&sibling->exr);
     free(path);

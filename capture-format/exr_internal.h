@@ -13,6 +13,7 @@ struct glint_exr_stream {
     int fd;
     uint64_t bytes;     /* of the file */
     uint64_t allowance; /* bytes that may still be read through the stream; chunks do not pass through it */
+    bool exceeded;      /* more was asked for */
     const char *path;
     pthread_mutex_t lock;
     char complaint[256];
@@ -28,6 +29,13 @@ struct glint_exr_part_file {
     size_t *channel_bytes; /* offset of each channel in an unpacked line */
     exr_compression_t compression;
 };
+
+/* How memory_bytes is shared out: headers (which take up to 40 times their bytes), chunk tables, chunks in flight; the
+   rest is for the siblings of a capture. */
+#define GLINT_HEADER_SHARE 128
+#define GLINT_TABLE_SHARE 16
+#define GLINT_CHUNK_SHARE 4
+#define GLINT_SIBLING_SHARE 32
 
 struct glint_exr {
     char *path;

@@ -10,7 +10,7 @@
 #include "exr_internal.h"
 
 #define MAX_CHANNELS 1024
-/* Headers are text-sized; OpenEXRCore takes a small multiple of their bytes. */
+/* Headers are text-sized. */
 #define HEADER_BYTES ((uint64_t)16 << 20)
 
 static int64_t stream_read(exr_const_context_t context, void *user, void *buffer, uint64_t size, uint64_t offset,
@@ -20,6 +20,7 @@ static int64_t stream_read(exr_const_context_t context, void *user, void *buffer
     pthread_mutex_lock(&stream->lock);
     const bool allowed = size <= stream->allowance;
     if (allowed) stream->allowance -= size;
+    else stream->exceeded = true;
     pthread_mutex_unlock(&stream->lock);
     if (!allowed || offset > INT64_MAX) return -1;
     uint64_t done = 0;
@@ -71,13 +72,18 @@ static bool start(struct glint_exr *exr, struct glint_error *err) {
     init.size_fn = stream_size;
     init.max_image_width = init.max_image_height = 1 << 28; /* what no limit allows; read_layout says the real one */
     init.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-    exr->stream.allowance = HEADER_BYTES < exr->limits.memory_bytes / 16 ? HEADER_BYTES : exr->limits.memory_bytes / 16;
+    const uint64_t share = exr->limits.memory_bytes / GLINT_HEADER_SHARE;
+    const uint64_t allowance = HEADER_BYTES < share ? HEADER_BYTES : share;
+    exr->stream.allowance = allowance;
     const exr_result_t rv = exr_start_read(&exr->context, exr->path, &init);
+    if (exr->stream.exceeded)
+        return glint_fail(err, GLINT_ERROR_LIMIT, "%s: headers of more than %llu bytes, which is the limit", exr->path,
+                          (unsigned long long)allowance);
     if (rv == EXR_ERR_OUT_OF_MEMORY) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", exr->path);
     if (rv)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected an OpenEXR file, found: %s", exr->path,
                           exr->stream.complaint[0] ? exr->stream.complaint : exr_get_default_error_message(rv));
-    exr->stream.allowance = exr->limits.memory_bytes; /* chunk tables */
+    exr->stream.allowance = exr->limits.memory_bytes / GLINT_TABLE_SHARE;
     return true;
 }
 

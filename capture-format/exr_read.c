@@ -146,11 +146,11 @@ bool glint_exr_rows(struct glint_exr *exr, size_t p, const char *const *channels
     if (!find_channels(&job, channels, err)) return false;
     /* Packed, unpacked, and up to three more inside OpenEXRCore's PIZ. */
     const uint64_t chunk_bytes = (uint64_t)part->line_bytes * part->chunk_lines, worker_bytes = 6 * chunk_bytes;
-    const uint64_t fit = exr->limits.memory_bytes / 2 / worker_bytes;
+    const uint64_t fit = exr->limits.memory_bytes / GLINT_CHUNK_SHARE / worker_bytes;
     if (fit == 0)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: part %s: a chunk of %llu bytes, the limit is %llu", exr->path,
                           part->info.name, (unsigned long long)chunk_bytes,
-                          (unsigned long long)(exr->limits.memory_bytes / 12));
+                          (unsigned long long)(exr->limits.memory_bytes / GLINT_CHUNK_SHARE / 6));
     uint32_t workers = glint_loop_workers(part->chunk_count, threads);
     if (fit < workers) workers = (uint32_t)fit;
     pthread_mutex_init(&job.lock, NULL);

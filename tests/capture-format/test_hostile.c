@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "fixture.h"
+#include "glint/exr.h"
 #include "heap.h"
 #include "hostile.h"
 
@@ -129,15 +130,17 @@ static void limits_hold(void **state) {
     char path[512];
     struct glint_error err = {0};
     assert_true(fixture_write(&fixture, fixture_path(path, "limits.exr"), FIXTURE_PARTS, NULL, &err));
-    const struct glint_limits all[] = {{.file_bytes = 1000}, {.width = 30}, {.parts = 3}};
-    static const char *const words[] = {"the limit is 1000", "the limit is 30 x 180", "the limit is 3"};
-    for (int i = 0; i < 3; i++) {
+    const struct glint_limits all[] = {{.file_bytes = 1000}, {.width = 30}, {.parts = 3}, {.memory_bytes = 400000}};
+    static const char *const words[] = {"the limit is 1000", "the limit is 30 x 180", "the limit is 3", "3125 bytes"};
+    for (int i = 0; i < 4; i++) {
         err = (struct glint_error){0};
         assert_null(glint_capture_open(path, &all[i], &err));
+        assert_int_equal(err.code, GLINT_ERROR_LIMIT);
         if (!strstr(err.message, words[i])) fail_msg("%s", err.message);
     }
     /* Chunks that do not fit are refused before they are taken. */
-    const struct glint_limits tight = {.memory_bytes = 300000};
+    assert_true(fixture_write(&fixture, path, FIXTURE_LIT + 1, NULL, &err));
+    const struct glint_limits tight = {.memory_bytes = 900000};
     struct glint_capture *capture = glint_capture_open(path, &tight, &err);
     static float out[FIX_W * FIX_H];
     assert_non_null(capture);
@@ -145,6 +148,52 @@ static void limits_hold(void **state) {
                                     1, GLINT_F32, out, 0, &err));
     assert_int_equal(err.code, GLINT_ERROR_LIMIT);
     glint_capture_close(&capture);
+    unlink(path);
+}
+
+/* The headers that take the most for their bytes: many channels, many small attributes, many strings. */
+static void crowded_headers_stay_within_memory(void **state) {
+    (void)state;
+    char path[512];
+    struct glint_error err = {0};
+    static char names[1000][8];
+    static struct glint_exr_channel channels[1000];
+    static struct glint_exr_attribute attributes[1000];
+    static const char *empty[1000];
+    static const double one = 1;
+    for (int i = 0; i < 1000; i++) {
+        snprintf(names[i], sizeof names[i], "c%03d", i);
+        channels[i] = (struct glint_exr_channel){.name = names[i], .stored = GLINT_STORED_HALF, .data = names};
+        attributes[i] =
+            (struct glint_exr_attribute){.name = names[i], .type = GLINT_EXR_INT, .numbers = &one, .count = 1};
+        empty[i] = "";
+    }
+    attributes[0] =
+        (struct glint_exr_attribute){.name = "e", .type = GLINT_EXR_STRINGS, .strings = empty, .count = 1000};
+    struct glint_exr_part parts[8];
+    for (int i = 0; i < 8; i++)
+        parts[i] = (struct glint_exr_part){.name = names[i],
+                                           .width = 1,
+                                           .height = 1,
+                                           .channels = channels,
+                                           .channel_count = 1000,
+                                           .attributes = attributes,
+                                           .attribute_count = 1000};
+    for (size_t count = 1; count <= 8; count++) {
+        if (!glint_exr_write(fixture_path(path, "crowded.exr"), parts, count, 1, &err)) fail_msg("%s", err.message);
+        /* From limits that the headers just pass, to limits that they do not. */
+        for (uint64_t memory = 4 << 20; memory <= 64 << 20; memory *= 2) {
+            const struct glint_limits limits = {.memory_bytes = memory};
+            const size_t before = heap_peak_reset();
+            struct glint_capture *capture = glint_capture_open(path, &limits, &err);
+            assert_null(capture); /* gbuffer is missing, or a limit is passed */
+            struct glint_exr *exr = glint_exr_open(path, &limits, &err);
+            const size_t used = heap_peak() - before;
+            if (used > memory)
+                fail_msg("%zu parts: %zu bytes taken, the limit is %llu", count, used, (unsigned long long)memory);
+            glint_exr_close(&exr);
+        }
+    }
     unlink(path);
 }
 
@@ -172,9 +221,10 @@ static int teardown(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_off_anywhere_is_refused),       cmocka_unit_test(absurd_headers_take_no_memory),
-        cmocka_unit_test(two_parts_of_one_name_are_refused), cmocka_unit_test(limits_hold),
-        cmocka_unit_test(what_is_no_file_is_refused),        cmocka_unit_test(damage_is_read_or_refused),
+        cmocka_unit_test(cut_off_anywhere_is_refused),        cmocka_unit_test(absurd_headers_take_no_memory),
+        cmocka_unit_test(two_parts_of_one_name_are_refused),  cmocka_unit_test(limits_hold),
+        cmocka_unit_test(crowded_headers_stay_within_memory), cmocka_unit_test(what_is_no_file_is_refused),
+        cmocka_unit_test(damage_is_read_or_refused),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -206,7 +206,8 @@ bool glint_writer_set_frame(struct glint_writer *writer, const struct glint_fram
 /* Checks the part against its role and copies the pixels. The writer stays usable after a refused part. */
 bool glint_writer_add_part(struct glint_writer *writer, const struct glint_part *part, struct glint_error *err);
 /* Blocking: the file is complete on return. Background: returns when nothing of the caller's is needed any more. A
-   file of cube maps only (for `sibling`) needs no frame; every other needs the frame and the required roles. */
+   file of cube maps only (for `sibling`) needs no frame; every other needs the frame and the required roles. Siblings
+   that parts name must be complete by then: they are hashed here, on the worker in background mode. */
 bool glint_writer_finish(struct glint_writer *writer, struct glint_error *err);
 /* Background mode: waits for the file and returns the worker's result; blocking mode: returns the last result. */
 bool glint_writer_wait(struct glint_writer *writer, struct glint_error *err);
@@ -260,6 +261,7 @@ size_t glint_capture_part_count(const struct glint_capture *capture);
 const struct glint_part_info *glint_capture_part(const struct glint_capture *capture, size_t i);
 /* By name ("gbuffer", "cubemap.003"); NULL when the capture has none. */
 const struct glint_part_info *glint_capture_find(const struct glint_capture *capture, const char *name);
+/* Whether glint_capture_read can return it: the part's own channels, and the Z of an octahedral normal. */
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel);
 /* 32 hexadecimal digits over the file's bytes (XXH3-128) and a NUL. Reads the file once. */
 bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glint_error *err);
@@ -268,7 +270,8 @@ bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glin
    Only this part's chunks are read and decompressed, on `threads` threads (0: all cores). `type` is GLINT_F16, GLINT_F32
    or, for uint channels, GLINT_U8/U16/U32. A name of NULL yields 0. Canonical: depth in metres (+inf sky), unit world
    normals X Y Z, perceptual roughness, motion in uv (motion.Z in metres), linear colour, distance.Z in metres.
-   A channel that the part lacks is an error. Normals of length zero or not finite are returned as stored. */
+   A channel that the part lacks is an error. Normals of length zero or not finite are returned as stored. Bits are kept
+   where nothing is decoded and the types agree; a float too large for GLINT_F16 becomes infinity. */
 bool glint_capture_read(struct glint_capture *capture, const struct glint_part_info *part, const char *const *channels,
                         size_t count, enum glint_type type, void *out, uint32_t threads, struct glint_error *err);
 /* The same without decoding: values as stored, GLINT_F32 (half widened) or GLINT_U32. */
@@ -276,8 +279,9 @@ bool glint_capture_read_raw(struct glint_capture *capture, const struct glint_pa
                             const char *const *channels, size_t count, enum glint_type type, void *out,
                             uint32_t threads, struct glint_error *err);
 
-/* Checks every rule of FORMAT.md, pixels included. Calls `report` for each violation; returns false on an I/O or
-   memory failure only. *violations receives the count. */
+/* Checks every rule of FORMAT.md; pixels when the headers keep theirs, for what they mean depends on those. Calls
+   `report` once for each rule and channel that is broken, on the calling thread; false on an I/O, memory or limit failure
+   only. *violations receives the count. Takes a file of cube maps only, too. */
 typedef void (*glint_report)(void *user, const char *rule, const char *message);
 bool glint_capture_validate(const char *path, const struct glint_limits *limits, glint_report report, void *user,
                             size_t *violations, struct glint_error *err);
