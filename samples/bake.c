@@ -40,7 +40,6 @@ static vec3 incoming(const struct bake *bake, vec3 origin, vec3 direction) {
         uint32_t v = first + index[i];
         irradiance = add(irradiance, scale(add(bake->direct[v], bake->gathered[v]), 1 / 3.0f));
     }
-    irradiance = add(irradiance, gray(PI_F * bake->scene->fill * bake->scene->gain));
     /* Metals pass light on as if they were diffuse; otherwise a metal wall would be a hole in the room's light. */
     return add(scale(material->emission, bake->scene->gain), times(material->albedo, scale(irradiance, 1 / PI_F)));
 }

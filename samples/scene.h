@@ -78,7 +78,6 @@ struct scene {
     float gain;                         /* of every source of light, so that the picture needs no exposure */
     bool unlit;                         /* radiance is emission alone */
     uint32_t light_samples, bounces;    /* of baked light, by default */
-    float fill;                         /* radiance of what the last bounce would still bring, per albedo */
 
     vec3 eye, target;           /* at frame 1 */
     vec3 eye_step, target_step; /* each frame */

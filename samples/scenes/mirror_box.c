@@ -19,7 +19,6 @@ void build_mirror_box(struct scene *scene) {
     const struct material mirror = {
         .albedo = {0.95f, 0.95f, 0.95f}, .roughness = 0, .metalness = 1, .specular = 1, .stencil = STENCIL_WORLD};
     scene->unlit = true;
-    scene->probes = GLINT_PROBES_IMPERFECT;
     scene->cell = 8; /* nothing is baked, so that two triangles a side do */
     scene_mesh(scene, &wall, MESH_PLAIN);
     scene_room(scene, low, high, FACE_ALL & ~(uint32_t)FACE_NY);
