@@ -37,7 +37,7 @@ Quality quality_of(float roughness, uvec2 pixel) {
 
 // Distance of the surface that a cube map sees in a direction; +inf for sky. Interpolation with a sky texel is inf or
 // NaN, and stays out: the nearest texel counts there, so that nothing but finite values or +inf comes back.
-float seen_distance(vec3 from_center, uint place) {
+precise float seen_distance(vec3 from_center, uint place) {
     vec4 at = vec4(from_center, place);
     float nearest_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x;
     if (!(nearest_m < LARGEST)) return INFINITE;
@@ -47,7 +47,7 @@ float seen_distance(vec3 from_center, uint place) {
     return clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
 }
 
-float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
+precise float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
     float advance_m = mass == mass_along ? step_m : abs(dot(from_center, direction)) / distance_m * step_m;
     return mass_m + mass_step * advance_m;
 }
@@ -83,7 +83,7 @@ Sample sample_at(vec3 from_center, vec3 direction, float t, uint place) {
 
 // Between a sample in front and one behind, where the straight line between their gaps is 0. A sample in front of the sky
 // (gap -inf) says nothing, nor does a sample from another cube map (gap NaN).
-float secant_between(Sample front, Sample behind) {
+precise float secant_between(Sample front, Sample behind) {
     if (!(front.gap > -LARGEST)) return behind.t;
     float gap = min(front.gap, 0.0);
     return mix(front.t, behind.t, gap / (gap - behind.gap));
@@ -157,7 +157,7 @@ Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
     uint best = texelFetch(cubemap_best, pixel, 0).x;
     if (best >= frame.counts.x) return Result(start_m, NO_PLACE, END_no_cubemap, 0u, 0u);
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
-    vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    precise vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 direction = mirror_direction(origin, normal.xyz);
     return march(origin, direction, start_m, best, quality_of(normal.w, uvec2(pixel)));
 }

@@ -22,11 +22,11 @@ struct ScreenRay {
     bool vanishes;       // nothing lies between the end and its vanishing point
 };
 
-float travelled_at(ScreenRay ray, float s) { return s * ray.depth_m / (1.0 - s * ray.rate); }
-float inverse_depth_at(ScreenRay ray, float s) { return (1.0 - s * ray.rate) / ray.depth_m; }
+precise float travelled_at(ScreenRay ray, float s) { return s * ray.depth_m / (1.0 - s * ray.rate); }
+precise float inverse_depth_at(ScreenRay ray, float s) { return (1.0 - s * ray.rate) / ray.depth_m; }
 
 // How far a coordinate may go until it leaves [0, size].
-float exit(float start, float across, float size) {
+precise float exit(float start, float across, float size) {
     if (across > 0.0) return max(size - start, 0.0) / across;
     return across < 0.0 ? start / -across : LARGEST;
 }
@@ -39,7 +39,7 @@ ScreenRay screen_ray(vec2 start, vec3 position, vec3 direction) {
     ray.start = start;
     ray.depth_m = position.z * front;
     ray.rate = direction.z * front;
-    vec2 across = direction.xy - position.xy / ray.depth_m * ray.rate;
+    precise vec2 across = direction.xy - position.xy / ray.depth_m * ray.rate;
     ray.across = across * frame.uv_from_view.xy * vec2(frame.size.xy);
     ray.end = min(exit(start.x, ray.across.x, float(frame.size.x)), exit(start.y, ray.across.y, float(frame.size.y)));
     ray.limit = END_left_screen;
@@ -70,7 +70,7 @@ ivec2 nearest_texel(vec2 place, Grid grid) {
 
 // Inverse depth that the buffer shows at a place; 0: sky. Between four texels of one surface 1/z is bilinear, which is
 // exact on planes; over a discontinuity the nearest one counts.
-float seen_inverse(vec2 place, Grid grid) {
+precise float seen_inverse(vec2 place, Grid grid) {
     if (!interpolate) return 1.0 / texelFetch(depth_half, nearest_texel(place, grid), 0).x;
     vec2 texel = (place - grid.offset) / grid.scale;
     ivec2 corner = clamp(ivec2(floor(texel)), ivec2(0), max(ivec2(frame.size.zw) - 2, 0));
@@ -105,7 +105,7 @@ struct Result {
 
 // The parameter at which the ray meets the surface of the sample behind it: on the facet, when that is within a texel of
 // the last step, else between the two samples. gap: 1/ray depth - 1/seen depth, negative behind.
-float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front, float s, float gap, float scale) {
+precise float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front, float s, float gap, float scale) {
     float t = dot(facet.normal, facet.position - ray.origin) / dot(facet.normal, ray.direction);
     float on_facet = t / (ray.depth_m + t * ray.rate), texel = scale / length(ray.across);
     if (t > 0.0 && on_facet >= s_front - texel && on_facet <= s + texel) return on_facet;
@@ -125,7 +125,7 @@ Result march(ScreenRay ray, Grid grid, float shift) {
     for (int i = 1; i <= steps; ++i) {
         precise float s = ray.end * pow((float(i) - shift) / float(steps), growth);
         precise float inverse = inverse_depth_at(ray, s);
-        vec2 place = ray.start + s * ray.across;
+        precise vec2 place = ray.start + s * ray.across;
         precise float seen = seen_inverse(place, grid);
         precise float gap = inverse - seen;
         result.steps++;
@@ -162,7 +162,7 @@ Result march(ScreenRay ray, Grid grid, float shift) {
 Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     vec2 start = picked_position(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 view = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);
-    vec3 direction = mirror_direction(view, mat3(frame.view_from_world) * normal);
+    precise vec3 direction = mirror_direction(view, mat3(frame.view_from_world) * normal);
     if (length_m <= 0.0) return Result(0.0, false, END_steps_exhausted, 0u, 0u);
     if (dot(direction, -normalize(view)) > viewer_limit) return Result(0.0, false, END_faced_viewer, 0u, 0u);
     ScreenRay ray = screen_ray(start, view, direction);

@@ -1,16 +1,16 @@
 // Pixels, depths and positions. "View" is the camera's space in metres, "world" has the world's axes and the camera at
 // the origin. Depth is along the view axis and positive in front; `front` is the sign of view z there
-// (frame.depth_range.z). See frame_fields.h.
+// (frame.depth_range.z). See frame_fields.h. Results are precise: rays must not depend on how a shader was specialized.
 #ifndef GLINT_CAMERA
 #define GLINT_CAMERA
 #include "shared/constants.glsl"
 
-vec3 view_position(vec2 uv, float depth_m, vec4 view_from_uv, float front) {
+precise vec3 view_position(vec2 uv, float depth_m, vec4 view_from_uv, float front) {
     return depth_m * vec3(uv * view_from_uv.xy + view_from_uv.zw, front);
 }
 
 // uv of a point in front of the camera. Also for directions: their vanishing point.
-vec2 project(vec3 view, vec4 uv_from_view, float front) {
+precise vec2 project(vec3 view, vec4 uv_from_view, float front) {
     return view.xy / (view.z * front) * uv_from_view.xy + uv_from_view.zw;
 }
 
@@ -18,11 +18,11 @@ vec2 project(vec3 view, vec4 uv_from_view, float front) {
 float reduction(uvec4 size) { return size.xy == size.zw ? 1.0 : 2.0; }
 
 // Where the sample of a texel lies, in full-resolution pixels from the top left corner. `pick` is the image of that name.
-vec2 picked_position(ivec2 texel, uint pick, uvec4 size) {
+precise vec2 picked_position(ivec2 texel, uint pick, uvec4 size) {
     if (size.xy == size.zw) return vec2(texel) + 0.5;
     return 2.0 * vec2(texel) + (pick < 4u ? vec2(pick & 1u, pick >> 1u) + 0.5 : vec2(1.0));
 }
-vec2 picked_uv(ivec2 texel, uint pick, uvec4 size) { return picked_position(texel, pick, size) / vec2(size.xy); }
+precise vec2 picked_uv(ivec2 texel, uint pick, uvec4 size) { return picked_position(texel, pick, size) / vec2(size.xy); }
 
 // Whether a G-buffer pixel has a ray: not sky, depth and normal usable. Every comparison is false for NaN.
 bool reflects(float depth_m, vec3 normal) {
@@ -31,7 +31,7 @@ bool reflects(float depth_m, vec3 normal) {
 }
 
 // Direction of the mirror ray about a normal that need not be exactly of unit length.
-vec3 mirror_direction(vec3 position, vec3 normal) {
+precise vec3 mirror_direction(vec3 position, vec3 normal) {
     return normalize(reflect(normalize(position), normalize(normal)));
 }
 #endif

@@ -1,15 +1,15 @@
-// Elementary functions without cancellation, which GLSL lacks.
+// Elementary functions without cancellation, which GLSL lacks. They are precise, so that every pass sees the same values.
 #ifndef GLINT_STABLE
 #define GLINT_STABLE
 
 // e^x - 1. Near 0 a Taylor polynomial; its first missing term is below 2^-24 of the result for |x| < 0.35.
-float expm1(float x) {
+precise float expm1(float x) {
     if (abs(x) > 0.35) return exp(x) - 1.0;
     return x * (1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0 * (1.0 + x / 7.0))))));
 }
 
 // log(1 + x), x > -1. log through atanh: log(1 + x) = 2 atanh(x / (2 + x)); the series in y² ends below 2^-24 for |x| < 0.5.
-float log1p(float x) {
+precise float log1p(float x) {
     if (abs(x) > 0.5) return log(1.0 + x);
     float y = x / (2.0 + x), y2 = y * y;
     return 2.0 * y * (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
@@ -18,7 +18,7 @@ float log1p(float x) {
 // asin(x), x in [0, 1], where the built-in one may be 4096 ULP off. Three half angles, asin(x) = 2 asin(x / √(2 + 2√(1 - x²))),
 // leave x < 0.2, and Taylor's next term there is below 2^-24 of the result. cosine: √(1 - x²), given apart because near 1 it
 // does not survive x.
-float arc(float x, float cosine) {
+precise float arc(float x, float cosine) {
     for (int i = 0; i < 3; ++i) {
         float half_cosine = sqrt(0.5 + 0.5 * cosine);
         x = 0.5 * x / half_cosine;
@@ -29,8 +29,8 @@ float arc(float x, float cosine) {
 }
 
 // Angle whose cosine is 1 - q, q in [0, 1]: acos without its loss near 0; and the way back for angles up to π/2.
-float angle_from_versine(float q) { return arc(sqrt(q * (2.0 - q)), 1.0 - q); }
-float versine(float angle) {
+precise float angle_from_versine(float q) { return arc(sqrt(q * (2.0 - q)), 1.0 - q); }
+precise float versine(float angle) {
     float x = angle * angle;
     return x / 2.0 * (1.0 - x / 12.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0 * (1.0 - x / 132.0)))));
 }

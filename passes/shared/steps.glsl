@@ -4,7 +4,7 @@
 #include "shared/stable.glsl"
 
 // First of `count` steps with ratio k that sum to `total` (000, ComputeInitialStep): total (k - 1)/(k^count - 1).
-float geometric_first_step(float total, float ratio, int count) {
+precise float geometric_first_step(float total, float ratio, int count) {
     float x = log1p(ratio - 1.0);
     if (abs(x) < 1e-6) return total / float(count);
     return total * expm1(x) / expm1(float(count) * x);
@@ -13,7 +13,7 @@ float geometric_first_step(float total, float ratio, int count) {
 // Ratio with which `count` steps sum to `sum` times the first one. With x = log k, log of the series' sum is convex and
 // rises with x, so Newton from a point right of the root comes down to it without overshooting: 0 is right of it when
 // sum <= count, and so is log(sum)/(count - 1) otherwise, because the last step alone is smaller than the sum.
-float geometric_ratio(float sum, int count) {
+precise float geometric_ratio(float sum, int count) {
     float n = float(count);
     if (count < 2) return 1.0;
     float wanted = log(max(sum, 1.0));
