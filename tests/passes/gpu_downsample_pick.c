@@ -122,6 +122,51 @@ static void the_pick_alternates_or_is_the_first(void **state) {
     }
 }
 
+/* Block number b has a nearer surface in the pixels that b's bits name, x + 2y. */
+static void near_by_bits(const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < plain->width * plain->height; ++i) {
+        uint32_t x = i % plain->width, y = i / plain->width;
+        if (x / 2 % 16 >> (x % 2 + 2 * (y % 2)) & 1) values[i] = 2;
+    }
+}
+
+static void the_minority_of_an_edge_is_discarded(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    plain_capture(gpu_path(gpu, "bits", path), &(struct plain){32, 8, 0.3f, 60, false, near_by_bits});
+    gpu_load(gpu, "bits");
+    for (int edges = 1; edges >= 0; --edges) {
+        gpu_reset(gpu);
+        gpu_set(gpu, edges ? "downsample.edges=1" : "downsample.edges=0");
+        gpu_run(gpu);
+        uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
+        float *depth = gpu_floats(gpu, "depth_half", NULL, NULL);
+        for (uint32_t i = 0; i < width * height; ++i) {
+            uint32_t bits = i % width % 16, near_pixels = (bits & 1) + (bits >> 1 & 1) + (bits >> 2 & 1) + (bits >> 3);
+            bool near =
+                edges ? near_pixels >= 2 : bits >> 3 & 1; /* of two pairs the nearer; else the pixel whose turn it is */
+            assert_true(depth[i] == (near ? 2.0f : 5.0f));
+            assert_int_equal(bits >> pick[i] & 1, near); /* one of the block's own pixels */
+        }
+        free(pick), free(depth);
+    }
+}
+
+/* 7 x 3 pixels make 4 x 2 texels, of which the last ones have fewer than four. */
+static void odd_sizes_pick_inside(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    plain_capture(gpu_path(gpu, "odd", path), &(struct plain){7, 3, 0.3f, 60, false, NULL});
+    gpu_load(gpu, "odd");
+    gpu_reset(gpu);
+    gpu_run(gpu);
+    uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
+    assert_true(width == 4 && height == 2);
+    for (uint32_t i = 0; i < width * height; ++i)
+        assert_true(2 * (i % 4) + (pick[i] & 1) < 7 && 2 * (i / 4) + (pick[i] >> 1) < 3);
+    free(pick);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blinn_phong_is_the_slides),
@@ -129,6 +174,8 @@ int main(void) {
         cmocka_unit_test(ggx_is_the_default),
         cmocka_unit_test(roughness_zero_and_no_jitter_are_the_normal),
         cmocka_unit_test(the_pick_alternates_or_is_the_first),
+        cmocka_unit_test(the_minority_of_an_edge_is_discarded),
+        cmocka_unit_test(odd_sizes_pick_inside),
     };
     return cmocka_run_group_tests_name("gpu_downsample_pick", tests, gpu_set_up, gpu_tear_down);
 }
