@@ -10,8 +10,6 @@
 #include "half.h"
 #include "threads.h"
 
-#define MAX_WORKERS 64
-
 struct worker {
     uint8_t *packed, *unpacked, *scratch;
     size_t packed_bytes;
@@ -25,7 +23,7 @@ struct job {
     size_t count;
     glint_exr_rows_fn rows;
     void *user;
-    struct worker workers[MAX_WORKERS];
+    struct worker workers[GLINT_MAX_WORKERS];
     pthread_mutex_t lock;
     struct glint_error first;
 };

@@ -10,7 +10,6 @@
 #include "exr_internal.h"
 #include "threads.h"
 
-#define MAX_WORKERS 64
 /* Of libdeflate: level 1 packs noisy half-float images to within a few percent of what the slow levels reach. */
 #define ZIP_LEVEL 1
 
@@ -33,7 +32,7 @@ struct job {
     size_t target_count, chunk_count;
     exr_context_t context;
     struct glint_exr_stream stream;
-    struct worker workers[MAX_WORKERS];
+    struct worker workers[GLINT_MAX_WORKERS];
     pthread_mutex_t lock;
     pthread_cond_t turn;
     size_t next; /* the chunk whose turn it is to be written */

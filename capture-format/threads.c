@@ -5,8 +5,6 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
-#define MAX_WORKERS 64
-
 struct loop {
     size_t count;
     glint_loop_fn fn;
@@ -34,16 +32,16 @@ static void *work(void *user) {
 
 uint32_t glint_loop_workers(size_t count, uint32_t threads) {
     const long cores = threads ? (long)threads : sysconf(_SC_NPROCESSORS_ONLN);
-    uint32_t workers = cores < 1 ? 1 : cores > MAX_WORKERS ? MAX_WORKERS : (uint32_t)cores;
+    uint32_t workers = cores < 1 ? 1 : cores > GLINT_MAX_WORKERS ? GLINT_MAX_WORKERS : (uint32_t)cores;
     if (count < workers) workers = count ? (uint32_t)count : 1;
     return workers;
 }
 
 bool glint_loop(size_t count, uint32_t workers, glint_loop_fn fn, void *user) {
     struct loop loop = {.count = count, .fn = fn, .user = user};
-    struct worker all[MAX_WORKERS];
+    struct worker all[GLINT_MAX_WORKERS];
     uint32_t started = 1;
-    for (; started < workers && started < MAX_WORKERS; started++) {
+    for (; started < workers && started < GLINT_MAX_WORKERS; started++) {
         all[started] = (struct worker){.loop = &loop, .index = started};
         if (pthread_create(&all[started].thread, NULL, work, &all[started])) break;
     }

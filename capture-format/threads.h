@@ -10,6 +10,7 @@
    loop: indices not yet handed out are not run. */
 typedef bool (*glint_loop_fn)(void *user, uint32_t worker, size_t index);
 
+#define GLINT_MAX_WORKERS 64
 /* How many workers a loop of `count` runs on; `threads` 0 means one for each core. */
 uint32_t glint_loop_workers(size_t count, uint32_t threads);
 /* Runs on the calling thread and workers - 1 others (fewer when the system refuses them). True when no call failed. */

@@ -5,7 +5,7 @@ RULE(OPENEXR,   "openexr",          "The file is an OpenEXR file whose headers a
 RULE(VERSION,   "version",          "Every part of a known role carries `glint.version` (int), the same in all; a reader refuses versions that it does not know.")
 RULE(NAMES,     "unique-names",     "No two parts have one name.")
 RULE(REQUIRED,  "required-parts",   "A capture holds every required role. A file of cube maps only, for other captures to name as sibling, needs none.")
-RULE(STORAGE,   "scanline",         "Parts of known roles are flat scanline images without subsampling.")
+RULE(STORAGE,   "scanline",         "Parts of known roles are flat scanline images without subsampling, compressed by NONE, RLE, ZIPS, ZIP, PIZ, PXR24 or B44.")
 RULE(RESERVED,  "reserved-roles",   "A reserved role is not used before a version defines it.")
 RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral) and no channel that the role does not list.")
 RULE(TYPES,     "channel-types",    "`stencil.id` and packed motion are uint; every other listed channel is half or float.")

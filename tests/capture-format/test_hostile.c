@@ -124,6 +124,15 @@ static void two_parts_of_one_name_are_refused(void **state) {
     lie(find("cubemap.017", 11, 0), "cubemap.000", 11, "cubemap.000");
 }
 
+static void subsampled_parts_are_refused(void **state) {
+    (void)state;
+    load(FIXTURE_LIT + 1);
+    /* lit's first channel: its name, type, flags, then the step between samples on x. */
+    const size_t list = find("channels\0chlist\0", 16, find("channels\0chlist\0", 16, 0) + 1) + 16 + 4;
+    assert_memory_equal(whole + list, "B", 2);
+    lie(list + 2 + 4 + 4, &(int32_t){2}, 4, "part lit: expected flat scanlines");
+}
+
 static void limits_hold(void **state) {
     (void)state;
     load(FIXTURE_PARTS);
@@ -221,10 +230,10 @@ static int teardown(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_off_anywhere_is_refused),        cmocka_unit_test(absurd_headers_take_no_memory),
-        cmocka_unit_test(two_parts_of_one_name_are_refused),  cmocka_unit_test(limits_hold),
-        cmocka_unit_test(crowded_headers_stay_within_memory), cmocka_unit_test(what_is_no_file_is_refused),
-        cmocka_unit_test(damage_is_read_or_refused),
+        cmocka_unit_test(cut_off_anywhere_is_refused),       cmocka_unit_test(absurd_headers_take_no_memory),
+        cmocka_unit_test(two_parts_of_one_name_are_refused), cmocka_unit_test(limits_hold),
+        cmocka_unit_test(subsampled_parts_are_refused),      cmocka_unit_test(crowded_headers_stay_within_memory),
+        cmocka_unit_test(what_is_no_file_is_refused),        cmocka_unit_test(damage_is_read_or_refused),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

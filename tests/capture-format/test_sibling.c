@@ -154,7 +154,6 @@ static void cube_maps_alone_validate(void **state) {
     assert_int_equal(reported, 0);
 }
 
-/* The placeholder and the sibling open in any EXR tool: see test_tools. */
 static int setup(void **state) {
     (void)state;
     fixture_init(&fixture);
