@@ -10,6 +10,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#include "shared/cone.glsl"
 #include "shared/cubemap.glsl"
 #include "shared/fog.glsl"
 #include "shared/random.glsl"
@@ -88,6 +89,18 @@ vec4 evaluate(int row, int i) {
     if (row == ROW_GRAZING) {
         vec3 f0 = reflectance_at_normal(vec3(0.5), 0.0, float(i) / 255.0);
         return vec4(f0.x, reflectance_at_grazing(f0), environment_reflectance(f0, 0.3, 0.1).x, 0.0);
+    }
+    if (row >= ROW_CONE_ANGLE && row <= ROW_CONE_POWER) {
+        vec4 v = random4(uvec2(i, ROW_CONE_ANGLE), 0u, 0u);
+        float angle = i < 4 ? HALF_PI : i < 8 ? 0.0 : HALF_PI * v.x;
+        float end_m = (i & 3) == 0 ? 0.0 : exp2(16.0 * v.z - 8.0); // in the very centre, and on the camera's plane
+        float travelled_m = i % 5 == 0 ? 0.0 : i % 5 == 1 ? INFINITE : exp2(16.0 * v.y - 8.0);
+        if (row == ROW_CONE_ANGLE) return vec4(angle, travelled_m, end_m, 0.0);
+        if (row == ROW_CONE_CUBE) return vec4(cone_level_cube(angle, travelled_m, end_m, 512.0, 3.5), 0.0, 0.0, 0.0);
+        if (row == ROW_CONE_SCREEN)
+            return vec4(cone_level_screen(angle, travelled_m, end_m, 935.3, 3.5, 10.0), 0.0, 0.0, 0.0);
+        float tangent = cone_tangent_of_level(float(i % 10), 512.0, 1.0 + float(i / 10));
+        return vec4(tangent, cone_power(tangent, THRESHOLD), 0.0, 0.0);
     }
     // Stratified: 64 x 128 cells over the random numbers.
     int k = (row - ROW_VISIBLE) * COLUMNS + i;

@@ -16,8 +16,12 @@
 #define ROW_FRAME 14
 #define ROW_EXACT_MIRROR 15
 #define ROW_GRAZING 16
-#define ROW_VISIBLE 17 /* and the 31 after it */
-#define ROWS 49
+#define ROW_CONE_ANGLE 17 /* arguments of the next three */
+#define ROW_CONE_CUBE 18
+#define ROW_CONE_SCREEN 19
+#define ROW_CONE_POWER 20
+#define ROW_VISIBLE 21 /* and the 31 after it */
+#define ROWS 53
 #define COLUMNS 256
 #define VISIBLE_ANGLE 1.2
 #define VISIBLE_ALPHA 0.35

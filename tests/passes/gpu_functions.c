@@ -340,12 +340,51 @@ static void random_numbers_are_uniform_and_inside(void **state) {
     }
 }
 
+/* Slides, Computing MIP level in resolve shader; `spread` is radius at a distance of one over the tangent. */
+static double cone_level(double angle, double travelled, double end, double texels_at_1m, double most) {
+    double spread = isinf(travelled) ? INFINITY : travelled == 0 ? 0 : travelled / end;
+    double radius = angle == 0 || spread == 0 ? 0 : tan(angle) * spread;
+    return log2(fmin(fmax(1, radius * texels_at_1m / 3.5), most));
+}
+
+static void cones_have_the_slides_levels(void **state) {
+    (void)state;
+    double error = 0;
+    size_t between = 0;
+    for (int i = 0; i < COLUMNS; ++i) {
+        const float *t = texel(ROW_CONE_ANGLE, i);
+        double angle = (double)t[0] > 1.57 ? pi / 2 : (double)t[0], travelled = (double)t[1], end = (double)t[2];
+        double cube =
+            isinf(travelled) ? cone_level(angle, 1, 1, 256, 512) : cone_level(angle, travelled, end, 256, 512);
+        double screen = cone_level(angle, travelled, end, 935.3, 1024);
+        error = fmax(error, fabs((double)texel(ROW_CONE_CUBE, i)[0] - cube));
+        error = fmax(error, fabs((double)texel(ROW_CONE_SCREEN, i)[0] - screen));
+        between += cube > 0 && cube < 9;
+    }
+    print_message("# levels of cones: worst error %.3g; %zu lie between the ends\n", error, between);
+    assert_true(between > 50);
+    assert_true(error < 2e-5); /* tan's 4096 ULP where it is steep, and log2's 3 ULP of 9 */
+}
+
+static void a_cones_power_falls_to_the_threshold_at_its_rim(void **state) {
+    (void)state;
+    for (int i = 0; i < COLUMNS; ++i) {
+        const float *t = texel(ROW_CONE_POWER, i);
+        double radius_px = ldexp(1.0 + i / 10, i % 10), angle = atan(radius_px / (512 / 2));
+        assert_true(fabs((double)t[0] / (radius_px / 256) - 1) < 1e-6);
+        assert_true(fabs(pow(cos(angle), (double)t[1]) / threshold - 1) <
+                    2e-5); /* log and log1p: 4e-6, times log 0.1 */
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(expm1_and_log1p_lose_nothing_near_zero),
         cmocka_unit_test(power_and_angle_follow_the_slides),
         cmocka_unit_test(blinn_phong_angles_are_right_for_any_power),
         cmocka_unit_test(ggx_cut_follows_its_closed_form),
+        cmocka_unit_test(cones_have_the_slides_levels),
+        cmocka_unit_test(a_cones_power_falls_to_the_threshold_at_its_rim),
         cmocka_unit_test(geometric_ratios_reach_their_sum),
         cmocka_unit_test(first_steps_make_the_series_sum_to_the_length),
         cmocka_unit_test(fog_is_the_integral_along_the_ray),
