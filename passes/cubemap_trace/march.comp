@@ -82,7 +82,7 @@ Sample sample_at(vec3 from_center, vec3 direction, float t, uint place) {
 }
 
 // Between a sample in front and one behind, where the straight line between their gaps is 0. A sample in front of the sky
-// (gap -inf) says nothing, nor does a sample from another cube map (gap NaN).
+// says nothing, its gap is -inf, and so has the sample that there is not.
 precise float secant_between(Sample front, Sample behind) {
     if (!(front.gap > -LARGEST)) return behind.t;
     float gap = min(front.gap, 0.0);
@@ -92,7 +92,7 @@ precise float secant_between(Sample front, Sample behind) {
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
 // the cube maps' spaces, so that nothing adds up; and the step grows only while no hit is being closed in on.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
-    const Sample NONE = Sample(start_m, 0.0 / 0.0, 0.0, 0.0);
+    const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0);
     int longest = min(chain, int(frame.flags.z));
     uint fetches = bilinear ? 2u : 1u;
     Result result = Result(start_m, best, END_steps_exhausted, 0u, 0u);
@@ -133,7 +133,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         from_center = origin - center_of(result.place);
         if (step_back) now.t -= step_m;
         else step_m *= quality.ratio;
-        front.gap = NONE.gap;
+        front = NONE; // what the last cube map saw says nothing about this one
         refined = 0;
     }
     result.travelled_m = now.t;

@@ -109,13 +109,14 @@ precise float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front
     float t = dot(facet.normal, facet.position - ray.origin) / dot(facet.normal, ray.direction);
     float on_facet = t / (ray.depth_m + t * ray.rate), texel = scale / length(ray.across);
     if (t > 0.0 && on_facet >= s_front - texel && on_facet <= s + texel) return on_facet;
+    if (s_front == 0.0) return s; // no sample was in front
     return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));
 }
 
 // Whether the picture shows, where the ray is at s, a surface that is no farther from it than the thickness.
 bool shows(ScreenRay ray, float s, Grid grid) {
     float depth_m = 1.0 / inverse_depth_at(ray, s), seen_m = 1.0 / seen_inverse(ray.start + s * ray.across, grid);
-    return abs(depth_m - seen_m) <= thickness * seen_m + thickness_m;
+    return abs(depth_m - seen_m) <= thickness * depth_m + thickness_m; // false for the sky's +inf
 }
 
 Result march(ScreenRay ray, Grid grid, float shift) {
