@@ -9,6 +9,9 @@
 #define PASS(text, from) static const char PASTE2(title, PASS_ID)[] = text, PASTE2(source, PASS_ID)[] = from;
 #define SLOT(title)
 #define READ(kind, image)
+#define OPTIONAL_READ(kind, image, format, size, nothing)
+#define SELF(kind, name, image)
+#define HISTORY(kind, name, image)
 #define WRITE(kind, image, format, unit, size, channels, nothing, text)
 #define DIAGNOSTIC(kind, image, format, unit, size, channels, nothing, text)
 #define SPEC(type, parameter, initial, lowest, highest, unit, source, text)
@@ -19,4 +22,8 @@
 #define CHOICE4(parameter, initial, a, b, c, d, source, text) \
     enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c), PLACE(parameter, d) };
 #define DISPATCH(image)
+#define DISPATCH_LEVELS(image, first, last, order)
+#define DISPATCH_LIST(list)
+#define PER_RAY
+#define ACCUMULATE(image)
 #define NEEDS(fact)

@@ -3,6 +3,9 @@
 #undef PASS
 #undef SLOT
 #undef READ
+#undef OPTIONAL_READ
+#undef SELF
+#undef HISTORY
 #undef WRITE
 #undef DIAGNOSTIC
 #undef SPEC
@@ -11,6 +14,10 @@
 #undef CHOICE3
 #undef CHOICE4
 #undef DISPATCH
+#undef DISPATCH_LEVELS
+#undef DISPATCH_LIST
+#undef PER_RAY
+#undef ACCUMULATE
 #undef NEEDS
 #define ROW_IMAGE(row, glsl_kind, image, fmt, image_unit, image_size, image_channels, none, text)            \
     {.kind = row, .id = __LINE__, .name = #image, .glsl = #glsl_kind, .format = GLINT_FORMAT_##fmt,          \
@@ -30,6 +37,13 @@
 #define PASS(title, from) {.kind = GLINT_ROW_PASS, .id = __LINE__, .name = title, .source = from},
 #define SLOT(title) {.kind = GLINT_ROW_SLOT, .id = __LINE__, .name = title},
 #define READ(kind_, image) {.kind = GLINT_ROW_READ, .id = __LINE__, .name = #image, .glsl = #kind_},
+#define OPTIONAL_READ(kind_, image_, fmt, size_, none)                                                       \
+    {.kind = GLINT_ROW_READ, .id = __LINE__, .name = #image_, .glsl = #kind_, .optional = true,              \
+     .format = GLINT_FORMAT_##fmt, .size = GLINT_SIZE_##size_, .nothing = (double)(none)},
+#define SELF(kind_, name_, image_) \
+    {.kind = GLINT_ROW_SELF, .id = __LINE__, .name = #name_, .image = #image_, .glsl = #kind_},
+#define HISTORY(kind_, name_, image_) \
+    {.kind = GLINT_ROW_HISTORY, .id = __LINE__, .name = #name_, .image = #image_, .glsl = #kind_},
 #define WRITE(kind_, image, fmt, unit_, size_, channels_, none, text) \
     ROW_IMAGE(GLINT_ROW_WRITE, kind_, image, fmt, unit_, size_, channels_, none, text)
 #define DIAGNOSTIC(kind_, image, fmt, unit_, size_, channels_, none, text) \
@@ -46,4 +60,10 @@
 #define CHOICE3(parameter, first, a, b, c, from, text) ROW_CHOICE(parameter, first, 2, from, text, #a, #b, #c)
 #define CHOICE4(parameter, first, a, b, c, d, from, text) ROW_CHOICE(parameter, first, 3, from, text, #a, #b, #c, #d)
 #define DISPATCH(image) {.kind = GLINT_ROW_DISPATCH, .id = __LINE__, .name = #image},
+#define DISPATCH_LEVELS(image_, first_, last_, order_)                                                       \
+    {.kind = GLINT_ROW_DISPATCH_LEVELS, .id = __LINE__, .name = #image_, .first = first_, .last = last_,      \
+     .order = GLINT_ORDER_##order_},
+#define DISPATCH_LIST(list) {.kind = GLINT_ROW_DISPATCH_LIST, .id = __LINE__, .name = #list},
+#define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__},
+#define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},

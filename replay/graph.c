@@ -60,10 +60,43 @@ static size_t reads_of(const struct glint_row *row, const char *names[2]) {
     return names[1] ? 2 : 1;
 }
 
+/* What declarations may say and the executor cannot do yet. */
+static void check_support(const struct glint_pass *pass, struct faults *faults) {
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const char *what = NULL;
+        switch (pass->rows[r].kind) {
+        case GLINT_ROW_SELF:
+            what = "SELF";
+            break;
+        case GLINT_ROW_HISTORY:
+            what = "HISTORY";
+            break;
+        case GLINT_ROW_DISPATCH_LEVELS:
+            what = "DISPATCH_LEVELS";
+            break;
+        case GLINT_ROW_DISPATCH_LIST:
+            what = "DISPATCH_LIST";
+            break;
+        case GLINT_ROW_PER_RAY:
+            what = "PER_RAY";
+            break;
+        case GLINT_ROW_ACCUMULATE:
+            what = "ACCUMULATE";
+            break;
+        default:
+            break;
+        }
+        if (what)
+            faults_add(faults, GLINT_ERROR_UNSUPPORTED, "%s/%s declares %s, which cannot be run yet", pass->slot,
+                       pass->variant, what);
+    }
+}
+
 static void check_producers(const struct graph *graph, struct faults *faults) {
     for (size_t i = 0; i < graph->pass_count; i++) {
         const struct glint_pass *pass = graph->passes[i].pass;
         size_t images = 0;
+        check_support(pass, faults);
         for (size_t r = 0; r < pass->row_count; r++) images += row_is_image(&pass->rows[r]);
         if (images > PASS_IMAGES_MAX)
             faults_add(faults, GLINT_ERROR_LIMIT, "%s/%s: %zu images, expected at most %d", pass->slot, pass->variant,

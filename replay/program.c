@@ -28,7 +28,7 @@ static bool add_constant(struct constants *constants, uint32_t id, uint32_t bits
 
 bool constants_init(struct constants *constants, const struct pipeline_pass *entry, bool diagnostics,
                     struct glint_error *err) {
-    *constants = (struct constants){.push_count = 1};
+    *constants = (struct constants){.push_count = 2};
     const struct glint_pass *pass = entry->pass;
     bool fits = add_constant(constants, 0, diagnostics);
     for (size_t i = 0; i < pass->row_count && fits; i++) {

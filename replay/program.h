@@ -13,7 +13,7 @@ struct constants {
     VkSpecializationMapEntry entries[CONSTANTS_MAX];
     uint32_t data[CONSTANTS_MAX];
     uint32_t count;
-    uint32_t push[PUSH_BYTES_MAX / 4]; /* dispatch index first */
+    uint32_t push[PUSH_BYTES_MAX / 4]; /* the dispatch's level and phase first */
     uint32_t push_count;
 };
 bool constants_init(struct constants *constants, const struct pipeline_pass *pass, bool diagnostics,

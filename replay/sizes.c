@@ -97,6 +97,9 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     case GLINT_SIZE_CHAIN:
         expected[0] = sizes->chain, expected[1] = sizes->active;
         break;
+    default:
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: images with levels and lists cannot be made yet",
+                          image->name);
     }
     if (existing_size(run, image, found) && (found[0] != expected[0] || found[1] != expected[1]))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u, found %u x %u",

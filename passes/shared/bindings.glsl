@@ -1,10 +1,23 @@
 // Next include of a declaration: its images become bindings, its SPEC and CHOICE rows specialization constants.
 // A row's line number is its binding or constant id. Written images have no format here, so that the host may store
 // them as half or float without a compile.
+//
+// An image with levels (a size class ..._MIPS) is written one level at a time, dispatch_level; imageSize() is that
+// level's. Readers, and SELF in the pass that writes it, see all levels as one texture.
+// Cube maps are written as WRITE(image2DArray, ...): layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), and
+// gl_GlobalInvocationID.z is the layer. They are read as textureCube or textureCubeArray.
+// Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0.
+// A pass that declares DISPATCH(image) and after it DISPATCH_LIST(list) runs over the list when some pass made it, one
+// workgroup of 64 items each (item gl_LocalInvocationIndex + 64 * workgroup); its outputs are filled with their
+// "nothing" values before. Otherwise it runs over the whole image, and the list's header says 0xFFFFFFFF items.
+// More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 layout(constant_id = 0) const bool diagnostics = false;
 #define PASS(title, source)
 #define SLOT(title)
 #define READ(kind, name) layout(set = 0, binding = __LINE__) uniform kind name;
+#define OPTIONAL_READ(kind, name, format, size, nothing) READ(kind, name)
+#define SELF(kind, name, image) READ(kind, name)
+#define HISTORY(kind, name, image) READ(kind, name)
 #define WRITE(kind, name, format, unit, size, channels, nothing, meaning) \
     layout(set = 0, binding = __LINE__) uniform writeonly kind name;
 #define DIAGNOSTIC(kind, name, format, unit, size, channels, nothing, meaning) \
@@ -22,6 +35,10 @@ layout(constant_id = 0) const bool diagnostics = false;
     layout(constant_id = __LINE__) const int name = name##_##initial;
 #define PUSH(type, name, initial, lowest, highest, unit, source, help)
 #define DISPATCH(image)
+#define DISPATCH_LEVELS(image, first, last, order)
+#define DISPATCH_LIST(list)
+#define PER_RAY
+#define ACCUMULATE(image)
 #define NEEDS(fact)
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -31,5 +48,7 @@ layout(set = 1, binding = 0, std140) uniform Frame {
 #include "frame_fields.h"
 } frame;
 #undef FIELD
+// What random4() takes as the frame's number: another one for each ray of a frame.
+uint random_frame() { return frame.counts.y + frame.flags.w * 0x9E3779B9u; }
 layout(set = 1, binding = 1) uniform sampler linear_clamp;
 layout(set = 1, binding = 2) uniform sampler nearest_clamp;

@@ -12,4 +12,4 @@ FIELD(vec4,  fog_height,               "x: camera's height over the base in m; y
 FIELD(vec4,  up,                       "xyz: unit up axis; w: 0")
 FIELD(uvec4, size,                     "xy: full resolution; zw: pipeline's half resolution")
 FIELD(uvec4, counts,                   "x: active cube maps; y: frame number; z: cube face size; w: sky face size, 0 without a sky")
-FIELD(uvec4, flags,                    "x: 1 when there is a previous frame; y: 1 after a cut; z: chain length; w: 0")
+FIELD(uvec4, flags,                    "x: 1 when history is valid (HISTORY rows hold the previous frame); y: 1 after a cut; z: chain length; w: number of the ray, from 0, below pipeline.rays")

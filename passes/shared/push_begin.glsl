@@ -1,6 +1,9 @@
 // Next include of a declaration: its PUSH rows become the push-constant block; close it with "};".
-// A block must not be empty, so it opens with a member of our own.
+// It opens with members of our own: the level that this dispatch writes, and which dispatch row it is, from 0.
 #undef READ
+#undef OPTIONAL_READ
+#undef SELF
+#undef HISTORY
 #undef WRITE
 #undef DIAGNOSTIC
 #undef SPEC
@@ -9,6 +12,9 @@
 #undef CHOICE4
 #undef PUSH
 #define READ(kind, name)
+#define OPTIONAL_READ(kind, name, format, size, nothing)
+#define SELF(kind, name, image)
+#define HISTORY(kind, name, image)
 #define WRITE(kind, name, format, unit, size, channels, nothing, meaning)
 #define DIAGNOSTIC(kind, name, format, unit, size, channels, nothing, meaning)
 #define SPEC(type, name, initial, lowest, highest, unit, source, help)
@@ -17,4 +23,5 @@
 #define CHOICE4(name, initial, a, b, c, d, source, help)
 #define PUSH(type, name, initial, lowest, highest, unit, source, help) type name;
 layout(push_constant, std430) uniform Parameters {
-    uint dispatch_index;
+    uint dispatch_level;
+    uint dispatch_phase;

@@ -11,17 +11,23 @@ extern "C" {
 #endif
 
 enum glint_row_kind {
-    GLINT_ROW_PASS,       /* title, source */
-    GLINT_ROW_SLOT,       /* title of the slot */
-    GLINT_ROW_READ,       /* an image that another pass or the capture makes */
-    GLINT_ROW_WRITE,      /* an image that this pass makes */
-    GLINT_ROW_DIAGNOSTIC, /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
-    GLINT_ROW_CAPTURE,    /* an image that comes from the capture (passes/capture_images.h) */
-    GLINT_ROW_SPEC,       /* a specialization constant */
-    GLINT_ROW_CHOICE,     /* a specialization constant with named values */
-    GLINT_ROW_PUSH,       /* a push constant */
-    GLINT_ROW_DISPATCH,   /* one invocation for each pixel of an image */
-    GLINT_ROW_NEEDS       /* a fact the capture must show for the pass to be needed */
+    GLINT_ROW_PASS,            /* title, source */
+    GLINT_ROW_SLOT,            /* title of the slot */
+    GLINT_ROW_READ,            /* an image that another pass or the capture makes */
+    GLINT_ROW_WRITE,           /* an image that this pass makes */
+    GLINT_ROW_DIAGNOSTIC,      /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
+    GLINT_ROW_CAPTURE,         /* an image that comes from the capture (passes/capture_images.h) */
+    GLINT_ROW_SPEC,            /* a specialization constant */
+    GLINT_ROW_CHOICE,          /* a specialization constant with named values */
+    GLINT_ROW_PUSH,            /* a push constant */
+    GLINT_ROW_DISPATCH,        /* one invocation for each pixel of an image, for cube maps in each face */
+    GLINT_ROW_NEEDS,           /* a fact the capture must show for the pass to be needed */
+    GLINT_ROW_SELF,            /* all levels of an image that this pass writes; `name` is the binding's */
+    GLINT_ROW_HISTORY,         /* what an image held at the end of the previous frame; `name` is the binding's */
+    GLINT_ROW_DISPATCH_LEVELS, /* one dispatch for each of some levels of an image */
+    GLINT_ROW_DISPATCH_LIST,   /* instead of the DISPATCH before it: one invocation for each item of a list, if made */
+    GLINT_ROW_PER_RAY,         /* the slot's passes run once for each ray of a frame */
+    GLINT_ROW_ACCUMULATE       /* an image that becomes its mean over the rays */
 };
 
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
@@ -33,8 +39,18 @@ enum glint_size_class {
     GLINT_SIZE_CUBEMAPS, /* cube-map array: one cube of the capture's face size for each active cube map */
     GLINT_SIZE_SKY,      /* the sky's cube map */
     GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
-    GLINT_SIZE_CHAIN     /* 2D, chain length × active cube maps */
+    GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
+    /* the class of that name with all levels down to 1 × 1 */
+    GLINT_SIZE_FULL_MIPS,
+    GLINT_SIZE_HALF_MIPS,
+    GLINT_SIZE_CUBEMAPS_MIPS,
+    GLINT_SIZE_SKY_MIPS,
+    GLINT_SIZE_LIST /* 2D, 256 wide. Row 0: workgroup counts x, y, z, number of items; then up to HALF's pixels items.
+                       A list that no pass makes: 0xFFFFFFFF everywhere, the header alone */
 };
+
+/* In which order the levels of DISPATCH_LEVELS run. */
+enum glint_level_order { GLINT_ORDER_down /* fine to coarse */, GLINT_ORDER_up /* coarse to fine */ };
 
 enum glint_format {
     GLINT_FORMAT_R8UI,
@@ -60,6 +76,11 @@ struct glint_row {
     double nothing;       /* what a reader gets when the pass that makes it has nothing to do */
     const char *role;     /* CAPTURE: the role, and in `source` its channels; "-" for a component left 0 */
     bool required;        /* CAPTURE: false: `nothing` when absent */
+    bool optional;        /* READ: format, size and nothing are given here, for when no pass makes the image */
+    const char *image;    /* SELF, HISTORY: the image; NULL: `name` */
+    /* DISPATCH_LEVELS: the levels from one to the other, both included; negative: from the coarsest, which is -1 */
+    int first, last;
+    enum glint_level_order order;
     /* parameters */
     enum glint_value_type type;
     double initial, lowest, highest;
