@@ -15,10 +15,13 @@ struct tally {
     float value;
 };
 
+struct tallies {
+    struct tally not_finite, out_of_range, not_unit;
+};
+
 struct channel {
     const struct glint_role_channel *row;
     enum glint_stored stored;
-    struct tally not_finite, out_of_range, not_unit;
     int axes[2]; /* of the X of a normal: the planes of Y and Z; -1 for none */
 };
 
@@ -30,6 +33,7 @@ struct job {
     int depth; /* the plane that says where there is nothing; -1 for none */
     uint32_t width;
     pthread_mutex_t lock;
+    struct tallies found[GLINT_EXR_MAX_WANTED]; /* under the lock */
 };
 
 static void note(struct tally *tally, size_t at, float value) {
@@ -89,38 +93,39 @@ static void decode(const struct job *job, const struct glint_role_channel *row, 
     if (!strcmp(row->encoding, "color")) glint_decode_color(&job->decoder, v, count);
 }
 
-static void check_values(const struct job *job, struct channel *tallies, float *v, const bool *nothing, size_t count,
-                         size_t at) {
-    const struct glint_role_channel *row = tallies->row;
+static void check_values(const struct job *job, const struct channel *channel, struct tallies *found, float *v,
+                         const bool *nothing, size_t count, size_t at) {
+    const struct glint_role_channel *row = channel->row;
     const bool infinite = may_be_infinite(job, row), unit = stored_in_unit(job, row);
     float low, high;
     bounds(row, &low, &high);
     for (size_t i = 0; i < count; i++) {
         if (nothing[i]) continue;
-        if (isnan(v[i]) || (isinf(v[i]) && !(infinite && v[i] > 0))) note(&tallies->not_finite, at + i, v[i]);
-        else if (unit && !(v[i] >= 0 && v[i] <= 1)) note(&tallies->out_of_range, at + i, v[i]);
+        if (isnan(v[i]) || (isinf(v[i]) && !(infinite && v[i] > 0))) note(&found->not_finite, at + i, v[i]);
+        else if (unit && !(v[i] >= 0 && v[i] <= 1)) note(&found->out_of_range, at + i, v[i]);
     }
     decode(job, row, v, count);
     for (size_t i = 0; i < count; i++)
-        if (!nothing[i] && (v[i] < low || v[i] > high)) note(&tallies->out_of_range, at + i, v[i]);
+        if (!nothing[i] && (v[i] < low || v[i] > high)) note(&found->out_of_range, at + i, v[i]);
 }
 
-static void check_lengths(const struct job *job, struct channel *tallies, const uint8_t *const *planes, size_t i,
+static void check_lengths(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t i,
                           size_t offset, uint32_t x, const bool *nothing, size_t count, size_t at) {
     float n[3][GLINT_BLOCK] = {{0}}, lengths[GLINT_BLOCK];
-    const int axes[3] = {(int)i, tallies->axes[0], tallies->axes[1]};
+    const struct channel *x_axis = &job->channels[i];
+    const int axes[3] = {(int)i, x_axis->axes[0], x_axis->axes[1]};
     for (int a = 0; a < 3; a++) {
         if (axes[a] < 0) continue;
         const struct channel *channel = &job->channels[axes[a]];
         load(channel, planes[axes[a]] + offset + x * glint_stored_bytes(channel->stored), count, n[a]);
     }
     float *const pointers[3] = {n[0], n[1], n[2]};
-    glint_decode_normal(&job->decoder, normal_encoding(job, tallies->row), pointers, lengths, count);
+    glint_decode_normal(&job->decoder, normal_encoding(job, x_axis->row), pointers, lengths, count);
     for (size_t p = 0; p < count; p++)
-        if (!nothing[p] && !(fabsf(lengths[p] - 1) <= NORMAL_TOLERANCE)) note(&tallies->not_unit, at + p, lengths[p]);
+        if (!nothing[p] && !(fabsf(lengths[p] - 1) <= NORMAL_TOLERANCE)) note(&found->not_unit, at + p, lengths[p]);
 }
 
-static void check_block(const struct job *job, struct channel *tallies, const uint8_t *const *planes, size_t offset,
+static void check_block(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t offset,
                         uint32_t x, size_t count, size_t at) {
     bool nothing[GLINT_BLOCK] = {false};
     const bool none[GLINT_BLOCK] = {false};
@@ -132,10 +137,11 @@ static void check_block(const struct job *job, struct channel *tallies, const ui
         for (size_t i = 0; i < count; i++) nothing[i] = v[i] == INFINITY;
     }
     for (size_t c = 0; c < job->count; c++) {
-        if (tallies[c].stored == GLINT_STORED_UINT) continue;
-        load(&tallies[c], planes[c] + offset + x * glint_stored_bytes(tallies[c].stored), count, v);
-        check_values(job, &tallies[c], v, (int)c == job->depth ? none : nothing, count, at);
-        if (tallies[c].axes[0] >= 0) check_lengths(job, &tallies[c], planes, c, offset, x, nothing, count, at);
+        const struct channel *channel = &job->channels[c];
+        if (channel->stored == GLINT_STORED_UINT) continue;
+        load(channel, planes[c] + offset + x * glint_stored_bytes(channel->stored), count, v);
+        check_values(job, channel, &found[c], v, (int)c == job->depth ? none : nothing, count, at);
+        if (channel->axes[0] >= 0) check_lengths(job, &found[c], planes, c, offset, x, nothing, count, at);
     }
 }
 
@@ -143,21 +149,17 @@ static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *co
                        struct glint_error *err) {
     (void)err;
     struct job *job = user;
-    struct channel tallies[GLINT_EXR_MAX_WANTED];
-    for (size_t c = 0; c < job->count; c++) {
-        tallies[c] = job->channels[c];
-        tallies[c].not_finite = tallies[c].out_of_range = tallies[c].not_unit = (struct tally){0};
-    }
+    struct tallies found[GLINT_EXR_MAX_WANTED] = {0};
     for (uint32_t l = 0; l < lines; l++)
         for (uint32_t x = 0; x < job->width; x += GLINT_BLOCK) {
             const size_t count = job->width - x < GLINT_BLOCK ? job->width - x : GLINT_BLOCK;
-            check_block(job, tallies, planes, l * line_bytes, x, count, (size_t)(y + l) * job->width + x);
+            check_block(job, found, planes, l * line_bytes, x, count, (size_t)(y + l) * job->width + x);
         }
     pthread_mutex_lock(&job->lock);
     for (size_t c = 0; c < job->count; c++) {
-        merge(&job->channels[c].not_finite, &tallies[c].not_finite);
-        merge(&job->channels[c].out_of_range, &tallies[c].out_of_range);
-        merge(&job->channels[c].not_unit, &tallies[c].not_unit);
+        merge(&job->found[c].not_finite, &found[c].not_finite);
+        merge(&job->found[c].out_of_range, &found[c].out_of_range);
+        merge(&job->found[c].not_unit, &found[c].not_unit);
     }
     pthread_mutex_unlock(&job->lock);
     return true;
@@ -212,12 +214,12 @@ bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capt
         const struct channel *channel = &job.channels[c];
         float low, high;
         bounds(channel->row, &low, &high);
-        report(check, part, job.names[c], GLINT_RULE_PIXEL_FINITE, &channel->not_finite,
+        report(check, part, job.names[c], GLINT_RULE_PIXEL_FINITE, &job.found[c].not_finite,
                may_be_infinite(&job, channel->row) ? "numbers or +inf" : "finite numbers");
-        report(check, part, job.names[c], GLINT_RULE_PIXEL_RANGE, &channel->out_of_range,
+        report(check, part, job.names[c], GLINT_RULE_PIXEL_RANGE, &job.found[c].out_of_range,
                stored_in_unit(&job, channel->row) || high < INFINITY ? "values in [0, 1]"
                                                                      : "values that are not negative");
-        report(check, part, job.names[c], GLINT_RULE_PIXEL_NORMAL, &channel->not_unit, "unit length within 0.02");
+        report(check, part, job.names[c], GLINT_RULE_PIXEL_NORMAL, &job.found[c].not_unit, "unit length within 0.02");
     }
     return ok;
 }
