@@ -48,6 +48,8 @@ struct glint_decoder {
 struct glint_decoder glint_decoder_of(const struct glint_capture *capture, const struct glint_part_info *part);
 #define GLINT_BLOCK 256 /* pixels decoded at a time */
 
+/* Half or float as stored, which need not be aligned, to float; `count` <= GLINT_BLOCK. */
+void glint_decode_widen(enum glint_stored stored, const uint8_t *in, size_t count, float *out);
 /* In place, `count` <= GLINT_BLOCK values as stored (widened to float) to canonical ones. */
 void glint_decode_depth(const struct glint_decoder *d, float *v, size_t count);
 void glint_decode_roughness(const struct glint_decoder *d, float *v, size_t count);

@@ -81,16 +81,6 @@ static bool plan_output(struct job *job, const struct glint_part_info *part, con
 
 /* ---- blocks ---- */
 
-static void widen(enum glint_stored stored, const uint8_t *in, size_t count, float *out) {
-    if (stored == GLINT_STORED_FLOAT) {
-        memcpy(out, in, count * 4);
-        return;
-    }
-    uint16_t half[GLINT_BLOCK];
-    memcpy(half, in, count * 2);
-    for (size_t i = 0; i < count; i++) out[i] = glint_half_to_float(half[i]);
-}
-
 static void put(const struct job *job, const float *values, size_t count, uint8_t *out) {
     if (job->type == GLINT_F32) {
         for (size_t i = 0; i < count; i++) memcpy(out + 4 * i * job->count, &values[i], 4);
@@ -127,7 +117,7 @@ struct block {
 static void load(const struct job *job, const uint8_t *const *planes, size_t line, uint32_t x, size_t count, int plane,
                  float *out) {
     const uint8_t *in = planes[plane] + line + x * glint_stored_bytes(job->stored[plane]);
-    widen(job->stored[plane], in, count, out);
+    glint_decode_widen(job->stored[plane], in, count, out);
 }
 
 static const float *normal_of(const struct job *job, const struct output *from, const uint8_t *const *planes,
@@ -150,7 +140,7 @@ static void decode(const struct job *job, const struct output *from, const uint8
         glint_decode_motion_packed(&job->decoder, words, v, count);
         return;
     }
-    widen(job->stored[from->plane[0]], in, count, v);
+    glint_decode_widen(job->stored[from->plane[0]], in, count, v);
     switch (from->decoding) {
     case LENGTH:
         glint_decode_length(&job->decoder, v, count);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "exr_internal.h"
+#include "registry.h"
 
 #define MAX_CHANNELS 1024
 /* Headers are text-sized. */
@@ -102,12 +103,11 @@ static bool read_channels(struct glint_exr *exr, size_t p, struct glint_error *e
     if (!channels || !part->channel_bytes) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", exr->path);
     for (size_t i = 0; i < count; i++) {
         const exr_attr_chlist_entry_t *from = &list->entries[i];
-        static const char *const names[] = {"half", "float", "uint"};
         channels[i].stored = from->pixel_type == EXR_PIXEL_HALF    ? GLINT_STORED_HALF
                              : from->pixel_type == EXR_PIXEL_FLOAT ? GLINT_STORED_FLOAT
                                                                    : GLINT_STORED_UINT;
         snprintf(channels[i].name, sizeof channels[i].name, "%.*s", (int)from->name.length, from->name.str);
-        snprintf(channels[i].storage, sizeof channels[i].storage, "%s", names[channels[i].stored]);
+        snprintf(channels[i].storage, sizeof channels[i].storage, "%s", glint_stored_name(channels[i].stored));
         part->channel_bytes[i] = part->line_bytes;
         part->line_bytes += glint_stored_bytes(channels[i].stored) * part->info.width;
         if (from->x_sampling != 1 || from->y_sampling != 1) part->readable = false;

@@ -141,7 +141,6 @@ static bool check_required(struct glint_check *check, const struct glint_part_in
 
 static bool check_channel(struct glint_check *check, const struct glint_part_info *out,
                           const struct glint_channel_info *channel) {
-    static const char *const names[] = {"half", "float", "uint"};
     const struct glint_role_channel *row = glint_role_channel_find(out->role, channel->name);
     if (!row) return BROKEN(CHANNELS, channel->name, "expected a channel of %s, found another", out->role->name);
     if (is_normal(row) && ends_in(row->name, ".Z") && glint_part_encoding(out, row) == GLINT_NORMAL_OCTAHEDRAL)
@@ -150,7 +149,7 @@ static bool check_channel(struct glint_check *check, const struct glint_part_inf
                          (!strcmp(row->encoding, "motion") && out->encodings.motion == GLINT_MOTION_PACKED16);
     if (integer != (channel->stored == GLINT_STORED_UINT))
         return BROKEN(TYPES, channel->name, "expected %s, found %s", integer ? "uint" : "half or float",
-                      names[channel->stored]);
+                      glint_stored_name(channel->stored));
     return true;
 }
 

@@ -220,6 +220,12 @@ const char *const *glint_kind_names(enum glint_attribute_kind kind) {
     }
 }
 
+const char *glint_stored_name(enum glint_stored stored) {
+    static const char *const names[] = {
+        [GLINT_STORED_HALF] = "half", [GLINT_STORED_FLOAT] = "float", [GLINT_STORED_UINT] = "uint"};
+    return names[stored];
+}
+
 /* ---- rules ---- */
 
 const struct glint_rule_row *glint_rule_rows(void) {

@@ -67,6 +67,11 @@ const char *glint_kind_type(enum glint_attribute_kind kind);
 /* Names of the values of AXIS, CLIP_Y, CLIP_Z and VOLUME, NULL-terminated; NULL for the other kinds. */
 const char *const *glint_kind_names(enum glint_attribute_kind kind);
 
+/* ---- how channels are stored ---- */
+
+/* EXR's words: "half", "float", "uint". */
+const char *glint_stored_name(enum glint_stored stored);
+
 /* ---- rules ---- */
 
 enum glint_rule {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "capture_internal.h"
-#include "half.h"
 
 #define NORMAL_TOLERANCE 0.02f
 /* A value of exactly 1 may come back from a half or a square root a little above. */
@@ -47,14 +46,10 @@ static void merge(struct tally *to, const struct tally *from) {
     to->count += from->count;
 }
 
-static void load(const struct channel *channel, const uint8_t *in, size_t count, float *out) {
-    if (channel->stored == GLINT_STORED_FLOAT) {
-        memcpy(out, in, count * 4);
-        return;
-    }
-    uint16_t half[GLINT_BLOCK];
-    memcpy(half, in, count * 2);
-    for (size_t i = 0; i < count; i++) out[i] = glint_half_to_float(half[i]);
+static void load(const struct job *job, const uint8_t *const *planes, int plane, size_t offset, uint32_t x,
+                 size_t count, float *out) {
+    const enum glint_stored stored = job->channels[plane].stored;
+    glint_decode_widen(stored, planes[plane] + offset + x * glint_stored_bytes(stored), count, out);
 }
 
 static bool is_normal(const struct glint_role_channel *row) {
@@ -116,8 +111,7 @@ static void check_lengths(const struct job *job, struct tallies *found, const ui
     const int axes[3] = {(int)i, x_axis->axes[0], x_axis->axes[1]};
     for (int a = 0; a < 3; a++) {
         if (axes[a] < 0) continue;
-        const struct channel *channel = &job->channels[axes[a]];
-        load(channel, planes[axes[a]] + offset + x * glint_stored_bytes(channel->stored), count, n[a]);
+        load(job, planes, axes[a], offset, x, count, n[a]);
     }
     float *const pointers[3] = {n[0], n[1], n[2]};
     glint_decode_normal(&job->decoder, normal_encoding(job, x_axis->row), pointers, lengths, count);
@@ -131,15 +125,14 @@ static void check_block(const struct job *job, struct tallies *found, const uint
     const bool none[GLINT_BLOCK] = {false};
     float v[GLINT_BLOCK];
     if (job->depth >= 0) {
-        const struct channel *depth = &job->channels[job->depth];
-        load(depth, planes[job->depth] + offset + x * glint_stored_bytes(depth->stored), count, v);
+        load(job, planes, job->depth, offset, x, count, v);
         glint_decode_depth(&job->decoder, v, count);
         for (size_t i = 0; i < count; i++) nothing[i] = v[i] == INFINITY;
     }
     for (size_t c = 0; c < job->count; c++) {
         const struct channel *channel = &job->channels[c];
         if (channel->stored == GLINT_STORED_UINT) continue;
-        load(channel, planes[c] + offset + x * glint_stored_bytes(channel->stored), count, v);
+        load(job, planes, (int)c, offset, x, count, v);
         check_values(job, channel, &found[c], v, (int)c == job->depth ? none : nothing, count, at);
         if (channel->axes[0] >= 0) check_lengths(job, &found[c], planes, c, offset, x, nothing, count, at);
     }

@@ -9,12 +9,11 @@
 
 /* Headers as the reader will find them, so that the writer is bound by the very same checks. */
 static bool as_read(struct glint_arena *arena, const struct glint_exr_part *file, struct glint_exr_part_info *out) {
-    static const char *const names[] = {"half", "float", "uint"};
     struct glint_channel_info *channels = glint_arena_take(arena, file->channel_count * sizeof *channels);
     for (size_t i = 0; channels && i < file->channel_count; i++) {
         snprintf(channels[i].name, sizeof channels[i].name, "%s", file->channels[i].name);
         channels[i].stored = file->channels[i].stored;
-        snprintf(channels[i].storage, sizeof channels[i].storage, "%s", names[channels[i].stored]);
+        snprintf(channels[i].storage, sizeof channels[i].storage, "%s", glint_stored_name(channels[i].stored));
     }
     *out = (struct glint_exr_part_info){.name = file->name,
                                         .width = file->width,
