@@ -1,5 +1,6 @@
-"""Checks what clang-format cannot: file lengths, headers that compile alone in C and C++, C++ only in shims."""
+"""Checks what clang-format cannot: file lengths, headers that compile alone in C and C++, exported names."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -30,5 +31,14 @@ for h in (f for f in files if "/include/glint/" in f):
                                   unit.name], capture_output=True, text=True)
         if run.returncode:
             faults.append(f"{h}: does not compile alone with {command[0]}:\n{run.stderr}")
+# libglint-capture shows what its headers declare, no more and no less.
+declared = set()
+for name in ("common", "capture", "exr"):
+    with open(f"capture-format/include/glint/{name}.h", encoding="utf-8") as text:
+        declared.update(re.findall(r"\b(glint_\w+)\s*\(", re.sub(r"/\*.*?\*/", "", text.read(), flags=re.S)))
+with open("capture-format/exports.map", encoding="utf-8") as text:
+    shown = set(re.findall(r"\b(glint_\w+);", text.read()))
+for name in declared ^ shown:
+    faults.append(f"capture-format/exports.map: {name} is " + ("missing" if name in declared else "in no public header"))
 print("\n".join(faults), file=sys.stderr)
 sys.exit(1 if faults else 0)
