@@ -219,6 +219,7 @@ static bool dump_lobe(const struct dump *dump, const char *name, const struct tr
         return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", name);
     if (!color_part(&part, dump, name, width, height, whole, color, sizeof *truth, err)) return false;
     put(&part, "weight", whole, weight, sizeof *truth);
+    put(&part, "error", half, error, sizeof *truth);
     const struct glint_attribute attributes[] = {
         {.name = "truthSamples", .type = GLINT_ATTRIBUTE_INT, .number = samples},
         {.name = "truthNoise", .type = GLINT_ATTRIBUTE_DOUBLE, .number = noise},

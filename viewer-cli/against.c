@@ -1,23 +1,111 @@
-/* --against truth: how far traced rays are from what a path tracer found. */
+/* --against: how far a run is from a better answer, the truth in the capture or the preset `reference`. */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "against.h"
-#include "command.h"
 #include "args.h"
 #include "table.h"
+
+void against_parse(struct against *against, char *text, struct argp_state *state) {
+    static const char *const answers[] = {"truth", "reference", NULL};
+    char *run = strchr(text, '=');
+    if (run) *run++ = '\0';
+    int which = arg_choice("against", text, answers, state);
+    against->truth = which == 0;
+    against->reference = which == 1;
+    against->run = run;
+    if (run && against->truth) argp_error(state, "--against=truth: the truth is in the capture, it takes no run");
+    if (run && !*run) argp_error(state, "--against=reference=RUN: an empty name");
+}
+
+bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
+                   struct glint_error *err) {
+    if (!against->reference || against->run) return true;
+    return (against->pipeline = glint_study_reference(pipeline, err)) != NULL &&
+           (against->replay = glint_replay_create(device, err)) != NULL;
+}
+
+void against_finish(struct against *against) {
+    glint_replay_destroy(&against->replay);
+    glint_pipeline_destroy(&against->pipeline);
+}
+
+/* The reference's reflection of this capture. */
+static bool reference_pixels(struct against *against, struct glint_capture *capture,
+                             const struct glint_replay_options *options, struct glint_pixels *pixels,
+                             struct glint_error *err) {
+    if (against->run) {
+        struct glint_run *run = glint_run_open(against->run, err);
+        bool ok = run && glint_study_run_reflection(run, pixels, err);
+        glint_run_close(&run);
+        return ok;
+    }
+    /* Its images are floats: what it is off by should not be how it is stored. */
+    const struct glint_replay_options own = {.all = options->all, .float_precision = true};
+    return glint_replay_load(against->replay, capture, err) &&
+           glint_replay_run(against->replay, against->pipeline, &own, NULL, NULL, err) &&
+           glint_study_reflection(against->replay, pixels, err) && glint_replay_load(against->replay, NULL, err);
+}
+
+static bool compare_images(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
+                           const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
+                           struct comparison *c, struct glint_error *err) {
+    struct glint_pixels found = {0}, answer = {0};
+    uint8_t *surfaces = NULL;
+    float *error = NULL;
+    bool ok = glint_study_reflection(replay, &found, err) &&
+              (against->truth ? glint_study_truth(capture, pipeline, &answer, &error, err)
+                              : reference_pixels(against, capture, options, &answer, err)) &&
+              (surfaces = glint_study_surfaces(capture, err)) != NULL &&
+              glint_study_image(&found, &answer, 3, surfaces, error, &c->image, err);
+    free(surfaces);
+    free(error);
+    glint_pixels_finish(&found);
+    glint_pixels_finish(&answer);
+    return ok;
+}
+
+static bool draws_normals(const struct glint_pipeline *pipeline) {
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        for (size_t r = 0; r < pass->row_count; r++)
+            if (pass->rows[r].kind == GLINT_ROW_SPEC && !strcmp(pass->rows[r].name, "jitter"))
+                return glint_pipeline_value(pipeline, pass, &pass->rows[r]) != 0;
+    }
+    return false;
+}
+
+bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
+                     const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
+                     struct comparison *c, struct glint_error *err) {
+    struct glint_error image = {0};
+    *c = (struct comparison){.name = against->truth ? "truth" : "reference", .jittered = draws_normals(pipeline)};
+    if (against->truth && !glint_study_trace(replay, capture, GLINT_MIRROR_ROUGHNESS, &c->rays, err)) return false;
+    c->has_rays = against->truth;
+    c->has_image = compare_images(against, replay, capture, pipeline, options, c, &image);
+    if (c->has_image) return true;
+    /* Rays can be compared without a picture, as of --passes screen_trace. */
+    if (against->reference || (image.code != GLINT_ERROR_USAGE && image.code != GLINT_ERROR_FORMAT)) {
+        if (err) *err = image;
+        return false;
+    }
+    snprintf(c->no_image, sizeof c->no_image, "%s", image.message);
+    return true;
+}
 
 static void percent(struct table *table, double part) {
     if (isfinite(part)) table_cell(table, "%.2f", 100 * part);
     else table_cell(table, "∞");
 }
 
-void against_print(const struct glint_trace_table *rays) {
+static void print_rays(const struct comparison *c) {
     static const char *const titles[] = {
         "<tracer",         "<ended by",     ">rays",           ">share %", ">within 5 % of truth",
         ">median error %", ">95th error %", ">radiance error", NULL};
     struct table *table = table_create(titles);
-    for (size_t i = 0; i < rays->count; i++) {
-        const struct glint_trace_row *r = &rays->rows[i];
+    for (size_t i = 0; i < c->rays.count; i++) {
+        const struct glint_trace_row *r = &c->rays.rows[i];
         table_cell(table, "%s", r->tracer);
         table_cell(table, "%s", r->text);
         table_cell(table, "%zu", r->rays);
@@ -29,12 +117,63 @@ void against_print(const struct glint_trace_table *rays) {
         else table_cell(table, "-");
     }
     printf("\nrays of surfaces up to roughness %g, travelled distance against the truth's mirror ray:\n",
-           AGAINST_ROUGHNESS);
+           GLINT_MIRROR_ROUGHNESS);
     table_print(table, stdout);
     table_destroy(&table);
 }
 
-json_t *against_json(const struct glint_trace_table *table) {
+static void print_distances(const struct glint_distance_errors *errors) {
+    static const char *const titles[] = {
+        "<surfaces", ">rays", ">within 5 % of truth", ">median error %", ">95th error %", ">invalid", NULL};
+    struct table *table = table_create(titles);
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        const struct glint_distance_error *e = &errors->of[k];
+        if (e->rays == 0) continue;
+        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
+        table_cell(table, "%llu", (unsigned long long)e->rays);
+        table_cell(table, "%.1f", 100 * e->right);
+        percent(table, e->median);
+        percent(table, e->p95);
+        table_cell(table, "%llu", (unsigned long long)e->invalid);
+    }
+    printf("\ntravelled distance of all rays:\n");
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+static void print_image(const struct comparison *c) {
+    static const char *const titles[] = {"<surfaces",     ">pixels",        ">mean",         ">mean error", ">RMSE",
+                                         ">relative MSE", ">truth's noise", ">RMSE without", ">invalid",    NULL};
+    struct table *table = table_create(titles);
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        const struct glint_image_error *e = &c->image.of[k];
+        if (e->pixels + e->invalid == 0) continue;
+        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
+        table_cell(table, "%llu", (unsigned long long)e->pixels);
+        table_cell(table, "%.5f", e->truth_mean);
+        table_cell(table, "%+.5f", e->mean);
+        table_cell(table, "%.5f", e->rmse);
+        table_cell(table, "%.5f", e->relative_mse);
+        table_cell(table, "%.5f", e->truth_noise);
+        table_cell(table, "%.5f", e->clean_rmse);
+        table_cell(table, "%llu", (unsigned long long)e->invalid);
+    }
+    printf("\nreflection before it is composed, against the %s:\n", c->name);
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+void against_print(const struct comparison *c) {
+    if (c->has_rays) {
+        print_rays(c);
+        print_distances(&c->rays.surfaces);
+        if (c->jittered) puts("normals are jittered; --set downsample.jitter=false compares mirror rays");
+    }
+    if (c->has_image) print_image(c);
+    else printf("\nno picture compared: %s\n", c->no_image);
+}
+
+static json_t *rays_json(const struct glint_trace_table *table) {
     json_t *rows = json_array();
     for (size_t i = 0; i < table->count; i++) {
         const struct glint_trace_row *r = &table->rows[i];
@@ -44,5 +183,47 @@ json_t *against_json(const struct glint_trace_table *table) {
                                               json_number(r->median_error), "p95_error", json_number(r->p95_error),
                                               "radiance_error", json_number(r->radiance_error)));
     }
-    return json_pack("{s:f, s:o}", "max_roughness", AGAINST_ROUGHNESS, "rays", rows);
+    return rows;
+}
+
+static json_t *distances_json(const struct glint_distance_errors *errors) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        const struct glint_distance_error *e = &errors->of[k];
+        if (e->rays == 0) continue;
+        json_array_append_new(rows,
+                              json_pack("{s:s, s:I, s:I, s:o, s:o, s:o}", "surfaces",
+                                        glint_surface_name((enum glint_surface)k), "rays", (json_int_t)e->rays,
+                                        "invalid", (json_int_t)e->invalid, "right", json_number(e->right),
+                                        "median_error", json_number(e->median), "p95_error", json_number(e->p95)));
+    }
+    return rows;
+}
+
+static json_t *image_json(const struct comparison *c) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        const struct glint_image_error *e = &c->image.of[k];
+        if (e->pixels + e->invalid == 0) continue;
+        json_array_append_new(
+            rows, json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "surfaces",
+                            glint_surface_name((enum glint_surface)k), "pixels", (json_int_t)e->pixels, "invalid",
+                            (json_int_t)e->invalid, "truth_mean", json_number(e->truth_mean), "mean_error",
+                            json_number(e->mean), "rmse", json_number(e->rmse), "relative_mse",
+                            json_number(e->relative_mse), "truth_noise", json_number(e->truth_noise), "clean_rmse",
+                            json_number(e->clean_rmse), "clean_relative_mse", json_number(e->clean_relative_mse)));
+    }
+    return json_pack("{s:f, s:o}", "epsilon", GLINT_RELATIVE_EPSILON, "surfaces", rows);
+}
+
+json_t *against_json(const struct comparison *c) {
+    json_t *json = json_object();
+    if (c->has_rays) {
+        json_object_set_new(json, "max_roughness", json_real(GLINT_MIRROR_ROUGHNESS));
+        json_object_set_new(json, "jittered", json_boolean(c->jittered));
+        json_object_set_new(json, "rays", rays_json(&c->rays));
+        json_object_set_new(json, "distances", distances_json(&c->rays.surfaces));
+    }
+    if (c->has_image) json_object_set_new(json, "image", image_json(c));
+    return json;
 }

@@ -15,7 +15,8 @@ struct arguments {
     struct pipeline_args pipeline;
     struct list captures;
     const char *out, *device;
-    bool json, against;
+    bool json;
+    struct against against;
 };
 
 enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_AGAINST };
@@ -31,8 +32,9 @@ static const struct argp_option options[] = {
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
     {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches; changes no other bit", 0},
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed", 0},
-    {"against",     KEY_AGAINST,     "WHAT", 0, "Compare the rays with a better answer: truth, the mirror rays that the "
-        "capture carries (truth.mirror; turns --diagnostics on, wants downsample.jitter=false)", 0},
+    {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better answer. truth: the true reflection and the mirror rays "
+        "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
+        "preset reference on the same capture, or its run: reference=RUN", 0},
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
@@ -44,11 +46,11 @@ static const struct example examples[] = {
     {"glint replay street.exr -o end --passes upscale,compose --inputs run", "only the end of the pipeline"},
     {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "with a shader of your own"},
     {"glint replay street.exr --against truth --set downsample.jitter=false", "how many rays are right, and why not"},
+    {"glint replay street.exr --against reference", "how far the picture is from the converged answer"},
     {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME"},
     {0},
 };
 static const char *const precisions[] = {"half", "float", NULL};
-static const char *const answers[] = {"truth", NULL};
 
 extern const struct command cmd_replay;
 
@@ -81,8 +83,8 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         r->no_cache = true;
         return 0;
     case KEY_AGAINST:
-        arg_choice("against", arg, answers, state);
-        a->against = r->diagnostics = true;
+        against_parse(&a->against, arg, state);
+        r->diagnostics = r->diagnostics || a->against.truth;
         return 0;
     case ARGP_KEY_ARG:
         list_add(&a->captures, arg, state);
@@ -99,6 +101,7 @@ struct job {
     struct glint_device *device;
     struct glint_replay *replay;
     struct glint_pipeline *pipeline;
+    struct against *against;
     json_t *runs; /* NULL: tables */
 };
 
@@ -134,7 +137,7 @@ static void print_passes(const struct glint_pass_result *results, size_t count) 
     table_destroy(&table);
 }
 
-static void print_run(const char *capture, const char *folder, const struct glint_trace_table *rays,
+static void print_run(const char *capture, const char *folder, const struct comparison *compared,
                       const struct job *job) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(job->replay, &count);
@@ -149,10 +152,10 @@ static void print_run(const char *capture, const char *folder, const struct glin
     putchar('\n');
     if (folder) printf("run: %s\n", folder);
     else puts("nothing written (-o RUN keeps the images)");
-    if (rays) against_print(rays);
+    if (compared) against_print(compared);
 }
 
-static json_t *run_json(const char *capture, const char *folder, const struct glint_trace_table *rays,
+static json_t *run_json(const char *capture, const char *folder, const struct comparison *compared,
                         const struct glint_replay *replay, const struct glint_device_info *device) {
     json_t *passes = json_array(), *seconds = json_object();
     size_t count = 0;
@@ -167,9 +170,11 @@ static json_t *run_json(const char *capture, const char *folder, const struct gl
     }
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         json_object_set_new(seconds, phases[i], json_number(glint_replay_seconds(replay, phases[i])));
-    return json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o, s:o*}", "capture", capture, "run", folder, "device",
-                     "name", device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes, "seconds",
-                     seconds, "against_truth", rays ? against_json(rays) : NULL);
+    return json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o, s:o*, s:o*}", "capture", capture, "run", folder,
+                     "device", "name", device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes,
+                     "seconds", seconds, "against_truth",
+                     compared && compared->has_rays ? against_json(compared) : NULL, "against_reference",
+                     compared && !compared->has_rays ? against_json(compared) : NULL);
 }
 
 /* RUN, or RUN/NAME when there are several captures; malloc'd. */
@@ -196,7 +201,7 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
     struct progress progress;
     struct pipe pipe;
-    struct glint_trace_table rays, *compared = job->a->against ? &rays : NULL;
+    struct comparison comparison, *compared = job->against->truth || job->against->reference ? &comparison : NULL;
     const char *file = pipe_input(&pipe, path, err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
     if (!capture) {
@@ -204,15 +209,19 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
         return false;
     }
     progress_begin(&progress);
-    bool ok = glint_replay_load(job->replay, capture, err) &&
-              glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
-              (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err)) &&
-              (!job->a->against || glint_study_trace(job->replay, capture, AGAINST_ROUGHNESS, &rays, err));
+    bool ok =
+        glint_replay_load(job->replay, capture, err) &&
+        glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
+        (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err)) &&
+        (!compared || against_compare(job->against, job->replay, capture, job->pipeline, &options, compared, err));
     progress_end(&progress);
     if (ok && job->runs)
         json_array_append_new(job->runs,
                               run_json(path, folder, compared, job->replay, glint_device_get_info(job->device)));
     else if (ok) print_run(path, folder, compared, job);
+    if (ok && compared && comparison.image.of[0].invalid)
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the reflection is NaN or infinite in %llu pixels", path,
+                        (unsigned long long)comparison.image.of[0].invalid);
     glint_replay_load(job->replay, NULL, NULL);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
@@ -240,18 +249,19 @@ static enum status replay_all(const struct job *job) {
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_replay, argc, argv, &a);
-    struct job job = {.a = &a};
+    struct job job = {.a = &a, .against = &a.against};
     struct glint_error err = {0};
     struct glint_device_options device_options = {.select = a.device};
     enum status status;
     job.pipeline = pipeline_args_create(&a.pipeline, &err);
     if (job.pipeline) job.device = glint_device_create(&device_options, &err);
     if (job.device) job.replay = glint_replay_create(job.device, &err);
-    if (job.replay) {
+    if (job.replay && against_begin(&a.against, job.device, job.pipeline, &err)) {
         if (a.json) job.runs = json_array();
         status = replay_all(&job);
         if (job.runs && print_json(json_pack("{s:o}", "runs", job.runs)) != STATUS_DONE) status = STATUS_CHECK;
     } else status = command_fail(&cmd_replay, &err);
+    against_finish(&a.against);
     glint_replay_destroy(&job.replay);
     glint_device_destroy(&job.device);
     glint_pipeline_destroy(&job.pipeline);

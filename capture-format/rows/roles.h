@@ -77,6 +77,7 @@ ROLE(truth_reflection, "truth.reflection.", FRAME, false, false, false, false, "
     CHANNEL("G",      true, "radiance", "color", "")
     CHANNEL("B",      true, "radiance", "color", "")
     CHANNEL("weight", true, "1",        "",      "share of the draws that arrived; 0 where nothing was computed")
+    CHANNEL("error",  false, "1",       "",      "standard error of the mean's luminance, relative, as of independent draws")
 END(truth_reflection)
 ROLE(truth_mirror, "truth.mirror", FRAME, false, false, false, false, "the exact mirror ray about the full-resolution normal")
     CHANNEL("distance.Z", true, "m", "", "distance of its hit; +inf where it sees sky")

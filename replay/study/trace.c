@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "metrics.h"
+
 static const struct {
     const char *name, *text;
 } reasons[] = {
@@ -54,11 +56,6 @@ static float *read_truth(struct glint_capture *capture, const char *name, const 
     if (glint_capture_read(capture, part, channels, count, GLINT_F32, truth, 0, err)) return truth;
     free(truth);
     return NULL;
-}
-
-static double relative_error(double found, double truth) {
-    if (isinf(found) || isinf(truth)) return isinf(found) && isinf(truth) ? 0 : INFINITY;
-    return fabs(found - truth) / truth;
 }
 
 struct sample {
@@ -158,41 +155,60 @@ static double radiance_error(const struct inputs *in, size_t texel, size_t pixel
     return sum;
 }
 
-/* One texel of the run; false when it has no ray to compare. */
-static bool compare(const struct inputs *in, size_t i, double max_roughness, struct sample *sample) {
+/* Rays of all surfaces: the arrays have room for one a texel. */
+struct rays {
+    float *found, *truth;
+    uint8_t *surfaces;
+    struct sample *samples; /* of surfaces up to max_roughness */
+    size_t count, sample_count;
+    double max_roughness;
+};
+
+/* One texel of the run, unless it has no ray to compare. */
+static void compare(const struct inputs *in, size_t i, struct rays *rays) {
     uint32_t scale = in->travelled.width == in->width && in->travelled.height == in->height ? 1 : 2;
     uint32_t pick = in->pick.data.u[i] < 4 && scale == 2 ? in->pick.data.u[i] : 0;
     uint32_t x = scale * (uint32_t)(i % in->travelled.width) + (pick & 1);
     uint32_t y = scale * (uint32_t)(i / in->travelled.width) + (pick >> 1);
-    if (x >= in->width || y >= in->height) return false;
+    if (x >= in->width || y >= in->height) return;
     size_t pixel = (size_t)y * in->width + x;
     bool on_screen = in->finished.data.u && in->finished.data.u[i] != 0;
     uint32_t reason = reason_at(on_screen ? &in->screen_end : &in->cubemap_end, i);
-    double distance = (double)in->distance[pixel];
-    if (reason == 0 || !(in->normal.data.f[4 * i + 3] <= (float)max_roughness) || !(distance > 0)) return false;
-    *sample = (struct sample){relative_error((double)in->travelled.data.f[i], distance), radiance_error(in, i, pixel),
-                              (on_screen ? 0 : REASONS) + reason};
-    return true;
+    float distance = in->distance[pixel], travelled = in->travelled.data.f[i], roughness = in->normal.data.f[4 * i + 3];
+    if (reason == 0 || !(distance > 0)) return;
+    rays->found[rays->count] = travelled;
+    rays->truth[rays->count] = distance;
+    rays->surfaces[rays->count++] = (uint8_t)glint_surface_of((double)roughness);
+    if (!(roughness <= (float)rays->max_roughness)) return;
+    rays->samples[rays->sample_count++] =
+        (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),
+                        (on_screen ? 0 : REASONS) + reason};
+}
+
+static bool allocate_rays(struct rays *rays, size_t texels, struct glint_error *err) {
+    rays->found = malloc(texels * sizeof *rays->found);
+    rays->truth = malloc(texels * sizeof *rays->truth);
+    rays->surfaces = malloc(texels);
+    rays->samples = malloc(texels * sizeof *rays->samples);
+    return (rays->found && rays->truth && rays->surfaces && rays->samples) ||
+           glint_fail(err, GLINT_ERROR_MEMORY, "trace table: out of memory");
 }
 
 bool glint_study_trace(struct glint_replay *replay, struct glint_capture *capture, double max_roughness,
                        struct glint_trace_table *table, struct glint_error *err) {
     struct inputs in = {0};
-    struct sample *samples = NULL;
-    size_t count = 0;
+    struct rays rays = {.max_roughness = max_roughness};
     *table = (struct glint_trace_table){0};
     bool ok = read_inputs(&in, replay, capture, err);
     size_t texels = (size_t)in.travelled.width * in.travelled.height;
-    if (!ok) goto done;
-    samples = malloc(texels * sizeof *samples);
-    if (!samples) {
-        ok = glint_fail(err, GLINT_ERROR_MEMORY, "trace table: out of memory");
-        goto done;
-    }
-    for (size_t i = 0; i < texels; ++i) count += compare(&in, i, max_roughness, &samples[count]);
-    if (count > 0) fill(samples, count, table);
-done:
-    free(samples);
+    if (ok) ok = allocate_rays(&rays, texels, err);
+    for (size_t i = 0; ok && i < texels; ++i) compare(&in, i, &rays);
+    if (ok && rays.sample_count > 0) fill(rays.samples, rays.sample_count, table);
+    if (ok) ok = glint_study_distances(rays.found, rays.truth, rays.surfaces, rays.count, &table->surfaces, err);
+    free(rays.found);
+    free(rays.truth);
+    free(rays.surfaces);
+    free(rays.samples);
     free_inputs(&in);
     return ok;
 }

@@ -209,11 +209,51 @@ static void replay_compares_with_the_truth(void **state) {
     const json_t *all = named(json_object_get(against, "rays"), "tracer", "all");
     assert_true(number(all, "rays") > 100);
     assert_true(number(all, "right") > 0.9);
+    const json_t *picture = named(json_object_get(json_object_get(against, "image"), "surfaces"), "surfaces", "all");
+    assert_true(number(picture, "pixels") > 1000 && number(picture, "invalid") == 0);
+    assert_true(number(picture, "rmse") > 0 && number(picture, "rmse") < number(picture, "truth_mean"));
     json_decref(json);
     free(text);
     glint_fails(1, "truth.mirror: missing", "replay", capture, "--against=truth", "--set=downsample.jitter=false");
     glint_fails(2, "expected one of truth", "replay", capture, "--against=lies");
     glint_fails(2, "an empty name", "replay", capture, "--passes=");
+}
+
+/* The reference must be better by far than what is measured with it. */
+static void reference_is_near_the_truth_and_others_are_compared_with_it(void **state) {
+    (void)state;
+    free(glint_ok("sample", "mirror_box", "-o", in_folder("fine.exr"), "--size=160x90", "--cube-size=256",
+                  "--probes=perfect", "--truth=1"));
+    char *text =
+        glint_ok("replay", in_folder("fine.exr"), "--preset=reference", "--against=truth", "--json",
+                 "--set=downsample.jitter=false", "--set=screen_trace.length_m=0", "-o", in_folder("reference"));
+    json_t *json = parse_json(text);
+    const json_t *run = json_array_get(json_object_get(json, "runs"), 0);
+    const json_t *smooth =
+        named(json_object_get(json_object_get(run, "against_truth"), "distances"), "surfaces", "mirror-like");
+    assert_true(number(smooth, "rays") > 1000);
+    assert_true(number(smooth, "median_error") <= 0.001);
+    json_decref(json);
+    free(text);
+    /* The same input gives the same bits. */
+    char *folder = NULL;
+    assert_true(asprintf(&folder, "--against=reference=%s", in_folder("reference")) > 0);
+    text = glint_ok("replay", in_folder("fine.exr"), "--preset=reference", folder, "--json",
+                    "--set=downsample.jitter=false", "--set=screen_trace.length_m=0");
+    json = parse_json(text);
+    run = json_array_get(json_object_get(json, "runs"), 0);
+    const json_t *same =
+        named(json_object_get(json_object_get(json_object_get(run, "against_reference"), "image"), "surfaces"),
+              "surfaces", "all");
+    assert_true(number(same, "pixels") > 1000 && number(same, "rmse") == 0);
+    json_decref(json);
+    free(text);
+    free(folder);
+    text = glint_ok("replay", in_folder("fine.exr"), "--against=reference");
+    assert_contains(text, "against the reference");
+    free(text);
+    glint_fails(2, "takes no run", "replay", in_folder("fine.exr"), "--against=truth=x");
+    glint_fails(1, "nowhere", "replay", in_folder("fine.exr"), "--against=reference=nowhere");
 }
 
 static void several_captures_get_a_folder_each(void **state) {
@@ -422,6 +462,7 @@ int main(void) {
         cmocka_unit_test(plan_lists_every_pass_with_a_reason),
         cmocka_unit_test(replay_reports_times_and_leaves_a_run),
         cmocka_unit_test(replay_compares_with_the_truth),
+        cmocka_unit_test(reference_is_near_the_truth_and_others_are_compared_with_it),
         cmocka_unit_test(several_captures_get_a_folder_each),
         cmocka_unit_test(info_shows_a_run),
         cmocka_unit_test(a_machine_without_a_driver_is_told_so),

@@ -1,0 +1,136 @@
+/* What runs are compared with, and what of them: the last reflection, the truth, the class of each pixel. */
+#include "glint/study.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char COMPOSE[] = "compose"; /* the slot that mixes the reflection into the picture */
+
+uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error *err) {
+    static const char *const channels[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
+    const struct glint_part_info *part = glint_capture_find(capture, "gbuffer");
+    if (!part) {
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
+        return NULL;
+    }
+    size_t pixels = (size_t)part->width * part->height;
+    uint8_t *surfaces = calloc(pixels, 1);
+    float *values = malloc(pixels * 4 * sizeof *values);
+    bool ok = (surfaces && values) || glint_fail(err, GLINT_ERROR_MEMORY, "part gbuffer: out of memory");
+    if (ok) ok = glint_capture_read(capture, part, channels, 4, GLINT_F32, values, 0, err);
+    for (size_t i = 0; ok && i < pixels; i++) {
+        const float *v = values + 4 * i;
+        if (v[0] < INFINITY && (v[2] > 0 || v[3] > 0)) surfaces[i] = (uint8_t)glint_surface_of((double)v[1]);
+    }
+    free(values);
+    if (ok) return surfaces;
+    free(surfaces);
+    return NULL;
+}
+
+static bool allocate(struct glint_pixels *pixels, uint32_t width, uint32_t height, uint32_t components,
+                     struct glint_error *err) {
+    *pixels = (struct glint_pixels){width, height, components, NULL};
+    pixels->values = malloc((size_t)width * height * components * sizeof *pixels->values);
+    return pixels->values || glint_fail(err, GLINT_ERROR_MEMORY, "reflection: no memory for %u × %u", width, height);
+}
+
+/* The last of the pass's images that holds a reflection at full resolution. */
+static const struct glint_image *reflection_of(struct glint_replay *replay, const struct glint_pass *pass) {
+    const struct glint_image *last = NULL;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
+        const struct glint_image *image = glint_replay_find_image(replay, row->name);
+        if (image) last = image;
+    }
+    return last;
+}
+
+bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err) {
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    const struct glint_image *last = NULL;
+    *pixels = (struct glint_pixels){0};
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_image *image =
+            results[i].ran && strcmp(results[i].pass->slot, COMPOSE) ? reflection_of(replay, results[i].pass) : NULL;
+        if (image) last = image;
+    }
+    if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection at full resolution to compare");
+    return allocate(pixels, last->width, last->height, last->components, err) &&
+           glint_replay_read_image(replay, last, GLINT_F32, pixels->values, err);
+}
+
+bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err) {
+    const struct glint_run_image *last = NULL;
+    uint32_t widest = 0;
+    *pixels = (struct glint_pixels){0};
+    for (size_t i = 0; i < glint_run_image_count(run); i++) {
+        const struct glint_run_image *image = glint_run_image(run, i);
+        if (strcmp(image->unit, "radiance") || !strcmp(image->slot, COMPOSE) || image->integer) continue;
+        if (image->height % (6 * image->width) == 0 || image->width < widest) continue; /* cubes; half resolution */
+        widest = image->width;
+        last = image;
+    }
+    if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection to compare with");
+    return allocate(pixels, last->width, last->height, last->components, err) &&
+           glint_run_read(run, last, GLINT_F32, pixels->values, err);
+}
+
+/* The value of a parameter as text, as glint_pipeline_set takes it; false when the pipeline has no such parameter. */
+static bool value_text(const struct glint_pipeline *pipeline, const char *slot, const char *name, char text[64]) {
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        for (size_t r = 0; r < pass->row_count && !strcmp(pass->slot, slot); r++) {
+            const struct glint_row *row = &pass->rows[r];
+            bool parameter =
+                row->kind == GLINT_ROW_SPEC || row->kind == GLINT_ROW_CHOICE || row->kind == GLINT_ROW_PUSH;
+            if (!parameter || strcmp(row->name, name)) continue;
+            double value = glint_pipeline_value(pipeline, pass, row);
+            if (row->kind == GLINT_ROW_CHOICE) snprintf(text, 64, "%s", row->choices[(size_t)value]);
+            else snprintf(text, 64, "%.17g", value);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool glint_study_truth(struct glint_capture *capture, const struct glint_pipeline *pipeline,
+                       struct glint_pixels *pixels, float **error, struct glint_error *err) {
+    static const char *const rgb[] = {"R", "G", "B"}, *const declared[] = {"error"};
+    char name[96];
+    *pixels = (struct glint_pixels){0};
+    *error = NULL;
+    char lobe[64] = "ggx";
+    value_text(pipeline, "downsample", "ndf", lobe);
+    snprintf(name, sizeof name, "truth.reflection.%s", lobe);
+    const struct glint_part_info *part = glint_capture_find(capture, name);
+    if (!part) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
+    if (!allocate(pixels, part->width, part->height, 3, err) ||
+        !glint_capture_read(capture, part, rgb, 3, GLINT_F32, pixels->values, 0, err))
+        return false;
+    if (!glint_part_has_channel(part, declared[0])) return true;
+    *error = malloc((size_t)part->width * part->height * sizeof **error);
+    return *error ? glint_capture_read(capture, part, declared, 1, GLINT_F32, *error, 0, err)
+                  : glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
+}
+
+struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err) {
+    /* What is asked for, and not how well it is answered. */
+    static const struct {
+        const char *slot, *name;
+    } same[] = {{"downsample", "ndf"}, {"resolve", "fog"}, {"resolve", "fog_target"}};
+    struct glint_pipeline *reference = glint_pipeline_create("reference", err);
+    for (size_t i = 0; reference && i < sizeof same / sizeof same[0]; i++) {
+        char value[64], unused[64], assignment[128];
+        if (!value_text(pipeline, same[i].slot, same[i].name, value) ||
+            !value_text(reference, same[i].slot, same[i].name, unused))
+            continue;
+        snprintf(assignment, sizeof assignment, "%s.%s=%s", same[i].slot, same[i].name, value);
+        if (!glint_pipeline_set(reference, assignment, err)) glint_pipeline_destroy(&reference);
+    }
+    return reference;
+}

@@ -1,0 +1,169 @@
+/* Metrics of images and distances against sums done by hand, and against errors that were put in. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "glint/study.h"
+
+enum { NONE = GLINT_SURFACE_NONE, MIRROR = GLINT_SURFACE_MIRROR, GLOSSY = GLINT_SURFACE_GLOSSY };
+
+static void assert_near(double found, double expected, double tolerance) {
+    if (!(fabs(found - expected) <= tolerance)) fail_msg("%.17g is not %.17g ± %g", found, expected, tolerance);
+}
+
+static void figures_are_those_of_a_sum_by_hand(void **state) {
+    (void)state;
+    float found[] = {1, 2, 9, 0, 1, 9, 5, 5, 9, 7, 7, 9}, truth[] = {1, 1, 0, 2, 3, 3, 9, 9};
+    const uint8_t surfaces[] = {MIRROR, MIRROR, GLOSSY, NONE};
+    const struct glint_pixels f = {2, 2, 3, found}, t = {2, 2, 2, truth};
+    struct glint_image_errors e;
+    struct glint_error err = {0};
+    assert_true(glint_study_image(&f, &t, 2, surfaces, NULL, &e, &err));
+    /* differences 0, 1, 0, -1 of truths 1, 1, 0, 2; and 2, 2 of 3, 3; sums in double of whole numbers are exact */
+    assert_int_equal(e.of[MIRROR].pixels, 2);
+    assert_near(e.of[MIRROR].truth_mean, 1, 0);
+    assert_near(e.of[MIRROR].mean, 0, 0);
+    assert_near(e.of[MIRROR].rmse, sqrt(0.5), 1e-15);
+    assert_near(e.of[MIRROR].relative_mse, (1 / 1.01 + 1 / 4.01) / 4, 1e-15);
+    assert_near(e.of[GLOSSY].mean, 2, 0);
+    assert_near(e.of[GLOSSY].rmse, 2, 1e-15);
+    assert_int_equal(e.of[0].pixels, 3);
+    assert_near(e.of[0].rmse, sqrt((2.0 + 8) / 6), 1e-15);
+    assert_int_equal(e.of[GLINT_SURFACE_ROUGH].pixels, 0);
+    assert_true(glint_study_image(&f, &t, 2, NULL, NULL, &e, &err));
+    assert_int_equal(e.of[0].pixels, 4);
+}
+
+static void what_is_no_number_is_counted_and_spoils_nothing(void **state) {
+    (void)state;
+    float found[] = {NAN, 1, INFINITY, 1}, truth[] = {1, 1, 1, 1};
+    const uint8_t surfaces[] = {MIRROR, MIRROR, GLOSSY, GLOSSY};
+    const struct glint_pixels f = {4, 1, 1, found}, t = {4, 1, 1, truth};
+    struct glint_image_errors e;
+    struct glint_error err = {0};
+    assert_true(glint_study_image(&f, &t, 1, surfaces, NULL, &e, &err));
+    assert_int_equal(e.of[0].invalid, 2);
+    assert_int_equal(e.of[MIRROR].invalid, 1);
+    assert_int_equal(e.of[0].pixels, 2);
+    assert_near(e.of[0].rmse, 0, 0);
+}
+
+static void images_of_two_sizes_are_refused(void **state) {
+    (void)state;
+    float values[4] = {0};
+    const struct glint_pixels a = {2, 2, 1, values}, b = {4, 1, 1, values};
+    struct glint_image_errors e;
+    struct glint_error err = {0};
+    assert_false(glint_study_image(&a, &b, 1, NULL, NULL, &e, &err));
+    assert_non_null(strstr(err.message, "2 × 2 and 4 × 1"));
+    assert_false(glint_study_image(&a, &a, 2, NULL, NULL, &e, &err));
+}
+
+/* An independent uniform random number in [0, 1). */
+static double uniform(uint64_t *state) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) / 9007199254740992.0;
+}
+
+/* The found image is wrong by a constant, the truth is noisy by a known amount: without that noise the constant is left. */
+static void the_truths_noise_is_taken_off(void **state) {
+    (void)state;
+    enum { SIZE = 512 };
+    const double off = 0.05, noise = 0.2;
+    struct glint_pixels f = {SIZE, SIZE, 1, malloc(sizeof(float) * SIZE * SIZE)};
+    struct glint_pixels t = {SIZE, SIZE, 1, malloc(sizeof(float) * SIZE * SIZE)};
+    float *error = malloc(sizeof(float) * SIZE * SIZE);
+    uint64_t seed = 1;
+    assert_true(f.values && t.values && error);
+    for (size_t i = 0; i < SIZE * SIZE; i++) {
+        double real = 0.5 + uniform(&seed);
+        /* a sum of uniform numbers has the variance of their count over 12 */
+        double normal = -6;
+        for (int k = 0; k < 12; k++) normal += uniform(&seed);
+        f.values[i] = (float)(real + off);
+        t.values[i] = (float)(real * (1 + noise * normal));
+        error[i] = (float)noise;
+    }
+    struct glint_image_errors e;
+    struct glint_error err = {0};
+    assert_true(glint_study_image(&f, &t, 1, NULL, error, &e, &err));
+    /* E[t²σ²] is 1 + σ² of the noise, because the noisy truth stands for the real one: 4 % of 0.0433; the rest is the
+       spread of 262,144 draws, 0.3 % */
+    assert_near(e.of[0].truth_noise, noise * sqrt(1.0833 * 1.04), 0.003);
+    assert_near(e.of[0].rmse, sqrt(off * off + noise * noise * 1.0833), 0.003);
+    assert_near(e.of[0].clean_rmse, sqrt(off * off - 0.04 * noise * noise * 1.0833), 0.01);
+    glint_pixels_finish(&f);
+    glint_pixels_finish(&t);
+    free(error);
+}
+
+static void distances_know_the_sky(void **state) {
+    (void)state;
+    const float found[] = {1, 1.04f, 2, INFINITY, INFINITY, 3, NAN, -1},
+                truth[] = {1, 1, 1, INFINITY, 1, INFINITY, 1, 1};
+    const uint8_t surfaces[] = {MIRROR, MIRROR, MIRROR, GLOSSY, GLOSSY, GLOSSY, MIRROR, NONE};
+    struct glint_distance_errors e;
+    struct glint_error err = {0};
+    assert_true(glint_study_distances(found, truth, surfaces, 8, &e, &err));
+    assert_int_equal(e.of[0].rays, 7);
+    assert_int_equal(e.of[MIRROR].rays, 4);
+    assert_int_equal(e.of[MIRROR].invalid, 1);
+    assert_near(e.of[MIRROR].right, 0.5, 0);
+    assert_near(e.of[MIRROR].median, 1, 0); /* of 0, 0.04, 1, ∞ the upper middle */
+    assert_true(isinf(e.of[MIRROR].p95));
+    assert_near(e.of[GLOSSY].right, 1.0 / 3, 1e-15);
+    assert_int_equal(e.of[GLINT_SURFACE_ROUGH].rays, 0);
+}
+
+static void classes_meet_at_their_thresholds(void **state) {
+    (void)state;
+    assert_int_equal(glint_surface_of(0), MIRROR);
+    assert_int_equal(glint_surface_of(GLINT_MIRROR_ROUGHNESS), MIRROR);
+    assert_int_equal(glint_surface_of(0.1001), GLOSSY);
+    assert_int_equal(glint_surface_of(GLINT_GLOSSY_ROUGHNESS), GLOSSY);
+    assert_int_equal(glint_surface_of(0.5001), GLINT_SURFACE_ROUGH);
+    assert_string_equal(glint_surface_name(GLINT_SURFACE_MIRROR), "mirror-like");
+}
+
+static void a_full_picture_takes_no_time(void **state) {
+    (void)state;
+    enum { WIDTH = 1920, HEIGHT = 1080 };
+    struct glint_pixels f = {WIDTH, HEIGHT, 4, calloc((size_t)WIDTH * HEIGHT * 4, sizeof(float))};
+    struct glint_pixels t = {WIDTH, HEIGHT, 4, calloc((size_t)WIDTH * HEIGHT * 4, sizeof(float))};
+    uint8_t *surfaces = malloc((size_t)WIDTH * HEIGHT);
+    struct timespec before, after;
+    struct glint_image_errors e;
+    struct glint_error err = {0};
+    assert_true(f.values && t.values && surfaces);
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) surfaces[i] = (uint8_t)(i % GLINT_SURFACE_COUNT);
+    /* processor time: others may be busy here */
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &before);
+    assert_true(glint_study_image(&f, &t, 4, surfaces, NULL, &e, &err));
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &after);
+    double seconds = (double)(after.tv_sec - before.tv_sec) + 1e-9 * (double)(after.tv_nsec - before.tv_nsec);
+    print_message("# 1920 × 1080 RGBA: %.0f ms\n", 1000 * seconds);
+    assert_true(seconds <= 0.3);
+    glint_pixels_finish(&f);
+    glint_pixels_finish(&t);
+    free(surfaces);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures_are_those_of_a_sum_by_hand),
+        cmocka_unit_test(what_is_no_number_is_counted_and_spoils_nothing),
+        cmocka_unit_test(images_of_two_sizes_are_refused),
+        cmocka_unit_test(the_truths_noise_is_taken_off),
+        cmocka_unit_test(distances_know_the_sky),
+        cmocka_unit_test(classes_meet_at_their_thresholds),
+        cmocka_unit_test(a_full_picture_takes_no_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
