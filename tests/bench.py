@@ -18,6 +18,15 @@ PHASES = (("read", "read what the passes need"), ("upload", "upload"), ("passes"
           ("readback", "readback"), ("write", "EXR writing still to do after the last readback"))
 
 
+# The slides' rows (1080p on a PS4, ms) and the slots that do their work here.
+SLIDES = (("down-sample G-buffer", 0.25, ("downsample",)), ("SSR trace", 0.55, ("classify", "screen_trace")),
+          ("select best starting CM", 0.25, ("cubemap_select",)),
+          ("CM trace", 0.90, ("classify_unfinished", "cubemap_trace")), ("half-res resolve", 0.35, ("resolve",)),
+          ("half-res blur", 0.17, ("blur",)), ("half-res temporal", 0.10, ("temporal",)), ("upscale", 0.41, ("upscale",)),
+          ("resolve", 0.22, ("resolve_sharp",)), ("temporal", 0.10, ("temporal_sharp",)))
+TEXEL = {"R8UI": 1, "R32UI": 4, "R16F": 2, "RG16F": 4, "RGBA16F": 8, "R32F": 4, "RG32F": 8, "RGBA32F": 16}
+
+
 def measured(command):
     """Seconds and peak memory in bytes of one whole process."""
     start = time.monotonic()
@@ -30,6 +39,31 @@ def measured(command):
 
 def spread(values):
     return {"n": len(values), "min": min(values), "median": statistics.median(values), "max": max(values)}
+
+
+def copy_gbs():
+    """Bytes read and written a second by copies of host memory that no cache holds, best of five."""
+    source = bytearray(os.urandom(1 << 20) * 256)
+    times = []
+    for _ in range(5):
+        start = time.monotonic()
+        target = bytes(source)
+        times.append(time.monotonic() - start)
+    return 2 * len(target) / min(times) / 1e9
+
+
+def least_bytes(glint, result):
+    """Bytes that each pass has to move: every image it names once, and of cube maps one texel for each pixel that it
+    writes, which is what a single fetch costs. What the caches make of it is not counted."""
+    passes = json.loads(subprocess.run([glint, "passes", "--json"], check=True, capture_output=True).stdout)["passes"]
+    full, half = (w * h for w, h in (result["resolution"]["full"], result["resolution"]["half"]))
+    moved = {}
+    for p in passes:
+        pixels = {"full": full, "half": half}
+        written = max((pixels.get(i["size"], 0) for i in p["writes"] if not i["diagnostic"]), default=0)
+        images = [i for i in p["reads"] + p["writes"] if not i["diagnostic"]]
+        moved[f"{p['slot']}/{p['variant']}"] = sum(TEXEL[i["format"]] * pixels.get(i["size"], written) for i in images)
+    return moved
 
 
 def record(options):
@@ -60,6 +94,7 @@ def record(options):
             "whole_s": spread([s for s, _ in whole]), "peak_bytes": max(b for _, b in whole),
             "phases_s": {name: spread(v) for name, v in phases.items()},
             "files_s": {name: spread(v) for name, v in files.items() if v},
+            "bandwidth_gbs": options.bandwidth_gbs or copy_gbs(), "least_bytes": least_bytes(options.glint, result),
             "passes_ns": {f"{p['slot']}/{p['variant']}": p["time_ns"] for p in result["passes"] if p["ran"]},
         }
 
@@ -95,6 +130,27 @@ def passes_table(records):
     return table(["pass, ms", *(r["as"] for r in records)], [*rows, ["**together**", *total]])
 
 
+def slides_table(records):
+    """Per record: time, bytes that must move, and the time that these bytes take at its bandwidth over the time."""
+    heads = ["the slides' row", "PS4, ms"]
+    for r in records:
+        heads += [r["as"] + ", ms", "MB", f"bandwidth's share ({r['bandwidth_gbs']:.0f} GB/s)"]
+    rows, sums = [], [0.0] * len(records)
+    for name, ps4, slots in SLIDES:
+        row = [f"{name} ({', '.join(f'`{s}`' for s in slots)})", f"{ps4:.2f}"]
+        for n, r in enumerate(records):
+            passes = [p for p in r["passes_ns"] if p.split("/")[0] in slots]
+            ms = sum(r["passes_ns"][p]["median"] for p in passes) / 1e6
+            moved = sum(r["least_bytes"].get(p, 0) for p in passes)
+            sums[n] += ms
+            row += [f"{ms:.3f}", f"{moved / 1e6:.1f}", f"{moved / r['bandwidth_gbs'] / 1e6 / ms:.0%}"] if ms else ["–"] * 3
+        rows.append(row)
+    total = ["**sum**", f"{sum(ps4 for _, ps4, _ in SLIDES):.2f}"]
+    for ms in sums:
+        total += [f"**{ms:.3f}**", "", ""]
+    return table(heads, [*rows, total])
+
+
 def tables(options):
     records = []
     for path in options.records:
@@ -102,7 +158,8 @@ def tables(options):
             records.append(json.load(text))
     with open("BENCHMARKS.md", encoding="utf-8") as text:
         page = text.read()
-    for name, made in (("steps", steps_table(records)), ("passes", passes_table(records))):
+    for name, made in (("steps", steps_table(records)), ("passes", passes_table(records)),
+                       ("slides", slides_table(records))):
         begin, end = f"<!-- {name} -->\n", f"\n<!-- end {name} -->"
         head, rest = page.split(begin)
         page = head + begin + made + end + rest.split(end)[1]
@@ -120,6 +177,7 @@ def main():
     command.add_argument("--bench-capture")
     command.add_argument("--rounds", type=int, default=5)
     command.add_argument("--repeat", type=int, default=5, help="timed rounds of each pass")
+    command.add_argument("--bandwidth-gbs", type=float, help="of the device's memory, read plus written; default: a host copy's")
     command.add_argument("--work", help="folder for temporary files")
     command.add_argument("-o", "--output", required=True)
     command.set_defaults(run=record)
