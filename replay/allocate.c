@@ -100,8 +100,10 @@ bool run_allocate(struct run *run, struct glint_error *err) {
         image->used = true;
         image->transient = transient;
         image->listed = wanted->source == SOURCE_RUN || wanted->source == SOURCE_ENGINE || wanted->wanted;
-        image->info.row = wanted->row;
-        image->info.pass = wanted->pass;
+        for (uint32_t l = 0; l < desc.levels; l++) {
+            image->levels[l].info.row = wanted->row;
+            image->levels[l].info.pass = wanted->pass;
+        }
         run->images[i] = image;
     }
     replay_drop_images(replay, true); /* before memory is taken for new ones */

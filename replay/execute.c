@@ -1,4 +1,4 @@
-/* Programs, descriptors and the dispatches themselves, timed. */
+/* Programs and rounds of all passes, timed. */
 #include "state.h"
 
 #include <stdio.h>
@@ -6,12 +6,6 @@
 #include <string.h>
 
 #include "timing.h"
-
-static struct image *image_of(const struct run *run, const char *name) {
-    for (size_t i = 0; i < run->graph.image_count; i++)
-        if (strcmp(run->graph.images[i].name, name) == 0) return run->images[i];
-    return NULL;
-}
 
 static VkResult create_pool(struct run *run, uint32_t sets, uint32_t sampled, uint32_t storage) {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, sampled + 1},
@@ -25,42 +19,15 @@ static VkResult create_pool(struct run *run, uint32_t sets, uint32_t sampled, ui
     return vkCreateDescriptorPool(run->replay->device->device, &info, NULL, &run->pool);
 }
 
-static VkResult allocate_set(struct run *run, VkDescriptorSetLayout layout, const char *name, VkDescriptorSet *set) {
+static bool prepare_frame_set(struct run *run, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
     const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                               .descriptorPool = run->pool,
                                               .descriptorSetCount = 1,
-                                              .pSetLayouts = &layout};
-    VkResult result = vkAllocateDescriptorSets(run->replay->device->device, &info, set);
-    if (result == VK_SUCCESS)
-        device_set_name(run->replay->device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)*set, name);
-    return result;
-}
-
-static void write_images(const struct run *run, const struct step *step) {
-    const struct glint_pass *pass = step->pass->pass;
-    for (size_t r = 0; r < pass->row_count; r++) {
-        const struct glint_row *row = &pass->rows[r];
-        if (!row_is_image(row)) continue;
-        const struct image *image = image_of(run, row->name);
-        bool array = strstr(row->glsl, "CubeArray") != NULL;
-        const VkDescriptorImageInfo info = {.imageView = array ? image->array_view : image->view,
-                                            .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
-        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = step->set,
-                                            .dstBinding = row->id,
-                                            .descriptorCount = 1,
-                                            .descriptorType = row->kind == GLINT_ROW_READ
-                                                                  ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
-                                                                  : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                            .pImageInfo = &info};
-        vkUpdateDescriptorSets(run->replay->device->device, 1, &write, 0, NULL);
-    }
-}
-
-static bool prepare_frame_set(struct run *run, struct glint_error *err) {
-    struct glint_replay *replay = run->replay;
-    VkResult result = allocate_set(run, replay->programs.frame, "frame", &run->frame_set);
+                                              .pSetLayouts = &replay->programs.frame};
+    VkResult result = vkAllocateDescriptorSets(replay->device->device, &info, &run->frame_set);
     if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
+    device_set_name(replay->device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)run->frame_set, "frame");
     memcpy(replay->frame.map, &run->block, sizeof run->block);
     const VkDescriptorBufferInfo buffer = {replay->frame.buffer, 0, sizeof run->block};
     const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -90,60 +57,36 @@ bool run_prepare(struct run *run, struct glint_error *err) {
         if (!step->execute) continue;
         const struct glint_pass *pass = step->pass->pass;
         step->program = programs_get(&replay->programs, replay->device, pass, &step->spirv, &step->constants, err);
-        if (!step->program) return false;
-        sets++;
+        if (!step->program || !step_plan(run, step, err)) return false;
+        const uint32_t dispatches = (uint32_t)step->dispatch_count;
+        sets += dispatches;
         for (size_t r = 0; r < pass->row_count; r++) {
-            sampled += pass->rows[r].kind == GLINT_ROW_READ;
-            storage += row_is_output(&pass->rows[r]);
+            sampled += dispatches * row_is_sampled(&pass->rows[r]);
+            storage += dispatches * row_is_output(&pass->rows[r]);
         }
     }
     VkResult result = create_pool(run, sets, sampled, storage);
     if (result != VK_SUCCESS) return vk_fail(err, "creating the descriptor pool", result);
     for (size_t p = 0; p < run->graph.pass_count; p++) {
         struct step *step = &run->steps[p];
-        if (!step->execute) continue;
-        result = allocate_set(run, step->program->images, step->pass->pass->slot, &step->set);
-        if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
-        write_images(run, step);
+        if (step->execute && !step_describe(run, step, err)) return false;
     }
     return prepare_frame_set(run, err) && prepare_queries(run, err);
 }
 
-static const struct image *dispatched(const struct run *run, const struct glint_pass *pass) {
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (pass->rows[r].kind == GLINT_ROW_DISPATCH) return image_of(run, pass->rows[r].name);
-    return NULL;
-}
-
-static bool record_step(const struct run *run, struct step *step, struct glint_error *err) {
+static void record_step(const struct run *run, struct step *step) {
     struct glint_device *device = run->replay->device;
     const struct glint_pass *pass = step->pass->pass;
-    const struct image *whole = dispatched(run, pass);
     const uint32_t query = 2 * (uint32_t)(step - run->steps);
-    if (!whole)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s declares no image to dispatch over", pass->slot,
-                          pass->variant);
-    struct barriers barriers = {.count = 0};
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (row_is_image(&pass->rows[r]))
-            image_access(image_of(run, pass->rows[r].name),
-                         pass->rows[r].kind == GLINT_ROW_READ ? IMAGE_SHADER_READ : IMAGE_SHADER_WRITE, &barriers);
     VkCommandBuffer commands = device->commands;
     char label[128];
     snprintf(label, sizeof label, "%s/%s", pass->slot, pass->variant);
     if (run->queries) vkCmdResetQueryPool(commands, run->queries, query, 2);
     device_begin_label(device, label);
-    barriers_record(&barriers, device);
     if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, query);
-    const VkDescriptorSet sets[] = {step->set, run->frame_set};
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->layout, 0, 2, sets, 0, NULL);
-    vkCmdPushConstants(commands, step->program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
-                       step->constants.push);
-    vkCmdDispatch(commands, (whole->desc.width + 7) / 8, (whole->desc.height + 7) / 8, 1);
+    step_record(run, step);
     if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, query + 1);
     device_end_label(device);
-    return true;
 }
 
 /* Somebody who follows the progress gets each pass submitted by itself, and can stop between two; otherwise a round is
@@ -158,7 +101,7 @@ static bool execute_round(struct run *run, double done, double share, struct gli
         const double here = done + share * (double)p / (double)run->graph.pass_count;
         if (!report_progress(run->progress, run->user, slot, 0.2 + 0.8 * here, err)) return false;
         if (!recording && !device_begin(device, err)) return false;
-        if (!record_step(run, step, err)) return false;
+        record_step(run, step);
         recording = !run->progress;
         if (!recording && !device_submit(device, slot, err)) return false;
     }
@@ -208,6 +151,7 @@ void run_release(struct run *run) {
     for (size_t p = 0; run->steps && p < run->graph.pass_count; p++) {
         spirv_finish(&run->steps[p].spirv);
         free(run->steps[p].ns);
+        free(run->steps[p].dispatches);
     }
     free(run->steps);
     free(run->images);

@@ -10,8 +10,25 @@
 bool row_is_output(const struct glint_row *row) {
     return row->kind == GLINT_ROW_WRITE || row->kind == GLINT_ROW_DIAGNOSTIC;
 }
+bool row_is_sampled(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_READ || row->kind == GLINT_ROW_SELF || row->kind == GLINT_ROW_HISTORY;
+}
 bool row_is_image(const struct glint_row *row) {
-    return row->kind == GLINT_ROW_READ || row_is_output(row);
+    return row_is_sampled(row) || row_is_output(row);
+}
+const char *row_image(const struct glint_row *row) {
+    return row->image ? row->image : row->name;
+}
+
+bool size_is_array(enum glint_size_class size) {
+    return size == GLINT_SIZE_CUBEMAPS || size == GLINT_SIZE_CUBEMAPS_MIPS;
+}
+bool size_is_cube(enum glint_size_class size) {
+    return size_is_array(size) || size == GLINT_SIZE_SKY || size == GLINT_SIZE_SKY_MIPS;
+}
+bool size_has_levels(enum glint_size_class size) {
+    return size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_CUBEMAPS_MIPS ||
+           size == GLINT_SIZE_SKY_MIPS;
 }
 
 bool list_has(const char *const *list, const char *name) {
@@ -32,7 +49,7 @@ const struct glint_row *pass_output(const struct glint_pass *pass, const char *i
     return NULL;
 }
 
-static const struct glint_row *capture_row(const char *image) {
+const struct glint_row *capture_row(const char *image) {
     size_t count;
     const struct glint_row *rows = glint_capture_images(&count);
     for (size_t i = 0; i < count; i++)
@@ -49,7 +66,7 @@ size_t graph_maker(const struct graph *graph, const char *image) {
 /* Cube-map arrays hold the active cube maps in the order of this table, so whoever reads one depends on it. */
 static const char *implied_read(const struct glint_row *read) {
     const struct glint_row *row = capture_row(read->name);
-    return row && row->size == GLINT_SIZE_CUBEMAPS ? "active_index" : NULL;
+    return row && size_is_array(row->size) ? "active_index" : NULL;
 }
 
 /* The images a row reads: its own, and what that implies. */
@@ -58,67 +75,6 @@ static size_t reads_of(const struct glint_row *row, const char *names[2]) {
     names[0] = row->name;
     names[1] = implied_read(row);
     return names[1] ? 2 : 1;
-}
-
-/* What declarations may say and the executor cannot do yet. */
-static void check_support(const struct glint_pass *pass, struct faults *faults) {
-    for (size_t r = 0; r < pass->row_count; r++) {
-        const char *what = NULL;
-        switch (pass->rows[r].kind) {
-        case GLINT_ROW_SELF:
-            what = "SELF";
-            break;
-        case GLINT_ROW_HISTORY:
-            what = "HISTORY";
-            break;
-        case GLINT_ROW_DISPATCH_LEVELS:
-            what = "DISPATCH_LEVELS";
-            break;
-        case GLINT_ROW_DISPATCH_LIST:
-            what = "DISPATCH_LIST";
-            break;
-        case GLINT_ROW_PER_RAY:
-            what = "PER_RAY";
-            break;
-        case GLINT_ROW_ACCUMULATE:
-            what = "ACCUMULATE";
-            break;
-        default:
-            break;
-        }
-        if (what)
-            faults_add(faults, GLINT_ERROR_UNSUPPORTED, "%s/%s declares %s, which cannot be run yet", pass->slot,
-                       pass->variant, what);
-    }
-}
-
-static void check_producers(const struct graph *graph, struct faults *faults) {
-    for (size_t i = 0; i < graph->pass_count; i++) {
-        const struct glint_pass *pass = graph->passes[i].pass;
-        size_t images = 0;
-        check_support(pass, faults);
-        for (size_t r = 0; r < pass->row_count; r++) images += row_is_image(&pass->rows[r]);
-        if (images > PASS_IMAGES_MAX)
-            faults_add(faults, GLINT_ERROR_LIMIT, "%s/%s: %zu images, expected at most %d", pass->slot, pass->variant,
-                       images, PASS_IMAGES_MAX);
-        for (size_t r = 0; r < pass->row_count; r++) {
-            if (!row_is_output(&pass->rows[r])) {
-                if (pass->rows[r].kind == GLINT_ROW_READ && pass->host)
-                    faults_add(faults, GLINT_ERROR_USAGE,
-                               "%s/%s runs on the host, before any image exists, but reads %s", pass->slot,
-                               pass->variant, pass->rows[r].name);
-                continue;
-            }
-            const char *image = pass->rows[r].name;
-            if (capture_row(image))
-                faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and the capture", image,
-                           pass->slot, pass->variant);
-            for (size_t j = i + 1; j < graph->pass_count; j++)
-                if (pass_output(graph->passes[j].pass, image))
-                    faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and %s/%s", image,
-                               pass->slot, pass->variant, graph->passes[j].pass->slot, graph->passes[j].pass->variant);
-        }
-    }
 }
 
 bool pass_depends(const struct glint_pass *later, const struct glint_pass *earlier) {
@@ -160,7 +116,7 @@ static void sort(struct graph *graph, struct faults *faults) {
 static bool capture_has(struct glint_capture *capture, const struct glint_row *row) {
     char part[64];
     if (!capture) return false;
-    if (row->size != GLINT_SIZE_CUBEMAPS) return glint_capture_find(capture, row->role) != NULL;
+    if (!size_is_array(row->size)) return glint_capture_find(capture, row->role) != NULL;
     for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
         const struct glint_part_info *info = glint_capture_part(capture, i);
         snprintf(part, sizeof part, "%s.", row->role);
@@ -181,25 +137,15 @@ static void complain_missing(const struct graph_pass *reader, const char *image,
                    reader->pass->variant, image);
 }
 
-static void check_kind(const struct glint_pass *reader, const struct glint_row *read, const struct glint_row *row,
-                       struct faults *faults) {
-    const bool uint = row->format == GLINT_FORMAT_R8UI || row->format == GLINT_FORMAT_R32UI;
-    const bool array = row->size == GLINT_SIZE_CUBEMAPS, cube = array || row->size == GLINT_SIZE_SKY;
-    const char *is = NULL;
-    if ((read->glsl[0] == 'u') != uint) is = uint ? "a uint image" : "a float image";
-    else if ((strstr(read->glsl, "Cube") != NULL) != cube || (strstr(read->glsl, "Array") && !array))
-        is = array ? "an array of cube maps" : cube ? "a cube map" : "a plain image";
-    if (is)
-        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s as %s, but it is %s", reader->slot, reader->variant,
-                   read->name, read->glsl, is);
-}
-
-/* Where an image that pass `reader` reads comes from; adds it to the graph's images. */
-static void link_read(struct graph *graph, size_t reader, const char *name, const struct graph_inputs *inputs,
-                      struct faults *faults) {
+/* Where an image that pass `reader` reads comes from; adds it to the graph's images. `optional`: the row that says what
+   it is when no pass makes it, or NULL. */
+static void link_read(struct graph *graph, size_t reader, const char *name, const struct glint_row *optional,
+                      const struct graph_inputs *inputs, struct faults *faults) {
     struct graph_image *image = graph_find(graph, name);
     if (image) {
         image->last_use = reader;
+        if (!optional && image->row->optional)
+            complain_missing(&graph->passes[reader], name, image->pass, inputs->options, faults);
         return;
     }
     struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader};
@@ -209,7 +155,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
         fresh.pass = graph->passes[maker].pass;
         fresh.row = pass_output(fresh.pass, name);
         dropped = !inputs->options->passes || list_has(inputs->options->passes, fresh.pass->slot);
-    } else if (!(fresh.row = capture_row(name))) {
+    } else if (!(fresh.row = capture_row(name)) && !optional) {
         size_t count;
         const struct glint_pass *all = glint_passes(&count);
         for (size_t i = 0; i < count && !fresh.row; i++)
@@ -217,7 +163,8 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     }
     char part[128];
     snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
-    if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, inputs->options, faults);
+    if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    else if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, inputs->options, faults);
     else if (!fresh.pass) {
         fresh.source = capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_NOTHING;
         if (fresh.source == SOURCE_NOTHING && fresh.row->required)
@@ -227,6 +174,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     } else if (dropped) fresh.source = SOURCE_NOTHING;
     else if (inputs->run && glint_run_find(inputs->run, name)) fresh.source = SOURCE_RUN;
     else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
+    else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
     else complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);
     if (fresh.row) graph->images[graph->image_count++] = fresh;
 }
@@ -239,9 +187,12 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
         for (size_t r = 0; r < pass->pass->row_count; r++) {
             const struct glint_row *row = &pass->pass->rows[r];
             const char *names[2];
-            for (size_t n = reads_of(row, names); n-- > 0;) link_read(graph, i, names[n], inputs, faults);
-            if (row->kind == GLINT_ROW_READ && graph_find(graph, row->name))
-                check_kind(pass->pass, row, graph_find(graph, row->name)->row, faults);
+            for (size_t n = reads_of(row, names); n-- > 0;)
+                link_read(graph, i, names[n], row->optional && n == 0 ? row : NULL, inputs, faults);
+            const struct graph_image *read = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
+            if (read && read->source == SOURCE_RUN && size_is_array(read->row->size))
+                link_read(graph, i, "active_index", NULL, inputs, faults); /* how many cube maps there are */
+            if (read) graph_check_kind(pass->pass, row, read->row, faults);
             if (!row_is_output(row)) continue;
             bool made = row->kind == GLINT_ROW_WRITE || options->diagnostics;
             graph->images[graph->image_count++] =
@@ -259,7 +210,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
 
 static bool allocate(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err) {
     size_t images = 0;
-    for (size_t i = 0; i < pipeline->count; i++) images += 2 * pipeline->passes[i].pass->row_count;
+    for (size_t i = 0; i < pipeline->count; i++) images += 3 * pipeline->passes[i].pass->row_count;
     graph->passes = calloc(pipeline->count + 1, sizeof *graph->passes);
     graph->images = calloc(images + 1, sizeof *graph->images);
     if (!graph->passes || !graph->images) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -273,7 +224,7 @@ bool graph_init(struct graph *graph, const struct graph_inputs *inputs, struct g
     struct faults faults = {0};
     *graph = (struct graph){0};
     if (!allocate(graph, inputs->pipeline, err)) goto fail;
-    check_producers(graph, &faults);
+    graph_check(graph, &faults);
     sort(graph, &faults);
     if (!graph_decide(graph, inputs, &faults, err)) goto fail;
     link_images(graph, inputs, &faults);

@@ -68,7 +68,19 @@ bool pass_depends(const struct glint_pass *later, const struct glint_pass *earli
 /* `list` is NULL-terminated, or NULL. */
 bool list_has(const char *const *list, const char *name);
 
-bool row_is_image(const struct glint_row *row);
 bool row_is_output(const struct glint_row *row);
+bool row_is_sampled(const struct glint_row *row);
+bool row_is_image(const struct glint_row *row); /* it is a binding: one of the above */
+const char *row_image(const struct glint_row *row);
+
+bool size_is_cube(enum glint_size_class size);  /* one cube map or an array of them */
+bool size_is_array(enum glint_size_class size); /* of cube maps */
+bool size_has_levels(enum glint_size_class size);
+
+/* check.c: declarations that contradict themselves or one another. */
+void graph_check(const struct graph *graph, struct faults *faults);
+void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
+                      struct faults *faults);
+const struct glint_row *capture_row(const char *image);
 
 #endif

@@ -1,4 +1,4 @@
-/* Creation of images and the barriers that follow from their use. */
+/* Creation of images, their memory and their views. */
 #include "image.h"
 
 #include <stdio.h>
@@ -6,15 +6,52 @@
 #include <string.h>
 
 bool image_desc_equal(const struct image_desc *a, const struct image_desc *b) {
-    return a->format == b->format && a->width == b->width && a->height == b->height && a->layers == b->layers;
+    return a->format == b->format && a->width == b->width && a->height == b->height && a->layers == b->layers &&
+           a->levels == b->levels;
 }
 
-static uint32_t layer_count(const struct image_desc *desc) {
+uint32_t image_layers(const struct image_desc *desc) {
     return desc->layers ? desc->layers : 1;
 }
 
-VkDeviceSize image_bytes(const struct image_desc *desc) {
-    return (VkDeviceSize)desc->width * desc->height * layer_count(desc) * format_bytes(desc->format);
+VkExtent3D image_extent(const struct image_desc *desc, uint32_t level) {
+    const uint32_t width = desc->width >> level, height = desc->height >> level;
+    return (VkExtent3D){width ? width : 1, height ? height : 1, 1};
+}
+
+VkDeviceSize image_bytes(const struct image_desc *desc, uint32_t level) {
+    const VkExtent3D extent = image_extent(desc, level);
+    return (VkDeviceSize)extent.width * extent.height * image_layers(desc) * format_bytes(desc->format);
+}
+
+size_t image_values(const struct image_desc *desc, uint32_t level) {
+    return (size_t)(image_bytes(desc, level) / format_bytes(desc->format)) * format_components(desc->format);
+}
+
+VkImageSubresourceRange image_range(const struct image_desc *desc) {
+    return (VkImageSubresourceRange){VK_IMAGE_ASPECT_COLOR_BIT, 0, desc->levels, 0, image_layers(desc)};
+}
+
+uint32_t level_count(uint32_t width, uint32_t height) {
+    uint32_t levels = 1;
+    for (uint32_t size = width > height ? width : height; size > 1; size /= 2) levels++;
+    return levels;
+}
+
+static void describe_levels(struct image *image) {
+    const struct image_desc *desc = &image->desc;
+    for (uint32_t i = 0; i < desc->levels; i++) {
+        struct image_level *level = &image->levels[i];
+        const VkExtent3D extent = image_extent(desc, i);
+        if (i) snprintf(level->name, sizeof level->name, "%s.level%u", image->name, i);
+        level->info = (struct glint_image){.name = i ? level->name : image->name,
+                                           .format = desc->format,
+                                           .width = extent.width,
+                                           .height = extent.height * image_layers(desc),
+                                           .components = format_components(desc->format),
+                                           .level = i,
+                                           .levels = desc->levels};
+    }
 }
 
 struct image *image_create(struct glint_device *device, const char *name, const struct image_desc *desc,
@@ -26,18 +63,14 @@ struct image *image_create(struct glint_device *device, const char *name, const 
     }
     snprintf(image->name, sizeof image->name, "%s", name);
     image->desc = *desc;
-    image->info = (struct glint_image){.name = image->name,
-                                       .format = desc->format,
-                                       .width = desc->width,
-                                       .height = desc->height * layer_count(desc),
-                                       .components = format_components(desc->format)};
+    describe_levels(image);
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                     .flags = desc->layers ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
                                     .imageType = VK_IMAGE_TYPE_2D,
                                     .format = format_vulkan(desc->format),
                                     .extent = {desc->width, desc->height, 1},
-                                    .mipLevels = 1,
-                                    .arrayLayers = layer_count(desc),
+                                    .mipLevels = desc->levels,
+                                    .arrayLayers = image_layers(desc),
                                     .samples = VK_SAMPLE_COUNT_1_BIT,
                                     .tiling = VK_IMAGE_TILING_OPTIMAL,
                                     .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
@@ -89,15 +122,15 @@ static void block_release(struct block *block, const struct image *image, struct
     free(block);
 }
 
-static bool create_view(const struct image *image, struct glint_device *device, VkImageViewType type, VkImageView *view,
-                        struct glint_error *err) {
+static bool create_view(const struct image *image, struct glint_device *device, VkImageViewType type, uint32_t first,
+                        uint32_t levels, VkImageView *view, struct glint_error *err) {
     const VkImageViewCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
         .image = image->image,
         .viewType = type,
         .format = format_vulkan(image->desc.format),
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
-                             type == VK_IMAGE_VIEW_TYPE_CUBE ? 6 : layer_count(&image->desc)}};
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, first, levels, 0,
+                             type == VK_IMAGE_VIEW_TYPE_CUBE ? 6 : image_layers(&image->desc)}};
     VkResult result = vkCreateImageView(device->device, &info, NULL, view);
     if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
     device_set_name(device, VK_OBJECT_TYPE_IMAGE_VIEW, (uint64_t)(uintptr_t)*view, image->name);
@@ -105,119 +138,29 @@ static bool create_view(const struct image *image, struct glint_device *device, 
 }
 
 bool image_bind(struct image *image, struct glint_device *device, struct block *block, struct glint_error *err) {
+    const bool cube = image->desc.layers != 0;
     image->block = block;
     block->images++;
     VkResult result = vkBindImageMemory(device->device, image->image, block->memory, 0);
     if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
-    if (!image->desc.layers) return create_view(image, device, VK_IMAGE_VIEW_TYPE_2D, &image->view, err);
-    return create_view(image, device, VK_IMAGE_VIEW_TYPE_CUBE, &image->view, err) &&
-           create_view(image, device, VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, &image->array_view, err);
+    for (uint32_t i = 0; i < image->desc.levels; i++)
+        if (!create_view(image, device, cube ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D, i, 1,
+                         &image->levels[i].view, err))
+            return false;
+    return create_view(image, device, cube ? VK_IMAGE_VIEW_TYPE_CUBE : VK_IMAGE_VIEW_TYPE_2D, 0, image->desc.levels,
+                       &image->view, err) &&
+           (!cube ||
+            create_view(image, device, VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, 0, image->desc.levels, &image->array_view, err));
 }
 
 void image_destroy(struct image **pointer, struct glint_device *device) {
     struct image *image = *pointer;
     *pointer = NULL;
     if (!image) return;
+    for (uint32_t i = 0; i < image->desc.levels; i++) vkDestroyImageView(device->device, image->levels[i].view, NULL);
     vkDestroyImageView(device->device, image->view, NULL);
     vkDestroyImageView(device->device, image->array_view, NULL);
     vkDestroyImage(device->device, image->image, NULL);
     if (image->block) block_release(image->block, image, device);
     free(image);
-}
-
-static const struct {
-    VkPipelineStageFlags2 stage;
-    VkAccessFlags2 access;
-    bool write;
-} accesses[] = {
-    [IMAGE_SHADER_READ] = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false},
-    [IMAGE_SHADER_WRITE] = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, true},
-    [IMAGE_COPY_READ] = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, false},
-    [IMAGE_COPY_WRITE] = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true},
-    [IMAGE_CLEAR] = {VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true},
-};
-
-/* All images stay in the general layout: storage images must, and sampling from it costs nothing measurable here. */
-void image_access(struct image *image, enum image_access access, struct barriers *barriers) {
-    struct block *block = image->block;
-    const VkPipelineStageFlags2 stage = accesses[access].stage;
-    bool write = accesses[access].write, takes_over = block->owner != image;
-    bool unseen_write = block->write_stage && !(block->read_stages & stage);
-    bool after_others = block->write_stage || block->read_stages;
-    if ((takes_over || (write ? after_others : unseen_write)) && barriers->count < PASS_IMAGES_MAX)
-        barriers->images[barriers->count++] = (VkImageMemoryBarrier2){
-            .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-            .srcStageMask = write || takes_over ? block->write_stage | block->read_stages : block->write_stage,
-            .srcAccessMask = block->write_access,
-            .dstStageMask = stage,
-            .dstAccessMask = accesses[access].access,
-            .oldLayout = takes_over ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL,
-            .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .image = image->image,
-            .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layer_count(&image->desc)}};
-    block->owner = image;
-    if (write) {
-        block->write_stage = stage;
-        block->write_access = accesses[access].access;
-        block->read_stages = 0;
-    } else block->read_stages |= stage;
-}
-
-void barriers_record(struct barriers *barriers, struct glint_device *device) {
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                   .imageMemoryBarrierCount = barriers->count,
-                                   .pImageMemoryBarriers = barriers->images};
-    if (barriers->count) vkCmdPipelineBarrier2(device->commands, &info);
-    barriers->count = 0;
-}
-
-static VkBufferImageCopy some_layers(const struct image *image, VkDeviceSize offset, uint32_t first, uint32_t count) {
-    return (VkBufferImageCopy){.bufferOffset = offset,
-                               .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, first, count},
-                               .imageExtent = {image->desc.width, image->desc.height, 1}};
-}
-
-void image_record_upload(struct image *image, struct glint_device *device, const struct host_buffer *from,
-                         VkDeviceSize offset, uint32_t first_layer, uint32_t layers, bool discard) {
-    struct barriers barriers = {.count = 0};
-    if (discard) image->block->owner = NULL;
-    image_access(image, IMAGE_COPY_WRITE, &barriers);
-    barriers_record(&barriers, device);
-    const VkBufferImageCopy copy = some_layers(image, offset, first_layer, layers);
-    vkCmdCopyBufferToImage(device->commands, from->buffer, image->image, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
-}
-
-void image_record_readback(struct image *image, struct glint_device *device, const struct host_buffer *to,
-                           VkDeviceSize offset) {
-    struct barriers barriers = {.count = 0};
-    image_access(image, IMAGE_COPY_READ, &barriers);
-    barriers_record(&barriers, device);
-    const VkBufferImageCopy copy = some_layers(image, offset, 0, layer_count(&image->desc));
-    vkCmdCopyImageToBuffer(device->commands, image->image, VK_IMAGE_LAYOUT_GENERAL, to->buffer, 1, &copy);
-}
-
-void image_record_clear(struct image *image, struct glint_device *device, double value) {
-    struct barriers barriers = {.count = 0};
-    image->block->owner = NULL;
-    image_access(image, IMAGE_CLEAR, &barriers);
-    barriers_record(&barriers, device);
-    VkClearColorValue color;
-    for (int i = 0; i < 4; i++)
-        if (format_is_uint(image->desc.format)) color.uint32[i] = (uint32_t)value;
-        else color.float32[i] = (float)value;
-    const VkImageSubresourceRange range = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layer_count(&image->desc)};
-    vkCmdClearColorImage(device->commands, image->image, VK_IMAGE_LAYOUT_GENERAL, &color, 1, &range);
-}
-
-void record_host_barrier(struct glint_device *device) {
-    const VkMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                      .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                      .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                      .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                      .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(device->commands, &info);
 }

@@ -22,13 +22,21 @@ struct block {
 struct image_desc {
     enum glint_format format;
     uint32_t width, height, layers; /* of one layer; layers: 6 · cubes, 0: a plain 2D image */
+    uint32_t levels;                /* each half as large as the one before it, at least 1 × 1 */
+};
+
+enum { LEVELS_MAX = 17 };
+struct image_level {
+    struct glint_image info; /* as callers see it */
+    VkImageView view;        /* to write it: 2D, or an array of all layers */
+    char name[80];           /* of levels above 0 */
 };
 
 struct image {
-    struct glint_image info; /* as callers see it */
+    struct image_level levels[LEVELS_MAX];
     struct image_desc desc;
     VkImage image;
-    VkImageView view;
+    VkImageView view;       /* to sample all levels */
     VkImageView array_view; /* of a cube image, as a cube array; `view` is a cube then. NULL otherwise */
     struct block *block;
     uint64_t key;   /* hash of all that its contents depend on; 0: contents undefined */
@@ -40,7 +48,13 @@ struct image {
 };
 
 bool image_desc_equal(const struct image_desc *a, const struct image_desc *b);
-VkDeviceSize image_bytes(const struct image_desc *desc); /* tightly packed */
+uint32_t image_layers(const struct image_desc *desc); /* at least 1 */
+VkExtent3D image_extent(const struct image_desc *desc, uint32_t level);
+VkImageSubresourceRange image_range(const struct image_desc *desc);
+VkDeviceSize image_bytes(const struct image_desc *desc, uint32_t level); /* tightly packed */
+size_t image_values(const struct image_desc *desc, uint32_t level);
+/* How many levels there are down to 1 × 1. */
+uint32_t level_count(uint32_t width, uint32_t height);
 
 /* Creates the image without memory. */
 struct image *image_create(struct glint_device *device, const char *name, const struct image_desc *desc,
@@ -57,17 +71,24 @@ struct barriers {
     VkImageMemoryBarrier2 images[PASS_IMAGES_MAX];
     uint32_t count;
 };
-enum image_access { IMAGE_SHADER_READ, IMAGE_SHADER_WRITE, IMAGE_COPY_READ, IMAGE_COPY_WRITE, IMAGE_CLEAR };
+enum image_access {
+    IMAGE_SHADER_READ,
+    IMAGE_SHADER_WRITE,
+    IMAGE_SHADER_BOTH,
+    IMAGE_COPY_READ,
+    IMAGE_COPY_WRITE,
+    IMAGE_CLEAR
+};
 /* Notes that the next step accesses the image, and adds the barrier that this needs. */
 void image_access(struct image *image, enum image_access access, struct barriers *barriers);
 void barriers_record(struct barriers *barriers, struct glint_device *device);
 
-/* Records copies between tightly packed host memory and the image, barriers included. An upload of some layers (of
+/* Records copies between tightly packed host memory and a level of the image, barriers included. An upload of some layers (of
    cube maps; 0, 1 for a plain image) discards the others with `discard`. */
 void image_record_upload(struct image *image, struct glint_device *device, const struct host_buffer *from,
-                         VkDeviceSize offset, uint32_t first_layer, uint32_t layers, bool discard);
+                         VkDeviceSize offset, uint32_t level, uint32_t first_layer, uint32_t layers, bool discard);
 void image_record_readback(struct image *image, struct glint_device *device, const struct host_buffer *to,
-                           VkDeviceSize offset);
+                           VkDeviceSize offset, uint32_t level);
 /* Records filling with one value. */
 void image_record_clear(struct image *image, struct glint_device *device, double value);
 /* Makes device writes to host buffers visible to the host; last thing before a submit. */

@@ -30,30 +30,42 @@ static uint64_t table_key(const struct glint_table *table) {
     return mix(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
 }
 
+/* Reads all levels of an image from the run folder, one after the other; the key comes to depend on them. */
+static bool read_given(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
+    const struct image *image = run->images[i];
+    const struct image_desc *desc = &image->desc;
+    const uint32_t components = format_components(desc->format);
+    const bool integer = format_is_uint(desc->format);
+    size_t values = 0;
+    for (uint32_t l = 0; l < desc->levels; l++) values += image_values(desc, l);
+    uint32_t *at = run->given[i] = malloc(values * sizeof *at);
+    if (!at) return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
+    const double start = now_seconds();
+    for (uint32_t l = 0; l < desc->levels; at += image_values(desc, l++)) {
+        const struct glint_image *level = &image->levels[l].info;
+        const struct glint_run_image *info = glint_run_find(run->inputs, level->name);
+        if (!info || info->width != level->width || info->height != level->height || info->components != components ||
+            info->integer != integer)
+            return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u of %u %s channels, found %s",
+                              run->options->inputs, level->name, level->width, level->height, components,
+                              integer ? "uint" : "float", info ? "another size or kind" : "none");
+        if (!glint_run_read(run->inputs, info, integer ? GLINT_U32 : GLINT_F32, at, err)) return false;
+    }
+    run->replay->seconds[PHASE_READ] += now_seconds() - start;
+    *key = mix(*key, run->given[i], values * sizeof *at);
+    return true;
+}
+
 /* Of an image that no shader of this run makes. Images of a run folder are read, and told apart by their pixels. */
 static bool given_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph.images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->desc.format), image->name);
     if (image->source == SOURCE_NOTHING) *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
     else *key = mix_number(*key, run->replay->serial);
-    if (image->row->size == GLINT_SIZE_CUBEMAPS && run->active)
+    if (size_is_array(image->row->size) && run->active)
         *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
     if (image->source != SOURCE_RUN) return true;
-    const struct glint_run_image *info = glint_run_find(run->inputs, image->name);
-    const struct image_desc *desc = &run->images[i]->desc;
-    if (info->components != format_components(desc->format) || info->integer != format_is_uint(desc->format))
-        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u %s channels, found %u %s",
-                          run->options->inputs, info->name, format_components(desc->format),
-                          format_is_uint(desc->format) ? "uint" : "float", info->components,
-                          info->integer ? "uint" : "float");
-    const size_t size = (size_t)info->width * info->height * info->components * 4;
-    if (!(run->given[i] = malloc(size)))
-        return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
-    const double start = now_seconds();
-    if (!glint_run_read(run->inputs, info, info->integer ? GLINT_U32 : GLINT_F32, run->given[i], err)) return false;
-    run->replay->seconds[PHASE_READ] += now_seconds() - start;
-    *key = mix(*key, run->given[i], size);
-    return true;
+    return read_given(run, i, key, err);
 }
 
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
@@ -84,7 +96,8 @@ static void decide(struct run *run, struct step *step, size_t place) {
             step->execute = true;
     }
     for (size_t i = 0; step->execute && i < step->pass->pass->row_count; i++)
-        if (row_is_image(&step->pass->pass->rows[i])) run->needed[place_of(run, step->pass->pass->rows[i].name)] = true;
+        if (row_is_image(&step->pass->pass->rows[i]))
+            run->needed[place_of(run, row_image(&step->pass->pass->rows[i]))] = true;
 }
 
 bool run_keys(struct run *run, struct glint_error *err) {

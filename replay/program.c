@@ -7,6 +7,8 @@
 
 #include <xxhash.h>
 
+#include "graph.h"
+
 static uint32_t value_bits(const struct glint_row *row, double value) {
     uint32_t bits;
     if (row->type == GLINT_VALUE_FLOAT) {
@@ -96,12 +98,11 @@ static VkResult create_layouts(struct program *program, struct glint_device *dev
     VkDescriptorSetLayoutBinding bindings[PASS_IMAGES_MAX];
     uint32_t count = 0;
     for (size_t i = 0; i < pass->row_count && count < PASS_IMAGES_MAX; i++) {
-        enum glint_row_kind kind = pass->rows[i].kind;
-        if (kind != GLINT_ROW_READ && kind != GLINT_ROW_WRITE && kind != GLINT_ROW_DIAGNOSTIC) continue;
-        bindings[count++] = (VkDescriptorSetLayoutBinding){pass->rows[i].id,
-                                                           kind == GLINT_ROW_READ ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
-                                                                                  : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                                           1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+        const struct glint_row *row = &pass->rows[i];
+        if (!row_is_image(row)) continue;
+        bindings[count++] = (VkDescriptorSetLayoutBinding){
+            row->id, row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1,
+            VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     }
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};

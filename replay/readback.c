@@ -11,39 +11,44 @@ static VkDeviceSize aligned(VkDeviceSize size) {
     return (size + 15) & ~(VkDeviceSize)15;
 }
 
-bool readback_images(struct glint_replay *replay, struct image *const *images, size_t count, struct host_buffer *buffer,
-                     VkDeviceSize *offsets, struct glint_error *err) {
+bool readback_images(struct glint_replay *replay, const struct image_part *parts, size_t count,
+                     struct host_buffer *buffer, VkDeviceSize *offsets, struct glint_error *err) {
     double start = now_seconds();
     VkDeviceSize size = 0;
     for (size_t i = 0; i < count; i++) {
         offsets[i] = size;
-        size += aligned(image_bytes(&images[i]->desc));
+        size += aligned(image_bytes(&parts[i].image->desc, parts[i].level));
     }
     if (buffer->size < size) {
         host_buffer_finish(buffer, replay->device);
         if (!host_buffer_init(buffer, replay->device, HOST_BUFFER_READBACK, size, "readback", err)) return false;
     }
     if (!device_begin(replay->device, err)) return false;
-    for (size_t i = 0; i < count; i++) image_record_readback(images[i], replay->device, buffer, offsets[i]);
+    for (size_t i = 0; i < count; i++)
+        image_record_readback(parts[i].image, replay->device, buffer, offsets[i], parts[i].level);
     record_host_barrier(replay->device);
     bool ok = device_submit(replay->device, "reading images back", err);
     replay->seconds[PHASE_READBACK] += now_seconds() - start;
     return ok;
 }
 
-size_t images_of_pass(const struct glint_replay *replay, const struct glint_pass *pass, struct image **images,
-                      size_t capacity) {
+size_t parts_of_pass(const struct glint_replay *replay, const struct glint_pass *pass, struct image_part *parts,
+                     size_t capacity) {
     size_t count = 0;
     for (size_t r = 0; r < pass->row_count; r++)
-        for (struct image *image = replay->images; image && count < capacity; image = image->next)
-            if (image->listed && image->info.pass == pass && image->info.row == &pass->rows[r]) images[count++] = image;
+        for (struct image *image = replay->images; image; image = image->next) {
+            const struct glint_image *info = &image->levels[0].info;
+            if (!image->listed || info->pass != pass || info->row != &pass->rows[r]) continue;
+            for (uint32_t l = 0; l < image->desc.levels && count < capacity; l++)
+                parts[count++] = (struct image_part){image, l};
+        }
     return count;
 }
 
 bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *info, enum glint_type type,
                              void *out, struct glint_error *err) {
     struct image *image = replay->images;
-    while (image && &image->info != info) image = image->next;
+    while (image && &image->levels[info->level].info != info) image = image->next;
     if (!image || !image->listed) return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
     const size_t value_bytes = format_bytes(image->desc.format) / info->components;
     const bool uint = format_is_uint(image->desc.format);
@@ -54,7 +59,7 @@ bool glint_replay_read_image(struct glint_replay *replay, const struct glint_ima
                           format_name(image->desc.format), uint ? "uint" : "float");
     struct host_buffer buffer = {0};
     VkDeviceSize offset;
-    bool ok = readback_images(replay, &image, 1, &buffer, &offset, err);
+    bool ok = readback_images(replay, &(struct image_part){image, info->level}, 1, &buffer, &offset, err);
     const size_t count = (size_t)info->width * info->height * info->components;
     if (ok && same) memcpy(out, buffer.map, count * value_bytes);
     else if (ok && uint)

@@ -4,11 +4,18 @@
 
 #include "state.h"
 
-/* Copies images into the buffer, which grows when it has to, each tightly packed at its offset. */
-bool readback_images(struct glint_replay *replay, struct image *const *images, size_t count, struct host_buffer *buffer,
-                     VkDeviceSize *offsets, struct glint_error *err);
-/* The listed images that a pass made, in the order of its rows; fills at most `capacity`. */
-size_t images_of_pass(const struct glint_replay *replay, const struct glint_pass *pass, struct image **images,
-                      size_t capacity);
+/* One level of an image. */
+struct image_part {
+    struct image *image;
+    uint32_t level;
+};
+enum { PASS_PARTS_MAX = PASS_IMAGES_MAX * LEVELS_MAX };
+
+/* Copies levels of images into the buffer, which grows when it has to, each tightly packed at its offset. */
+bool readback_images(struct glint_replay *replay, const struct image_part *parts, size_t count,
+                     struct host_buffer *buffer, VkDeviceSize *offsets, struct glint_error *err);
+/* All levels of the listed images that a pass made, in the order of its rows; fills at most `capacity`. */
+size_t parts_of_pass(const struct glint_replay *replay, const struct glint_pass *pass, struct image_part *parts,
+                     size_t capacity);
 
 #endif

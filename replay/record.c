@@ -54,7 +54,7 @@ static json_t *warnings(const struct run *run) {
     json_t *list = json_array();
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
-        if (image->source == SOURCE_NOTHING && !image->pass)
+        if (image->source == SOURCE_NOTHING && image->row->kind == GLINT_ROW_CAPTURE)
             json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
                                                      image->row->role, image->name, image->row->nothing));
     }

@@ -147,19 +147,24 @@ const struct glint_pass_result *glint_replay_results(const struct glint_replay *
 
 size_t glint_replay_image_count(const struct glint_replay *replay) {
     size_t count = 0;
-    for (const struct image *image = replay->images; image; image = image->next) count += image->listed;
+    for (const struct image *image = replay->images; image; image = image->next)
+        count += image->listed ? image->desc.levels : 0;
     return count;
 }
 
 const struct glint_image *glint_replay_image(const struct glint_replay *replay, size_t i) {
-    for (const struct image *image = replay->images; image; image = image->next)
-        if (image->listed && i-- == 0) return &image->info;
+    for (const struct image *image = replay->images; image; image = image->next) {
+        if (!image->listed) continue;
+        if (i < image->desc.levels) return &image->levels[i].info;
+        i -= image->desc.levels;
+    }
     return NULL;
 }
 
 const struct glint_image *glint_replay_find_image(const struct glint_replay *replay, const char *name) {
     for (const struct image *image = replay->images; image; image = image->next)
-        if (image->listed && strcmp(image->name, name) == 0) return &image->info;
+        for (uint32_t l = 0; image->listed && l < image->desc.levels; l++)
+            if (strcmp(image->levels[l].info.name, name) == 0) return &image->levels[l].info;
     return NULL;
 }
 

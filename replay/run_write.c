@@ -18,8 +18,8 @@ enum { PATH_SIZE = 4096, CHANNELS = 4 };
 struct job {
     const struct glint_pass *pass;
     struct host_buffer buffer;
-    struct image *images[PASS_IMAGES_MAX];
-    VkDeviceSize offsets[PASS_IMAGES_MAX];
+    struct image_part parts[PASS_PARTS_MAX];
+    VkDeviceSize offsets[PASS_PARTS_MAX];
     size_t count;
     char path[PATH_SIZE];
     pthread_t thread;
@@ -32,6 +32,7 @@ struct job {
 struct part_memory {
     struct glint_exr_channel channels[CHANNELS];
     struct glint_exr_attribute attributes[8];
+    double level;
     char names[128];
     uint32_t *widened;
 };
@@ -44,14 +45,14 @@ static void split_channels(const struct glint_row *row, char *names, size_t size
 
 static bool fill_part(const struct job *job, size_t i, struct part_memory *memory, struct glint_exr_part *part,
                       struct glint_error *err) {
-    const struct image *image = job->images[i];
-    const struct glint_row *row = image->info.row;
-    const uint32_t components = image->info.components;
-    const size_t bytes = format_bytes(image->desc.format) / components;
+    const struct glint_image *image = &job->parts[i].image->levels[job->parts[i].level].info;
+    const struct glint_row *row = image->row;
+    const uint32_t components = image->components;
+    const size_t bytes = format_bytes(image->format) / components;
     const char *data = (const char *)job->buffer.map + job->offsets[i], *names[CHANNELS] = {"R", "G", "B", "A"};
     split_channels(row, memory->names, sizeof memory->names, names);
     if (bytes == 1) { /* EXR has no smaller integer than 32 bits */
-        const size_t texels = (size_t)image->info.width * image->info.height * components;
+        const size_t texels = (size_t)image->width * image->height * components;
         if (!(memory->widened = malloc(texels * sizeof(uint32_t))))
             return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
         for (size_t t = 0; t < texels; t++) memory->widened[t] = ((const uint8_t *)data)[t];
@@ -59,31 +60,33 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
     }
     const size_t stored_bytes = bytes == 1 ? 4 : bytes;
     for (uint32_t c = 0; c < components; c++)
-        memory->channels[c] =
-            (struct glint_exr_channel){.name = names[c],
-                                       .stored = format_is_uint(image->desc.format) ? GLINT_STORED_UINT
-                                                 : bytes == 2                       ? GLINT_STORED_HALF
-                                                                                    : GLINT_STORED_FLOAT,
-                                       .data = data + c * stored_bytes,
-                                       .x_stride_bytes = components * stored_bytes};
-    const char *const texts[][2] = {{"glint.image", image->name},
+        memory->channels[c] = (struct glint_exr_channel){.name = names[c],
+                                                         .stored = format_is_uint(image->format) ? GLINT_STORED_UINT
+                                                                   : bytes == 2                  ? GLINT_STORED_HALF
+                                                                                                 : GLINT_STORED_FLOAT,
+                                                         .data = data + c * stored_bytes,
+                                                         .x_stride_bytes = components * stored_bytes};
+    const char *const texts[][2] = {{"glint.image", job->parts[i].image->name},
                                     {"glint.slot", job->pass->slot},
                                     {"glint.variant", job->pass->variant},
                                     {"glint.unit", row->unit},
                                     {"glint.meaning", row->help},
                                     {"glint.channels", row->channels},
-                                    {"glint.format", format_name(image->desc.format)}};
+                                    {"glint.format", format_name(image->format)}};
     const size_t text_count = sizeof texts / sizeof texts[0];
     for (size_t t = 0; t < text_count; t++)
         memory->attributes[t] = (struct glint_exr_attribute){
             .name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
+    memory->level = image->level;
+    memory->attributes[text_count] = (struct glint_exr_attribute){
+        .name = "glint.level", .type = GLINT_EXR_INT, .numbers = &memory->level, .count = 1};
     *part = (struct glint_exr_part){.name = image->name,
-                                    .width = image->info.width,
-                                    .height = image->info.height,
+                                    .width = image->width,
+                                    .height = image->height,
                                     .channels = memory->channels,
                                     .channel_count = components,
                                     .attributes = memory->attributes,
-                                    .attribute_count = text_count,
+                                    .attribute_count = text_count + (image->levels > 1),
                                     .compression = GLINT_ZIP};
     return true;
 }
@@ -91,13 +94,14 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
 static void *write_file(void *argument) {
     struct job *job = argument;
     double start = now_seconds();
-    struct glint_exr_part parts[PASS_IMAGES_MAX] = {0};
+    struct glint_exr_part *parts = calloc(job->count, sizeof *parts);
     struct part_memory *memory = calloc(job->count, sizeof *memory);
-    job->ok = memory || glint_fail(&job->err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
+    job->ok = (parts && memory) || glint_fail(&job->err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     for (size_t i = 0; job->ok && i < job->count; i++) job->ok = fill_part(job, i, &memory[i], &parts[i], &job->err);
     job->ok = job->ok && glint_exr_write(job->path, parts, job->count, 0, &job->err);
     for (size_t i = 0; memory && i < job->count; i++) free(memory[i].widened);
     free(memory);
+    free(parts);
     job->seconds = now_seconds() - start;
     return NULL;
 }
@@ -115,11 +119,14 @@ static void job_start(struct job *job) {
     if (!job->started) write_file(job);
 }
 
-static json_t *image_record(const struct image *image, const char *file) {
-    const struct glint_row *row = image->info.row;
-    return json_pack("{ssssssssssss si si ss}", "name", image->name, "file", file, "part", image->name, "channels",
-                     row->channels, "unit", row->unit, "meaning", row->help, "width", (int)image->info.width, "height",
-                     (int)image->info.height, "format", format_name(image->desc.format));
+static json_t *image_record(const struct image_part *part, const char *file) {
+    const struct glint_image *image = &part->image->levels[part->level].info;
+    const struct glint_row *row = image->row;
+    json_t *record = json_pack("{ssssssssssss si si ss}", "name", image->name, "file", file, "part", image->name,
+                               "channels", row->channels, "unit", row->unit, "meaning", row->help, "width",
+                               (int)image->width, "height", (int)image->height, "format", format_name(image->format));
+    if (image->levels > 1) json_object_set_new(record, "level", json_integer((json_int_t)image->level));
+    return record;
 }
 
 /* Replacing the run that this one was made from would lose what this one left out. */
@@ -185,13 +192,13 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
     const struct glint_pass_result *result = &replay->results[p];
     char file[128];
     job->pass = result->pass;
-    job->count = images_of_pass(replay, result->pass, job->images, PASS_IMAGES_MAX);
+    job->count = parts_of_pass(replay, result->pass, job->parts, PASS_PARTS_MAX);
     snprintf(file, sizeof file, "%02zu-%s.exr", p + 1, result->pass->slot);
     if (snprintf(job->path, sizeof job->path, "%s/%s", folder, file) >= (int)sizeof job->path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     json_t *images = json_object_get(json_array_get(json_object_get(root, "passes"), p), "images");
-    for (size_t i = 0; i < job->count; i++) json_array_append_new(images, image_record(job->images[i], file));
-    bool read = readback_images(replay, job->images, job->count, &job->buffer, job->offsets, err);
+    for (size_t i = 0; i < job->count; i++) json_array_append_new(images, image_record(&job->parts[i], file));
+    bool read = readback_images(replay, job->parts, job->count, &job->buffer, job->offsets, err);
     if (!job_finish(before, replay, read ? err : NULL) || !read) return false;
     job_start(job);
     return true;
@@ -207,9 +214,9 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
     struct job *jobs = calloc(2, sizeof *jobs);
     bool ok = (root && jobs) || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
     size_t turn = 0;
-    struct image *first;
+    struct image_part first;
     for (size_t p = 0; ok && p < replay->result_count; p++) {
-        if (!replay->results[p].ran || images_of_pass(replay, replay->results[p].pass, &first, 1) == 0) continue;
+        if (!replay->results[p].ran || parts_of_pass(replay, replay->results[p].pass, &first, 1) == 0) continue;
         ok = report_progress(progress, user, replay->results[p].pass->slot, (double)p / (double)replay->result_count,
                              err) &&
              write_pass(replay, p, folder, &jobs[turn], &jobs[1 - turn], root, err);

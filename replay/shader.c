@@ -9,6 +9,8 @@
 #include <glslang/Public/resource_limits_c.h>
 #include <xxhash.h>
 
+#include "graph.h"
+
 /* glslang's log, one message a line, as one line of ours. The linker's messages name no file. */
 static bool fail_with_log(const char *path, bool names_file, const char *log, struct glint_error *err) {
     char text[800] = "", line[512];
@@ -69,11 +71,8 @@ static bool compile(struct spirv *spirv, const char *path, const char *code, str
 
 static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
     if (set == 1) return binding <= 2; /* passes/shared/bindings.glsl */
-    for (size_t r = 0; set == 0 && r < pass->row_count; r++) {
-        enum glint_row_kind kind = pass->rows[r].kind;
-        bool image = kind == GLINT_ROW_READ || kind == GLINT_ROW_WRITE || kind == GLINT_ROW_DIAGNOSTIC;
-        if (image && pass->rows[r].id == binding) return true;
-    }
+    for (size_t r = 0; set == 0 && r < pass->row_count; r++)
+        if (row_is_image(&pass->rows[r]) && pass->rows[r].id == binding) return true;
     return false;
 }
 

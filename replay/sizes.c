@@ -72,23 +72,30 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
                         struct glint_error *err) {
     const struct frame_sizes *sizes = &run->sizes;
     const struct glint_row *row = image->row;
-    bool cube = row->size == GLINT_SIZE_CUBEMAPS || row->size == GLINT_SIZE_SKY;
-    *desc = (struct image_desc){row->format, 1, 1, cube ? 6 : 0};
+    const bool cube = size_is_cube(row->size);
+    *desc = (struct image_desc){row->format, 1, 1, cube ? 6 : 0, 1};
     if (run->options->float_precision) desc->format = format_widened(row->format);
-    if (image->source == SOURCE_NOTHING) return true;
+    if (image->source == SOURCE_NOTHING) {
+        if (row->size == GLINT_SIZE_LIST) desc->width = LIST_WIDTH; /* the header is there */
+        return true;
+    }
     uint32_t expected[2] = {0, 0}, found[2];
     switch (row->size) {
     case GLINT_SIZE_FULL:
+    case GLINT_SIZE_FULL_MIPS:
         expected[0] = sizes->full[0], expected[1] = sizes->full[1];
         break;
     case GLINT_SIZE_HALF:
+    case GLINT_SIZE_HALF_MIPS:
         expected[0] = sizes->half[0], expected[1] = sizes->half[1];
         break;
     case GLINT_SIZE_CUBEMAPS:
+    case GLINT_SIZE_CUBEMAPS_MIPS:
         expected[0] = expected[1] = sizes->cube_face;
         desc->layers = 6 * (sizes->active ? sizes->active : 1);
         break;
     case GLINT_SIZE_SKY:
+    case GLINT_SIZE_SKY_MIPS:
         expected[0] = expected[1] = sizes->sky_face;
         break;
     case GLINT_SIZE_ACTIVE:
@@ -97,15 +104,21 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     case GLINT_SIZE_CHAIN:
         expected[0] = sizes->chain, expected[1] = sizes->active;
         break;
-    default:
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: images with levels and lists cannot be made yet",
-                          image->name);
+    case GLINT_SIZE_LIST:
+        expected[0] = LIST_WIDTH;
+        expected[1] = 1 + (sizes->half[0] * sizes->half[1] + LIST_WIDTH - 1) / LIST_WIDTH;
+        break;
     }
-    if (existing_size(run, image, found) && (found[0] != expected[0] || found[1] != expected[1]))
+    if (existing_size(run, image, found) && !(cube && !expected[0]) &&
+        (found[0] != expected[0] || found[1] != expected[1] * image_layers(desc)))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u, found %u x %u",
                           image->source == SOURCE_RUN ? run->options->inputs : glint_capture_path(run->replay->capture),
-                          image->name, expected[0], expected[1], found[0], found[1]);
+                          image->name, expected[0], expected[1] * image_layers(desc), found[0], found[1]);
     if (!expected[0] || !expected[1]) desc->layers = cube ? 6 : 0; /* nothing is active: a stand-in */
     else desc->width = expected[0], desc->height = expected[1];
+    if (size_has_levels(row->size)) desc->levels = level_count(desc->width, desc->height);
+    if (desc->levels > LEVELS_MAX)
+        return glint_fail(err, GLINT_ERROR_LIMIT, "image %s: %u levels, expected at most %d", image->name, desc->levels,
+                          LEVELS_MAX);
     return true;
 }

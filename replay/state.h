@@ -11,6 +11,8 @@
 #include "survey.h"
 #include "tables.h"
 
+enum { LIST_WIDTH = 256, LIST_ITEMS = 64 /* of a workgroup */ };
+
 enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE, PHASES };
 
 struct glint_replay {
@@ -31,13 +33,20 @@ struct glint_replay {
     double seconds[PHASES];
 };
 
+/* One dispatch of a pass. */
+struct dispatch {
+    uint32_t phase, level, groups[3];
+    VkDescriptorSet set; /* with this level of what the pass writes */
+};
+
 /* One pass of a run on the device. */
 struct step {
     const struct graph_pass *pass;
     struct spirv spirv;
     struct constants constants;
     struct program *program;
-    VkDescriptorSet set;
+    struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
+    size_t dispatch_count;
     uint64_t key;
     bool execute;
     uint64_t *ns; /* one for each timed round */
@@ -87,6 +96,12 @@ bool run_keys(struct run *run, struct glint_error *err);
 
 /* upload.c: fills the images that no shader makes. */
 bool run_upload(struct run *run, struct glint_error *err);
+
+/* dispatch.c: what a pass's rows dispatch. */
+struct image *run_image(const struct run *run, const char *name);
+bool step_plan(const struct run *run, struct step *step, struct glint_error *err);
+bool step_describe(const struct run *run, struct step *step, struct glint_error *err);
+void step_record(const struct run *run, struct step *step);
 
 /* execute.c */
 bool run_prepare(struct run *run, struct glint_error *err);

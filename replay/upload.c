@@ -114,7 +114,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         place_components(&packing, channels, image->row);
         run->images[i]->key = 0; /* until all of it is there */
         pack(&packing, part->width, part->height);
-        image_record_upload(run->images[i], replay->device, &replay->staging, offset, first, layers, first == 0);
+        image_record_upload(run->images[i], replay->device, &replay->staging, offset, 0, first, layers, first == 0);
         offset += ((VkDeviceSize)part->width * part->height * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
     }
     bool ok = submit(run, err);
@@ -141,18 +141,23 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
 /* Values that are in memory already: tables and images of runs or of the engine. */
 static bool upload_values(struct run *run, size_t i, const void *values, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
-    const struct image_desc *desc = &run->images[i]->desc;
-    const uint32_t height = desc->height * (desc->layers ? desc->layers : 1);
-    if (!replay_staging(replay, image_bytes(desc), err) || !device_begin(replay->device, err)) return false;
-    run->images[i]->key = 0;
-    struct packing packing = {.from = values,
-                              .stride = format_components(desc->format),
-                              .at = {0, 1, 2, 3},
-                              .format = desc->format,
-                              .to = replay->staging.map};
-    pack(&packing, desc->width, height);
-    image_record_upload(run->images[i], replay->device, &replay->staging, 0, 0, desc->layers ? desc->layers : 1, true);
-    return submit(run, err);
+    struct image *image = run->images[i];
+    const struct image_desc *desc = &image->desc;
+    image->key = 0;
+    bool ok = true;
+    const uint32_t *from = values;
+    for (uint32_t l = 0; ok && l < desc->levels; from += image_values(desc, l++)) {
+        if (!replay_staging(replay, image_bytes(desc, l), err) || !device_begin(replay->device, err)) return false;
+        struct packing packing = {.from = from,
+                                  .stride = format_components(desc->format),
+                                  .at = {0, 1, 2, 3},
+                                  .format = desc->format,
+                                  .to = replay->staging.map};
+        pack(&packing, image->levels[l].info.width, image->levels[l].info.height);
+        image_record_upload(image, replay->device, &replay->staging, 0, l, 0, image_layers(desc), l == 0);
+        ok = submit(run, err);
+    }
+    return ok;
 }
 
 static bool upload_from_engine(struct run *run, size_t i, struct glint_error *err) {
@@ -164,7 +169,10 @@ static bool upload_from_engine(struct run *run, size_t i, struct glint_error *er
     struct channels channels = {0};
     snprintf(name, sizeof name, "engine.%.48s.%.48s", image->pass->slot, image->name);
     channels.part = glint_capture_find(run->replay->capture, name);
-    size_t values = (size_t)desc->width * desc->height * format_components(desc->format);
+    if (desc->levels > 1)
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "part %s: an image with levels cannot come from a capture",
+                          name);
+    size_t values = image_values(desc, 0);
     void *data = malloc(values * 4);
     bool ok = data || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
     ok = ok && channels_add_row(&channels, &row, err);
@@ -195,7 +203,7 @@ static bool upload_given(struct run *run, size_t i, struct glint_error *err) {
 static bool upload_captured(struct run *run, const struct graph_image *image, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     const char *role = image->row->role;
-    if (image->row->size == GLINT_SIZE_CUBEMAPS) return upload_cubemaps(run, role, err);
+    if (size_is_array(image->row->size)) return upload_cubemaps(run, role, err);
     struct channels own = {0}, *channels = &own;
     if (strcmp(role, "gbuffer") == 0 && replay->gbuffer.data) channels = &replay->gbuffer;
     bool ok = upload_part(run, glint_capture_find(replay->capture, role), role, channels, 0,
@@ -210,7 +218,7 @@ bool run_upload(struct run *run, struct glint_error *err) {
         const struct graph_image *image = &run->graph.images[i];
         bool table = image->source == SOURCE_MADE && image->pass->host;
         if (!to_upload(run, i) || (image->source == SOURCE_MADE && !table)) continue;
-        bool stand_in = image->row->size == GLINT_SIZE_CUBEMAPS && run->sizes.active == 0;
+        bool stand_in = size_is_array(image->row->size) && run->sizes.active == 0;
         if (image->source == SOURCE_CAPTURE && !stand_in) {
             ok =
                 report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, image, err);

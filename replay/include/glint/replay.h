@@ -102,12 +102,13 @@ struct glint_pass_result {
     struct glint_time time; /* n = 0 when not timed */
 };
 struct glint_image {
-    const char *name;
+    const char *name; /* of level 1 and on: "NAME.level1" … */
     const struct glint_row *row;
     const struct glint_pass *pass; /* the one that makes it; NULL for a capture image */
     enum glint_format format;      /* as it is, --precision included */
     uint32_t width, height;        /* cubes: face size × 6 · layers faces below each other */
     uint32_t components;
+    uint32_t level, levels; /* each level is an image of its own here */
 };
 
 struct glint_replay;

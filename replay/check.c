@@ -1,0 +1,95 @@
+/* Declarations that contradict themselves or one another. */
+#include "graph.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What declarations may say and the executor cannot do yet. */
+static void check_support(const struct glint_pass *pass, struct faults *faults) {
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const char *what = NULL;
+        switch (pass->rows[r].kind) {
+        case GLINT_ROW_HISTORY:
+            what = "HISTORY";
+            break;
+        case GLINT_ROW_DISPATCH_LIST:
+            what = "DISPATCH_LIST";
+            break;
+        case GLINT_ROW_PER_RAY:
+            what = "PER_RAY";
+            break;
+        case GLINT_ROW_ACCUMULATE:
+            what = "ACCUMULATE";
+            break;
+        default:
+            break;
+        }
+        if (what)
+            faults_add(faults, GLINT_ERROR_UNSUPPORTED, "%s/%s declares %s, which cannot be run yet", pass->slot,
+                       pass->variant, what);
+    }
+}
+
+static bool is_uint(const struct glint_row *row) {
+    return row->format == GLINT_FORMAT_R8UI || row->format == GLINT_FORMAT_R32UI;
+}
+
+void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
+                      struct faults *faults) {
+    const bool array = size_is_array(image->size), cube = size_is_cube(image->size);
+    const char *kind = binding->glsl, *is = NULL;
+    if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
+    else if (row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), cube ? "image2DArray" : "image2D") != 0)
+        is = cube ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
+    else if (row_is_sampled(binding) && ((strstr(kind, "Cube") != NULL) != cube || (strstr(kind, "Array") && !array)))
+        is = array ? "an array of cube maps" : cube ? "a cube map" : "a plain image";
+    if (is)
+        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s %s %s as %s, but it is %s", pass->slot, pass->variant,
+                   row_is_output(binding) ? "writes" : "reads", row_image(binding), kind, is);
+}
+
+/* Rows that speak of another row of the same pass. */
+static void check_rows(const struct glint_pass *pass, struct faults *faults) {
+    check_support(pass, faults);
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r], *own = pass_output(pass, row_image(row));
+        if (row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
+        if (row->kind == GLINT_ROW_SELF && !own)
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: SELF %s: expected an image that the pass writes", pass->slot,
+                       pass->variant, row->image);
+        else if (row->kind == GLINT_ROW_SELF) graph_check_kind(pass, row, own, faults);
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && (!own || !size_has_levels(own->size)))
+            faults_add(faults, GLINT_ERROR_USAGE,
+                       "%s/%s: DISPATCH_LEVELS %s: expected an image with levels that the pass writes", pass->slot,
+                       pass->variant, row->name);
+    }
+}
+
+void graph_check(const struct graph *graph, struct faults *faults) {
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        const struct glint_pass *pass = graph->passes[i].pass;
+        size_t images = 0;
+        check_rows(pass, faults);
+        for (size_t r = 0; r < pass->row_count; r++) images += row_is_image(&pass->rows[r]);
+        if (images > PASS_IMAGES_MAX)
+            faults_add(faults, GLINT_ERROR_LIMIT, "%s/%s: %zu images, expected at most %d", pass->slot, pass->variant,
+                       images, PASS_IMAGES_MAX);
+        for (size_t r = 0; r < pass->row_count; r++) {
+            if (!row_is_output(&pass->rows[r])) {
+                if (pass->rows[r].kind == GLINT_ROW_READ && pass->host)
+                    faults_add(faults, GLINT_ERROR_USAGE,
+                               "%s/%s runs on the host, before any image exists, but reads %s", pass->slot,
+                               pass->variant, pass->rows[r].name);
+                continue;
+            }
+            const char *image = pass->rows[r].name;
+            if (capture_row(image))
+                faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and the capture", image,
+                           pass->slot, pass->variant);
+            for (size_t j = i + 1; j < graph->pass_count; j++)
+                if (pass_output(graph->passes[j].pass, image))
+                    faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and %s/%s", image,
+                               pass->slot, pass->variant, graph->passes[j].pass->slot, graph->passes[j].pass->variant);
+        }
+    }
+}

@@ -1,0 +1,134 @@
+/* What a pass's rows dispatch: a list of dispatches, each with its level, its phase and its descriptors. */
+#include "state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct image *run_image(const struct run *run, const char *name) {
+    for (size_t i = 0; i < run->graph.image_count; i++)
+        if (strcmp(run->graph.images[i].name, name) == 0) return run->images[i];
+    return NULL;
+}
+
+static bool row_is_dispatch(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS ||
+           row->kind == GLINT_ROW_DISPATCH_LIST;
+}
+
+static void add(struct step *step, uint32_t phase, const struct image *image, uint32_t level) {
+    const VkExtent3D extent = image_extent(&image->desc, level);
+    step->dispatches[step->dispatch_count++] =
+        (struct dispatch){.phase = phase,
+                          .level = level,
+                          .groups = {(extent.width + 7) / 8, (extent.height + 7) / 8, image_layers(&image->desc)}};
+}
+
+/* From the finer to the coarser of the two levels that the row names, or back. An image may have fewer levels. */
+static void add_levels(struct step *step, uint32_t phase, const struct glint_row *row, const struct image *image) {
+    const int count = (int)image->desc.levels;
+    const bool swapped = (row->first < 0) == (row->last < 0) ? row->first > row->last : row->first < 0;
+    int fine = swapped ? row->last : row->first, coarse = swapped ? row->first : row->last;
+    fine = fine < 0 ? fine + count : fine;
+    coarse = coarse < 0 ? coarse + count : coarse;
+    if (fine < 0) fine = 0;
+    if (coarse > count - 1) coarse = count - 1;
+    for (int i = 0; i <= coarse - fine; i++)
+        add(step, phase, image, (uint32_t)(row->order == GLINT_ORDER_up ? coarse - i : fine + i));
+}
+
+bool step_plan(const struct run *run, struct step *step, struct glint_error *err) {
+    const struct glint_pass *pass = step->pass->pass;
+    step->dispatches = calloc(pass->row_count * LEVELS_MAX, sizeof *step->dispatches);
+    if (!step->dispatches) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    uint32_t phase = 0;
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (!row_is_dispatch(row)) continue;
+        const struct image *image = run_image(run, row->name);
+        if (!image)
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s dispatches over %s, which it neither reads nor writes",
+                              pass->slot, pass->variant, row->name);
+        if (row->kind == GLINT_ROW_DISPATCH) add(step, phase, image, 0);
+        else if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(step, phase, row, image);
+        phase++;
+    }
+    if (phase > 0) return true;
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s declares no image to dispatch over", pass->slot, pass->variant);
+}
+
+static void describe(const struct run *run, const struct step *step, const struct dispatch *dispatch) {
+    const struct glint_pass *pass = step->pass->pass;
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (!row_is_image(row)) continue;
+        const struct image *image = run_image(run, row_image(row));
+        const uint32_t coarsest = image->desc.levels - 1;
+        const bool sampled = row_is_sampled(row), array = strstr(row->glsl, "CubeArray") != NULL;
+        const VkDescriptorImageInfo info = {
+            .imageView = !sampled ? image->levels[dispatch->level < coarsest ? dispatch->level : coarsest].view
+                         : array  ? image->array_view
+                                  : image->view,
+            .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
+        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                            .dstSet = dispatch->set,
+                                            .dstBinding = row->id,
+                                            .descriptorCount = 1,
+                                            .descriptorType = sampled ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
+                                                                      : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                                            .pImageInfo = &info};
+        vkUpdateDescriptorSets(run->replay->device->device, 1, &write, 0, NULL);
+    }
+}
+
+bool step_describe(const struct run *run, struct step *step, struct glint_error *err) {
+    struct glint_device *device = run->replay->device;
+    for (size_t d = 0; d < step->dispatch_count; d++) {
+        struct dispatch *dispatch = &step->dispatches[d];
+        const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                  .descriptorPool = run->pool,
+                                                  .descriptorSetCount = 1,
+                                                  .pSetLayouts = &step->program->images};
+        VkResult result = vkAllocateDescriptorSets(device->device, &info, &dispatch->set);
+        if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
+        device_set_name(device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)dispatch->set,
+                        step->pass->pass->slot);
+        describe(run, step, dispatch);
+    }
+    return true;
+}
+
+/* Barriers before a dispatch: an image that the pass writes may also be read by it, at other levels. */
+static void access_images(const struct run *run, const struct glint_pass *pass, struct barriers *barriers) {
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        bool own = false;
+        for (size_t s = 0; s < pass->row_count && row_is_output(row); s++)
+            own |= pass->rows[s].kind == GLINT_ROW_SELF && strcmp(row_image(&pass->rows[s]), row->name) == 0;
+        if (row_is_image(row) && row->kind != GLINT_ROW_SELF)
+            image_access(run_image(run, row_image(row)),
+                         own                  ? IMAGE_SHADER_BOTH
+                         : row_is_output(row) ? IMAGE_SHADER_WRITE
+                                              : IMAGE_SHADER_READ,
+                         barriers);
+    }
+}
+
+void step_record(const struct run *run, struct step *step) {
+    struct glint_device *device = run->replay->device;
+    VkCommandBuffer commands = device->commands;
+    VkPipelineLayout layout = step->program->layout;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
+    vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
+                       step->constants.push);
+    for (size_t d = 0; d < step->dispatch_count; d++) {
+        const struct dispatch *dispatch = &step->dispatches[d];
+        const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
+        const uint32_t place[] = {dispatch->level, dispatch->phase}; /* how push_begin.glsl opens the block */
+        struct barriers barriers = {.count = 0};
+        access_images(run, step->pass->pass, &barriers);
+        barriers_record(&barriers, device);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
+        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof place, place);
+        vkCmdDispatch(commands, dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
+    }
+}
