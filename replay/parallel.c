@@ -1,34 +1,23 @@
 /* Work on ranges of rows, spread over the processor's cores. */
 #include "parallel.h"
 
-#include <pthread.h>
-#include <stdbool.h>
-#include <unistd.h>
+#include "threads.h"
 
-struct range {
+struct rows {
     void (*work)(void *user, size_t first, size_t last);
     void *user;
-    size_t first, last;
+    size_t count, ranges;
 };
 
-static void *run(void *argument) {
-    const struct range *range = argument;
-    range->work(range->user, range->first, range->last);
-    return NULL;
+static bool run(void *user, uint32_t worker, size_t i) {
+    const struct rows *rows = user;
+    (void)worker;
+    rows->work(rows->user, rows->count * i / rows->ranges, rows->count * (i + 1) / rows->ranges);
+    return true;
 }
 
 void parallel_rows(size_t count, void (*work)(void *user, size_t first, size_t last), void *user) {
-    enum { THREADS_MAX = 16 };
-    struct range ranges[THREADS_MAX];
-    pthread_t threads[THREADS_MAX];
-    bool started[THREADS_MAX] = {false};
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    size_t n = cores < 1 ? 1 : cores > THREADS_MAX ? THREADS_MAX : (size_t)cores;
-    for (size_t i = 0; i < n; i++) {
-        ranges[i] = (struct range){work, user, count * i / n, count * (i + 1) / n};
-        if (i + 1 < n) started[i] = pthread_create(&threads[i], NULL, run, &ranges[i]) == 0;
-        if (!started[i]) run(&ranges[i]); /* the last part, and what no thread could be had for */
-    }
-    for (size_t i = 0; i < n; i++)
-        if (started[i]) pthread_join(threads[i], NULL);
+    const uint32_t workers = glint_loop_workers(count, 0);
+    struct rows rows = {work, user, count, workers};
+    glint_loop(workers, workers, run, &rows);
 }

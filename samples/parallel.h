@@ -15,7 +15,7 @@ struct job {
 };
 
 /* Calls piece(user, i) for each i below `count`, in any order, on the job's threads; adds `weight` to what is done.
-   Fails when a thread cannot be started or the callback asks to stop. */
+   Fails when the callback asks to stop. */
 bool parallel_for(struct job *job, const char *what, double weight, uint32_t count,
                   void (*piece)(void *user, uint32_t i), void *user, struct glint_error *err);
 
