@@ -27,3 +27,4 @@
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)
+#define RESOLUTION(size)

@@ -19,6 +19,7 @@
 #undef PER_RAY
 #undef ACCUMULATE
 #undef NEEDS
+#undef RESOLUTION
 #define ROW_IMAGE(row, glsl_kind, image, fmt, image_unit, image_size, image_channels, none, text)            \
     {.kind = row, .id = __LINE__, .name = #image, .glsl = #glsl_kind, .format = GLINT_FORMAT_##fmt,          \
      .size = GLINT_SIZE_##image_size, .unit = image_unit, .channels = image_channels, .nothing = (double)(none), .help = text},
@@ -67,3 +68,4 @@
 #define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__},
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},
+#define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},

@@ -39,6 +39,16 @@ static bool read_active(struct run *run, const struct graph_image *image, struct
     return true;
 }
 
+/* Whether a variant of the pipeline traces every pixel. */
+static bool traces_all_pixels(const struct glint_pipeline *pipeline) {
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        for (size_t r = 0; r < pass->row_count; r++)
+            if (pass->rows[r].kind == GLINT_ROW_RESOLUTION) return true;
+    }
+    return false;
+}
+
 bool run_sizes(struct run *run, struct glint_error *err) {
     struct glint_capture *capture = run->replay->capture;
     struct frame_sizes *sizes = &run->sizes;
@@ -48,6 +58,7 @@ bool run_sizes(struct run *run, struct glint_error *err) {
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
                                   .sky_face = sky ? sky->width : 0};
+    if (traces_all_pixels(run->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
     const struct glint_part_info **parts;
     size_t count;
     if (!cubemap_parts(capture, &parts, &count, err)) return false;

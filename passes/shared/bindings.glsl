@@ -40,6 +40,7 @@ layout(constant_id = 0) const bool diagnostics = false;
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)
+#define RESOLUTION(size)
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -67,6 +67,32 @@ vec3 sample_ggx_cut(vec2 u, float alpha, float share, float threshold) {
     return vec3(sine * cos(phi), sine * sin(phi), cosine);
 }
 
+// Angle of the cone that a ray stands for when its normal is cut at share · the lobe's angle A. Variances add: rays turn by
+// twice the normal's angle, so with e(share) the mean square angle of the normals below the cut, cone and rays together
+// spread as far as the lobe cut at A when the cone's own mean square is 4 (e(1) - e(share)). A cone of angle a is filtered
+// with cosᵐ that falls to the threshold at a (shared/cone.glsl): its mean square is 2/m = a²/log(1/threshold).
+// Deviation: the slides take (1 - share) · A, the normal's angle for the ray's; it spreads a power of 30 to 0.29 of 0.44 rad.
+const float WIDEST_CONE = 1.3; // cosᵐ is nearly the cosine lobe; wider ones would look through the surface
+
+// θ² is exponentially distributed for narrow lobes: mean below X, in units of 2/n.
+float mean_below(float x) { return x < 1e-4 ? 0.5 * x : 1.0 - x / expm1(x); }
+float blinn_phong_cone(float roughness, float share, float threshold) {
+    float cut = -log(threshold);
+    return 2.0 * lobe_angle(roughness, threshold) * sqrt(max(mean_below(cut) - mean_below(share * share * cut), 0.0));
+}
+
+// tan²θ = α² u/(1 - u): its mean for u below u(T) = T/(α² + T) is α² (-log(1 - u)/u - 1).
+float ggx_mean_tangent2(float a2, float tangent2) {
+    float u = tangent2 / (a2 + tangent2);
+    return u < 1e-3 ? 0.5 * a2 * u : a2 * (-log1p(-u) / u - 1.0);
+}
+float ggx_cone(float alpha, float share, float threshold) {
+    float a2 = max(alpha * alpha, 1e-12);
+    float lost = ggx_mean_tangent2(a2, ggx_cut_tangent2(alpha, 1.0, threshold)) -
+                 ggx_mean_tangent2(a2, ggx_cut_tangent2(alpha, share, threshold));
+    return 2.0 * sqrt(max(-log(threshold) * lost, 0.0));
+}
+
 // Two unit vectors that make a right-handed frame with unit n. T. Duff et al., Building an Orthonormal Basis, Revisited,
 // JCGT 6(1), 2017, equation 3 with the sign of z carried along.
 void tangent_frame(vec3 n, out vec3 tangent, out vec3 bitangent) {

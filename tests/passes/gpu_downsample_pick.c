@@ -143,8 +143,9 @@ static void the_minority_of_an_edge_is_discarded(void **state) {
         float *depth = gpu_floats(gpu, "depth_half", NULL, NULL);
         for (uint32_t i = 0; i < width * height; ++i) {
             uint32_t bits = i % width % 16, near_pixels = (bits & 1) + (bits >> 1 & 1) + (bits >> 2 & 1) + (bits >> 3);
-            bool near =
-                edges ? near_pixels >= 2 : bits >> 3 & 1; /* of two pairs the nearer; else the pixel whose turn it is */
+            /* Of two pairs the nearer, of two diagonals either in turn over the blocks; else the pixel whose turn it is. */
+            bool diagonal = bits == 6 || bits == 9, other = (i % width ^ i / width) & 1;
+            bool near = edges ? near_pixels >= 2 && !(diagonal && other) : bits >> 3 & 1;
             assert_true(depth[i] == (near ? 2.0f : 5.0f));
             assert_int_equal(bits >> pick[i] & 1, near); /* one of the block's own pixels */
         }

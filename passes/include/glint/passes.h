@@ -27,7 +27,8 @@ enum glint_row_kind {
     GLINT_ROW_DISPATCH_LEVELS, /* one dispatch for each of some levels of an image */
     GLINT_ROW_DISPATCH_LIST,   /* instead of the DISPATCH before it: one invocation for each item of a list, if made */
     GLINT_ROW_PER_RAY,         /* the slot's passes run once for each ray of a frame */
-    GLINT_ROW_ACCUMULATE       /* an image that becomes its mean over the rays */
+    GLINT_ROW_ACCUMULATE,      /* an image that becomes its mean over the rays */
+    GLINT_ROW_RESOLUTION       /* the pipeline's half resolution becomes "full" while this variant is in its slot */
 };
 
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };

@@ -1,0 +1,10 @@
+/* How normals are jittered; of every variant of this slot that does it. */
+#line 202
+SPEC(bool,  jitter,     true, 0, 1, "1", "000, G-buffer down-sampling", "draw the normal from the NDF; off: mirror rays")
+CHOICE2(ndf, ggx, blinn_phong, ggx, "000, Modified NDF; GGX is its future work", "distribution that jitters the normal: blinn_phong by half-vector density, ggx by visible normals")
+CHOICE3(pattern, plus, plus, white, blue, "000, Modified NDF; blue noise is an idea of theirs", "order of the random numbers: plus gives each of five neighbours a fifth of the azimuth, blue spreads both numbers over neighbours and frames, white is independent")
+SPEC(bool,  shuffle,    true, 0, 1, "1", "000, Modified NDF", "the pattern changes in each frame; off: a pixel keeps its fifth of the azimuth")
+SPEC(int,   tries,      16,   1, 64, "draws", "chosen by measuring", "normals drawn until the ray leaves the surface; then the normal itself is taken")
+PUSH(float, share,      1.0,  0.0, 1.0, "1", "000, Importance sampling vs. pre-filtering", "part of the NDF's angle that rays cover; the rest is left to pre-filtering")
+PUSH(float, threshold,  0.1,  0.001, 0.999, "1", "000, Combining importance sampling with pre-filtering", "lobe value below which directions are ignored when share < 1")
+PUSH(float, cone_factor, 1.0, 0.0, 8.0, "1", "chosen by error", "times the cone that gives a ray back what the cut took of its lobe's variance; 0: rays without a cone")

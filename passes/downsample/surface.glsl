@@ -1,0 +1,62 @@
+// What every variant does once it has a surface: jitter its normal and store. Next include of slot.h and jitter.h.
+#include "shared/blue_noise.glsl"
+#include "shared/camera.glsl"
+#include "shared/plus.glsl"
+#include "shared/random.glsl"
+#include "shared/sampling.glsl"
+
+// The numbers of the first draw. Those after it are white: the marginal distribution of a pattern's number is uniform, so
+// what it lacks below the horizon is repeated in the right proportions.
+vec2 first_numbers(uvec2 pixel) {
+    uint number = shuffle ? frame.counts.y : 0u;
+    if (pattern == pattern_blue) return blue_noise2(pixel, number, frame.flags.w);
+    vec2 u = random4(pixel, random_frame(), RANDOM_NDF).xy;
+    // φ = 2π (0.2 · rnd + class / 5), the class another one in each frame and for each ray.
+    if (pattern == pattern_plus) u.y = 0.2 * (u.y + float(plus_class(pixel, number + 2u * frame.flags.w)));
+    return u;
+}
+
+// A half-vector in the frame of the normal, z < 0 when the draw is to be repeated.
+vec3 draw(vec2 u, float accept, vec3 view, float roughness) {
+    if (ndf == ndf_blinn_phong) return sample_blinn_phong(u, roughness, share, threshold);
+    float alpha = roughness * roughness;
+    if (share == 1.0) return sample_ggx_visible(u, view, alpha);
+    vec3 h = sample_ggx_cut(u, alpha, share, threshold);
+    // Visible normals have the density D (v · h), these D h.z: keep a part in proportion to (v · h)/h.z, which is
+    // v.z + tan θ · (sine of v) at most.
+    float tangent = sqrt(ggx_cut_tangent2(alpha, share, threshold)), sine = length(view.xy);
+    return accept * h.z * (view.z + tangent * sine) < dot(view, h) ? h : vec3(0.0, 0.0, -1.0);
+}
+
+vec3 jittered(vec3 normal, float roughness, vec3 to_viewer, uvec2 pixel) {
+    vec3 tangent, bitangent;
+    tangent_frame(normal, tangent, bitangent);
+    vec3 view = vec3(dot(to_viewer, tangent), dot(to_viewer, bitangent), dot(to_viewer, normal));
+    for (int i = 0; i < tries; ++i) {
+        vec4 u = random4(pixel, random_frame(), RANDOM_NDF + uint(i));
+        vec3 h = draw(i == 0 ? first_numbers(pixel) : u.xy, u.z, view, roughness);
+        if (h.z > 0.0 && 2.0 * dot(view, h) * h.z > view.z) return h.x * tangent + h.y * bitangent + h.z * normal;
+    }
+    return normal;
+}
+
+// chosen: which pixel of the block it is, 4 for its centre.
+void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen) {
+    float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0, cone = 0.0;
+    vec3 normal = vec3(0.0), ray_normal = vec3(0.0);
+    if (reflects(depth_m, surface.xyz)) {
+        normal = ray_normal = normalize(surface.xyz);
+        vec2 uv = picked_uv(pixel, chosen, frame.size);
+        vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
+        if (jitter && roughness > 0.0) ray_normal = jittered(normal, roughness, to_viewer, uvec2(pixel));
+        float sampled = jitter ? share : 0.0;
+        cone = cone_factor * (ndf == ndf_ggx ? ggx_cone(roughness * roughness, sampled, threshold)
+                                             : blinn_phong_cone(roughness, sampled, threshold));
+    }
+    imageStore(depth_half, pixel, vec4(depth_m > 0.0 ? depth_m : INFINITE));
+    imageStore(normal_half, pixel, vec4(normal, roughness));
+    imageStore(normal_jittered, pixel, vec4(ray_normal, roughness));
+    imageStore(cone_half, pixel, vec4(min(cone, WIDEST_CONE)));
+    imageStore(pick, pixel, uvec4(chosen));
+}

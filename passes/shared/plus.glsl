@@ -1,0 +1,10 @@
+// The "+" pattern (000, Modified NDF): five classes of pixels, so that every pixel and its four neighbours hold one of each.
+// x + 2y mod 5 does it: the neighbours add 1, -1, 2 and -2. A pixel's class repeats at the centres of the four pluses
+// around its own, which together with it cover 25 pixels once.
+#ifndef GLINT_PLUS
+#define GLINT_PLUS
+const ivec2 PLUS_NEIGHBOURS[4] = ivec2[](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+const ivec2 PLUS_CENTRES[4] = ivec2[](ivec2(1, 2), ivec2(2, -1), ivec2(-1, -2), ivec2(-2, 1));
+
+uint plus_class(uvec2 pixel, uint shift) { return (pixel.x + 2u * pixel.y + shift % 5u) % 5u; }
+#endif

@@ -1,0 +1,184 @@
+/* The order in which downsample draws its normals, and their density below a cut. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { SIZE = 256, DRAWS = SIZE * SIZE };
+static const double pi = 3.14159265358979323846, roughness = 0.5, threshold = 0.1, share = 0.5;
+/* Angle between view and normal: 0, or oblique. */
+static const double oblique = 1.1;
+
+static void tilt(const struct plain *plain, float *values) {
+    uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        values[PLAIN_NORMAL_X * pixels + i] = (float)sin(oblique);
+        values[PLAIN_NORMAL_Z * pixels + i] = (float)cos(oblique);
+    }
+}
+
+/* A draw for each pixel, in the frame of the normal: x towards the side that the viewer is on. */
+static double (*draws(struct gpu *gpu, bool tilted, const char *ndf, const char *pattern))[3] {
+    char path[256], setting[64];
+    const char *name = tilted ? "tilted" : "flat";
+    plain_capture(gpu_path(gpu, name, path), &(struct plain){.width = SIZE,
+                                                             .height = SIZE,
+                                                             .roughness = (float)roughness,
+                                                             .fov_y_degrees = 0.5,
+                                                             .spoil = tilted ? tilt : NULL});
+    gpu_load(gpu, name);
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "downsample=none");
+    gpu_set(gpu, "downsample.share=0.5");
+    snprintf(setting, sizeof setting, "downsample.ndf=%s", ndf);
+    gpu_set(gpu, setting);
+    snprintf(setting, sizeof setting, "downsample.pattern=%s", pattern);
+    gpu_set(gpu, setting);
+    gpu_run(gpu);
+    uint32_t width, height;
+    float *normal = gpu_floats(gpu, "normal_jittered", &width, &height);
+    assert_true(width == SIZE && height == SIZE); /* `none` traces every pixel */
+    double(*h)[3] = malloc(DRAWS * sizeof *h), c = cos(tilted ? oblique : 0), s = sin(tilted ? oblique : 0);
+    assert_non_null(h);
+    for (size_t i = 0; i < DRAWS; ++i) {
+        double x = (double)normal[4 * i], y = (double)normal[4 * i + 1], z = (double)normal[4 * i + 2];
+        h[i][0] = s * z - c * x, h[i][1] = y, h[i][2] = s * x + c * z;
+    }
+    free(normal);
+    return h;
+}
+
+static void every_plus_holds_all_five_fifths(void **state) {
+    double(*h)[3] = draws(*state, false, "blinn_phong", "plus");
+    static const int around[5] = {0, 1, -1, SIZE, -SIZE};
+    double most = 0, *turn = malloc(DRAWS * sizeof *turn);
+    assert_non_null(turn);
+    for (int i = 0; i < DRAWS; ++i) turn[i] = atan2(h[i][1], h[i][0]) / (2 * pi) + 0.5;
+    for (int y = 1; y < SIZE - 1; ++y)
+        for (int x = 1; x < SIZE - 1; ++x) {
+            unsigned seen = 0;
+            /* The frame of the normal may be turned: half a turn from the device's, as draws() builds it. */
+            for (int k = 0; k < 5; ++k) seen |= 1u << (int)(5 * fmod(turn[y * SIZE + x + around[k]] + 1, 1));
+            assert_int_equal(seen, 31);
+        }
+    (void)quantile(turn, DRAWS, 0.5); /* sorts: together they are the whole circle, evenly */
+    for (int i = 0; i < DRAWS; ++i) most = fmax(most, fabs(turn[i] - (i + 0.5) / DRAWS));
+    assert_true(most < 1.95 / SIZE); /* Kolmogorov and Smirnov, 1 in 1,000 for independent draws */
+    free(turn), free(h);
+}
+
+static double cut_angle(bool ggx) {
+    if (!ggx) return share * acos(pow(threshold, 1 / 30.0));
+    const double a2 = pow(roughness, 4); /* (cos² + sin²/a²)² = 1/threshold */
+    return share * asin(sqrt((1 / sqrt(threshold) - 1) / (1 / a2 - 1)));
+}
+
+/* Not normalised. Blinn-Phong: per half-vector; GGX: visible from the oblique view. Rays below the surface are repeated. */
+static double density(bool ggx, double x, double z) {
+    double v_h = sin(oblique) * x + cos(oblique) * z;
+    if (acos(fmin(z, 1)) > cut_angle(ggx) || 2 * v_h * z <= cos(oblique)) return 0;
+    if (!ggx) return pow(z, 30);
+    const double a2 = pow(roughness, 4);
+    return fmax(v_h, 0) / pow(z * z + (1 - z * z) / a2, 2);
+}
+
+enum { RINGS = 8, SLICES = 10 };
+static int bin_of(double cut, double x, double y, double z) {
+    int ring = (int)(RINGS * (1 - fmin(z, 1)) / (1 - cos(cut))), slice = (int)(SLICES * (atan2(y, x) / (2 * pi) + 0.5));
+    return (ring < RINGS ? ring : RINGS - 1) * SLICES + (slice < SLICES ? slice : SLICES - 1);
+}
+
+static void draws_follow_the_cut_density(void **state) {
+    static const char *const patterns[] = {"plus", "white", "blue"};
+    for (int run = 0; run < 6; ++run) {
+        bool ggx = run % 2;
+        double cut = cut_angle(ggx), expected[RINGS * SLICES] = {0}, found[RINGS * SLICES] = {0}, total = 0, chi2 = 0;
+        enum { FINE = 800 };
+        for (int i = 0; i < FINE; ++i)
+            for (int j = 0; j < FINE; ++j) {
+                double z = 1 - (1 - cos(cut)) * (i + 0.5) / FINE, phi = 2 * pi * (j + 0.5) / FINE, s = sqrt(1 - z * z);
+                double d = density(ggx, s * cos(phi), z);
+                expected[bin_of(cut, s * cos(phi), s * sin(phi), z)] += d;
+                total += d;
+            }
+        double(*h)[3] = draws(*state, true, ggx ? "ggx" : "blinn_phong", patterns[run / 2]);
+        for (int i = 0; i < DRAWS; ++i) {
+            assert_true(h[i][2] > cos(cut) - 1e-6);
+            found[bin_of(cut, h[i][0], h[i][1], h[i][2])] += 1;
+        }
+        int bins = 0;
+        for (int i = 0; i < RINGS * SLICES; ++i) {
+            double e = expected[i] / total * DRAWS;
+            if (e < 5) continue;
+            chi2 += (found[i] - e) * (found[i] - e) / e;
+            ++bins;
+        }
+        /* Independent draws exceed it once in 1,000 (Wilson and Hilferty); patterns scatter less. */
+        double k = bins - 1, limit = k * pow(1 - 2 / (9 * k) + 3.09 * sqrt(2 / (9 * k)), 3);
+        print_message("# %s %s: chi² %.1f over %d bins, limit %.1f\n", patterns[run / 2], ggx ? "ggx" : "blinn_phong",
+                      chi2, bins, limit);
+        assert_true(chi2 < limit);
+        free(h);
+    }
+}
+
+/* Variance of the mean over quads of pixels, over that of one pixel's fourth: 1 for independent numbers. */
+static double quad_variance(const double *u) {
+    double quad = 0, one = 0;
+    for (int y = 0; y < SIZE; y += 2)
+        for (int x = 0; x < SIZE; x += 2) {
+            const double *at = &u[y * SIZE + x];
+            quad += pow((at[0] + at[1] + at[SIZE] + at[SIZE + 1]) / 4 - 0.5, 2) / (DRAWS / 4);
+        }
+    for (int i = 0; i < DRAWS; ++i) one += pow(u[i] - 0.5, 2) / DRAWS;
+    return quad / (one / 4);
+}
+
+static void blue_noise_evens_out_over_neighbours(void **state) {
+    double lowest = pow(cos(cut_angle(false)), 31), *u = malloc(DRAWS * sizeof *u), *v = malloc(DRAWS * sizeof *v);
+    assert_true(u && v);
+    for (int blue = 0; blue < 2; ++blue) {
+        double(*h)[3] = draws(*state, false, "blinn_phong", blue ? "blue" : "white");
+        for (int i = 0; i < DRAWS; ++i) {
+            u[i] = (pow(h[i][2], 31) - lowest) / (1 - lowest);
+            v[i] = atan2(h[i][1], h[i][0]) / (2 * pi) + 0.5;
+        }
+        print_message("# %s: variance of quads %.3f and %.3f of independent numbers'\n", blue ? "blue" : "white",
+                      quad_variance(u), quad_variance(v));
+        for (int k = 0; k < 2; ++k) {
+            double part = quad_variance(k ? v : u);
+            assert_true(blue ? part < 0.5 : fabs(part - 1) < 0.1);
+        }
+        free(h);
+    }
+    free(u), free(v);
+}
+
+static void bilinear_is_the_mean_of_the_block(void **state) {
+    struct gpu *gpu = *state;
+    free(draws(gpu, false, "ggx", "plus"));
+    gpu_use(gpu, "downsample=bilinear");
+    gpu_run(gpu);
+    uint32_t width, height;
+    float *depth = gpu_floats(gpu, "depth_half", &width, &height);
+    assert_true(width == SIZE / 2 && height == SIZE / 2 && depth[0] == 5.0f);
+    free(depth);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_plus_holds_all_five_fifths),
+        cmocka_unit_test(draws_follow_the_cut_density),
+        cmocka_unit_test(blue_noise_evens_out_over_neighbours),
+        cmocka_unit_test(bilinear_is_the_mean_of_the_block),
+    };
+    return cmocka_run_group_tests_name("gpu_downsample_pattern", tests, gpu_set_up, gpu_tear_down);
+}
