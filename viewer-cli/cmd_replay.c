@@ -1,14 +1,13 @@
 /* glint replay: runs the passes on captures, writes every image, says what each pass took. */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "against.h"
 #include "pass_names.h"
 #include "pipe.h"
 #include "pipeline_args.h"
 #include "progress.h"
+#include "shot.h"
 #include "table.h"
 
 struct arguments {
@@ -24,14 +23,15 @@ enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACH
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output",      'o',             "RUN",  0, "Folder for the run: run.json and one EXR a pass. With several captures, "
-        "RUN/NAME for each. Without it nothing is written, only measured", 0},
+        "RUN/NAME for each, in their order; frames that an interrupted replay with the same settings completed are kept. "
+        "Without it nothing is written, only measured", 0},
     PIPELINE_OPTIONS,
     {"device",      'd',             "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
     {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round, not warmed up)", 0},
     {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before the timed ones of --repeat (default 1)", 0},
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
     {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches; changes no other bit", 0},
-    {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed", 0},
+    {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed, and every frame although it is complete", 0},
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better answer. truth: the true reflection and the mirror rays "
         "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
         "preset reference on the same capture, or its run: reference=RUN", 0},
@@ -47,7 +47,7 @@ static const struct example examples[] = {
     {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "with a shader of your own"},
     {"glint replay street.exr --against truth --set downsample.jitter=false", "how many rays are right, and why not"},
     {"glint replay street.exr --against reference", "how far the picture is from the converged answer"},
-    {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME"},
+    {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME; again: completes what was interrupted"},
     {0},
 };
 static const char *const precisions[] = {"half", "float", NULL};
@@ -177,24 +177,32 @@ static json_t *run_json(const char *capture, const char *folder, const struct co
                      compared && !compared->has_rays ? against_json(compared) : NULL);
 }
 
-/* RUN, or RUN/NAME when there are several captures; malloc'd. */
-static char *run_folder(const struct arguments *a, const char *capture, struct glint_error *err) {
+static void free_folders(char **folders, size_t count) {
+    for (size_t i = 0; folders && i < count; i++) free(folders[i]);
+    free(folders);
+}
+
+/* RUN, or RUN/NAME when there are several captures; malloc'd. NULL when memory is short. */
+static char *run_folder(const struct arguments *a, const char *capture) {
     char *folder = NULL;
     const char *base = strrchr(capture, '/') ? strrchr(capture, '/') + 1 : capture;
     size_t length = strlen(base);
     if (length > 4 && !strcmp(base + length - 4, ".exr")) length -= 4;
     int failed = a->captures.count == 1 ? asprintf(&folder, "%s", a->out)
                                         : asprintf(&folder, "%s/%.*s", a->out, (int)length, base);
-    if (failed < 0) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        return NULL;
-    }
-    if (a->captures.count > 1 && mkdir(a->out, 0777) != 0 && errno != EEXIST) {
-        glint_fail(err, GLINT_ERROR_IO, "%s: %s", a->out, strerror(errno));
-        free(folder);
-        return NULL;
-    }
-    return folder;
+    return failed < 0 ? NULL : folder;
+}
+
+/* One for each capture. */
+static char **run_folders(const struct arguments *a, struct glint_error *err) {
+    char **folders = calloc(a->captures.count, sizeof *folders);
+    bool ok = folders != NULL;
+    for (size_t i = 0; ok && i < a->captures.count; i++)
+        ok = (folders[i] = run_folder(a, a->captures.items[i])) != NULL;
+    if (ok) return folders;
+    glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    free_folders(folders, a->captures.count);
+    return NULL;
 }
 
 static bool replay_one(const struct job *job, const char *path, const char *folder, struct glint_error *err) {
@@ -228,21 +236,48 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     return ok;
 }
 
+static void report_kept(const struct job *job, const char *capture, const char *folder) {
+    if (job->runs)
+        json_array_append_new(job->runs, json_pack("{s:s, s:s, s:b}", "capture", capture, "run", folder, "kept", 1));
+    else printf("%s: complete, kept: %s\n", capture, folder);
+}
+
+/* How many frames from the first are complete; what follows one that is not depends on it through its history. */
+static bool count_kept(const struct job *job, char **folders, size_t *kept, struct glint_error *err) {
+    const struct arguments *a = job->a;
+    *kept = 0;
+    if (!folders || a->captures.count < 2) return true;
+    json_t *settings = shot_settings(job->pipeline, &a->pipeline, glint_device_get_info(job->device)->name);
+    bool ok = settings ? shot_begin(a->out, settings, folders, a->captures.count, err)
+                       : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    json_decref(settings);
+    bool again = a->pipeline.replay.no_cache || a->pipeline.replay.repeat || a->against.truth || a->against.reference;
+    while (ok && !again && *kept < a->captures.count && shot_has(folders[*kept], a->captures.items[*kept])) ++*kept;
+    return ok;
+}
+
 /* Every capture is tried; one that fails does not keep the others from being replayed, Ctrl-C does. */
 static enum status replay_all(const struct job *job) {
     const struct list *captures = &job->a->captures;
     enum status status = STATUS_DONE;
-    for (size_t i = 0; i < captures->count && status != STATUS_INTERRUPTED; i++) {
-        struct glint_error err = {0};
-        char *folder = job->a->out ? run_folder(job->a, captures->items[i], &err) : NULL;
-        bool ok = (folder || !job->a->out) && replay_one(job, captures->items[i], folder, &err);
-        free(folder);
+    struct glint_error err = {0};
+    size_t kept = 0;
+    char **folders = job->a->out ? run_folders(job->a, &err) : NULL;
+    if ((job->a->out && !folders) || !count_kept(job, folders, &kept, &err)) {
+        free_folders(folders, captures->count);
+        return command_fail(&cmd_replay, &err);
+    }
+    for (size_t i = 0; i < kept; i++) report_kept(job, captures->items[i], folders[i]);
+    for (size_t i = kept; i < captures->count && status != STATUS_INTERRUPTED; i++) {
+        err = (struct glint_error){0};
+        bool ok = replay_one(job, captures->items[i], folders ? folders[i] : NULL, &err);
         if (!ok) {
             enum status failed = command_fail(&cmd_replay, &err);
             if (failed > status) status = failed;
         }
         if (!job->runs && ok && i + 1 < captures->count) putchar('\n');
     }
+    free_folders(folders, captures->count);
     return status;
 }
 

@@ -13,6 +13,7 @@ struct arguments {
     struct source_choice choice;
     const char *out;
     bool sheet;
+    struct list paths;
     struct list images; /* of --image */
     struct render_options render;
 };
@@ -40,7 +41,7 @@ enum {
 static const struct argp_option options[] = {
     {"output",    'o',           "FILE",     0, "The PNG to write; - is stdout", 0},
     {"image",     KEY_IMAGE,     "NAME,...", 0, "Image of a run (default: its last colour image); several for --sheet", 0},
-    {"sheet",     KEY_SHEET,     NULL,       0, "All images of a run on one picture, or those of --image", 0},
+    {"sheet",     KEY_SHEET,     NULL,       0, "All images of a run on one picture, or those of --image; of several runs: a column each, one range a row", 0},
     {"part",      KEY_PART,      "NAME",     0, "Part of a file (default: lit, or the first with colour)", 0},
     {"layer",     KEY_LAYER,     "NAME",     0, "Layer or channel of the part: depth, normal, material.roughness", 0},
     {"as",        KEY_AS,        "KIND",     0, "How to show it (default: by unit and channels): ", 0},
@@ -62,6 +63,7 @@ static const struct example examples[] = {
     {"glint view run -o reflection.png", "the last colour image of a run, through the ACES view"},
     {"glint view run --image travelled -o travelled.png", "how far the rays went, with a scale"},
     {"glint view run --sheet -o sheet.png", "every image of a run on one picture"},
+    {"glint view a b --sheet --image travelled,composed -o ab.png", "two runs beside each other"},
     {"glint view run:screen_end -o why.png", "why each ray ended (of a run with --diagnostics)"},
     {"glint view street.exr:gbuffer:normal -o normals.png", "a layer of a capture"},
     {"glint view street.exr --part cubemap.003 -o cube.png", "a cube map as a cross"},
@@ -110,13 +112,16 @@ static error_t parse_color(int key, char *arg, struct argp_state *state, struct 
         a->render.ocio.input = arg;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->choice.path) argp_error(state, "one image at a time: %s and %s", a->choice.path, arg);
-        a->choice.path = arg;
+        list_add(&a->paths, arg, state);
         return 0;
     case ARGP_KEY_END:
-        if (!a->choice.path) argp_error(state, "which image?");
+        if (!a->paths.count) argp_error(state, "which image?");
         if (!a->out) argp_error(state, "where to? -o FILE.png");
+        if (!a->sheet && a->paths.count > 1)
+            argp_error(state, "%s and %s: one image at a time, several runs need --sheet", a->paths.items[0],
+                       a->paths.items[1]);
         if (!a->sheet && a->images.count > 1) argp_error(state, "several images need --sheet");
+        a->choice.path = a->paths.items[0];
         a->choice.image = a->images.count ? a->images.items[0] : NULL;
         return 0;
     }
@@ -190,19 +195,21 @@ static enum status run(int argc, char **argv) {
     progress_begin(&progress);
     a.choice.path = pipe_input(&pipe, a.choice.path, &err);
     bool ok = a.choice.path != NULL;
-    if (ok && a.sheet) ok = render_sheet(&picture, a.choice.path, list_or_null(&a.images), &a.render, &err);
+    if (ok && a.sheet)
+        ok = render_sheet(&picture, a.paths.items, a.paths.count, list_or_null(&a.images), &a.render, &err);
     else if (ok) ok = draw_one(&picture, &a, &err);
     ok = ok && png_file_write(a.out, &picture, &err);
     progress_end(&progress);
     picture_finish(&picture);
     pipe_finish(&pipe);
     list_free(&a.images);
+    list_free(&a.paths);
     return ok ? STATUS_DONE : command_fail(&cmd_view, &err);
 }
 
 const struct command cmd_view = {
     .name = "view",
-    .arguments = "IMAGE|RUN -o P.png",
+    .arguments = "IMAGE|RUN... -o P.png",
     .summary = "a picture of an image, a capture's part or a run",
     .description = "Writes a PNG of an EXR layer (FILE:PART:LAYER), a capture's part or an image of a run (RUN:IMAGE). "
                    "Colour goes through OpenColorIO; distances, normals, indices and end reasons are shown in false "

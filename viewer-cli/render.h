@@ -23,8 +23,9 @@ bool render_plain(struct picture *picture, struct legend *legend, const struct s
 bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
             struct glint_error *err);
 
-/* All images of a run, or those of a NULL-terminated list, in rows of one width, each with its name or legend below. */
-bool render_sheet(struct picture *sheet, const char *run, const char *const *images,
+/* All images of a run, or those of a NULL-terminated list, in rows of one width, each with its name or legend below.
+   Several runs: a row for each image of the first, a column for each run, one range of values in a row. */
+bool render_sheet(struct picture *sheet, const char *const *runs, size_t run_count, const char *const *images,
                   const struct render_options *options, struct glint_error *err);
 
 #endif

@@ -1,60 +1,165 @@
-/* Many images of a run on one picture. */
+/* Many images on one picture: those of a run, or the same images of several runs beside each other. */
 #include "render.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "glint/replay.h"
 
-enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12, MOST = 256 };
+enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12 };
 
-/* One image at the sheet's width, with its legend. Colours are averaged; categories must not be mixed. */
-static bool draw_cell(struct picture *cell, const char *run, const char *image, const struct render_options *options,
-                      struct glint_error *err) {
-    const struct source_choice choice = {.path = run, .image = image};
-    struct legend legend;
+/* Cells row by row. */
+struct grid {
+    struct picture *cells; /* those without an image stay empty */
+    uint32_t columns, rows;
+};
+
+struct cell {
+    const char *run, *image;
+    bool named; /* the legend names the run */
+};
+
+static const char *last_name(const char *path) {
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') length--;
+    const char *name = path;
+    for (const char *p = path; p < path + length; p++)
+        if (*p == '/') name = p + 1;
+    return name;
+}
+
+static bool draw_plain(struct picture *picture, struct legend *legend, const struct cell *cell,
+                       const struct render_options *options, struct glint_error *err) {
+    const struct source_choice choice = {.path = cell->run, .image = cell->image};
     struct source source;
     size_t invalid;
     if (!source_open(&source, &choice, err)) return false;
-    bool ok = render_plain(cell, &legend, &source, options, &invalid, err);
+    bool ok = render_plain(picture, legend, &source, options, &invalid, err);
     source_finish(&source);
-    if (!ok) return false;
-    bool categories = legend.kind == KIND_INDEX || legend.kind == KIND_REASON;
-    uint32_t wide = CELL_PX / cell->width, high = CELL_HEIGHT_PX / cell->height;
-    return picture_shrink(cell, (cell->width + CELL_PX - 1) / CELL_PX, !categories, err) &&
-           picture_zoom(cell, wide < high ? wide : high, err) && legend_add(cell, &legend, err);
+    return ok;
 }
 
-/* As many columns as rows; each row is as high as its highest cell. */
-static bool lay_out(struct picture *sheet, const struct picture *cells, size_t count, struct glint_error *err) {
-    uint32_t columns = (uint32_t)ceil(sqrt((double)count)), height = GAP_PX, tops[MOST];
-    for (size_t i = 0; i < count; i += columns) {
-        uint32_t row = 0;
-        for (size_t k = i; k < count && k < i + columns; k++) row = cells[k].height > row ? cells[k].height : row;
-        tops[i / columns] = height;
-        height += row + GAP_PX;
+/* One image at the sheet's width, with its legend. Colours are averaged; categories must not be mixed. */
+static bool draw_cell(struct picture *picture, const struct cell *cell, const struct render_options *options,
+                      struct glint_error *err) {
+    struct legend legend;
+    char title[sizeof legend.title];
+    if (!draw_plain(picture, &legend, cell, options, err)) return false;
+    if (cell->named) {
+        const char *run = last_name(cell->run);
+        size_t length = strcspn(run, "/");
+        snprintf(title, sizeof title, "%.*s: %.250s", (int)(length < 140 ? length : 140), run, legend.title);
+        memcpy(legend.title, title, sizeof title);
     }
-    if (!picture_init(sheet, columns * (CELL_PX + GAP_PX) + GAP_PX, height, COLOR_BACKGROUND, err)) return false;
-    for (size_t i = 0; i < count; i++)
-        picture_paste(sheet, &cells[i], GAP_PX + (uint32_t)(i % columns) * (CELL_PX + GAP_PX), tops[i / columns]);
+    bool categories = legend.kind == KIND_INDEX || legend.kind == KIND_REASON;
+    uint32_t wide = CELL_PX / picture->width, high = CELL_HEIGHT_PX / picture->height;
+    return picture_shrink(picture, (picture->width + CELL_PX - 1) / CELL_PX, !categories, err) &&
+           picture_zoom(picture, wide < high ? wide : high, err) && legend_add(picture, &legend, err);
+}
+
+static bool run_has(const char *path, const char *image, bool *has, struct glint_error *err) {
+    struct glint_run *run = glint_run_open(path, err);
+    *has = run && glint_run_find(run, image);
+    bool ok = run != NULL;
+    glint_run_close(&run);
+    return ok;
+}
+
+/* The range that holds all of a row's, so that equal colours mean equal values. */
+static bool common_range(const struct cell *cells, const bool *there, uint32_t columns, struct render_options *options,
+                         struct glint_error *err) {
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < columns; i++) {
+        struct picture picture = {0};
+        struct legend legend;
+        if (!there[i]) continue;
+        if (!draw_plain(&picture, &legend, &cells[i], options, err)) return false;
+        picture_finish(&picture);
+        if (legend.kind != KIND_DISTANCE) return true;
+        low = fmin(low, legend.low);
+        high = fmax(high, legend.high);
+    }
+    options->falsecolor.range_given = low < high;
+    options->falsecolor.low = low;
+    options->falsecolor.high = high;
     return true;
 }
 
-bool render_sheet(struct picture *sheet, const char *run, const char *const *images,
-                  const struct render_options *options, struct glint_error *err) {
-    struct picture *cells = calloc(MOST, sizeof *cells);
-    struct glint_run *opened = NULL;
-    size_t count = 0;
-    bool ok = cells || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok) ok = (opened = glint_run_open(run, err)) != NULL;
-    while (ok && count < MOST && (images ? images[count] != NULL : count < glint_run_image_count(opened))) {
-        const char *image = images ? images[count] : glint_run_image(opened, count)->name;
-        ok = draw_cell(&cells[count++], run, image, options, err);
+/* The same image of every run. A run that lacks it leaves its place empty, if another has it. */
+static bool draw_row(struct picture *pictures, const char *const *runs, uint32_t columns, const char *image,
+                     const struct render_options *options, struct glint_error *err) {
+    struct render_options row = *options;
+    struct cell *cells = calloc(columns, sizeof *cells);
+    bool *there = calloc(columns, sizeof *there), ok = cells && there, any = false;
+    if (!ok) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (uint32_t i = 0; ok && i < columns; i++) {
+        cells[i] = (struct cell){runs[i], image, columns > 1};
+        ok = run_has(runs[i], image, &there[i], err);
+        any = any || there[i];
     }
-    if (ok && count == 0) ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the run has no images", run);
-    if (ok) ok = lay_out(sheet, cells, count, err);
-    for (size_t i = 0; i < count; i++) picture_finish(&cells[i]);
+    if (ok && !any) there[0] = true; /* opening it names what there is */
+    if (ok && columns > 1 && !options->falsecolor.range_given) ok = common_range(cells, there, columns, &row, err);
+    for (uint32_t i = 0; ok && i < columns; i++)
+        if (there[i]) ok = draw_cell(&pictures[i], &cells[i], &row, err);
     free(cells);
-    glint_run_close(&opened);
+    free(there);
+    return ok;
+}
+
+static uint32_t row_height(const struct grid *grid, uint32_t row) {
+    uint32_t height = 0;
+    for (uint32_t k = 0; k < grid->columns; k++) {
+        uint32_t cell = grid->cells[(size_t)row * grid->columns + k].height;
+        if (cell > height) height = cell;
+    }
+    return height;
+}
+
+/* Each row is as high as its highest cell. */
+static bool lay_out(struct picture *sheet, const struct grid *grid, struct glint_error *err) {
+    uint32_t height = GAP_PX, top = GAP_PX;
+    for (uint32_t row = 0; row < grid->rows; row++) height += row_height(grid, row) + GAP_PX;
+    if (!picture_init(sheet, grid->columns * (CELL_PX + GAP_PX) + GAP_PX, height, COLOR_BACKGROUND, err)) return false;
+    for (uint32_t row = 0; row < grid->rows; row++) {
+        for (uint32_t k = 0; k < grid->columns; k++) {
+            const struct picture *cell = &grid->cells[(size_t)row * grid->columns + k];
+            if (cell->rgba) picture_paste(sheet, cell, GAP_PX + k * (CELL_PX + GAP_PX), top);
+        }
+        top += row_height(grid, row) + GAP_PX;
+    }
+    return true;
+}
+
+static size_t count_images(const struct glint_run *run, const char *const *images) {
+    size_t count = 0;
+    if (!images) return glint_run_image_count(run);
+    while (images[count]) count++;
+    return count;
+}
+
+bool render_sheet(struct picture *sheet, const char *const *runs, size_t run_count, const char *const *images,
+                  const struct render_options *options, struct glint_error *err) {
+    struct grid grid = {0};
+    struct glint_run *first = glint_run_open(runs[0], err);
+    size_t count = first ? count_images(first, images) : 0, places = 0;
+    bool ok = first != NULL;
+    if (ok && count == 0) ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the run has no images", runs[0]);
+    if (ok) {
+        /* a run alone: as many columns as rows */
+        grid.columns = run_count > 1 ? (uint32_t)run_count : (uint32_t)ceil(sqrt((double)count));
+        grid.rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + grid.columns - 1) / grid.columns);
+        places = (size_t)grid.columns * grid.rows;
+        grid.cells = calloc(places, sizeof *grid.cells);
+        ok = grid.cells || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    }
+    for (size_t i = 0; ok && i < count; i++)
+        ok = draw_row(&grid.cells[i * run_count], runs, (uint32_t)run_count,
+                      images ? images[i] : glint_run_image(first, i)->name, options, err);
+    if (ok) ok = lay_out(sheet, &grid, err);
+    for (size_t i = 0; grid.cells && i < places; i++) picture_finish(&grid.cells[i]);
+    free(grid.cells);
+    glint_run_close(&first);
     return ok;
 }
