@@ -12,6 +12,9 @@ static void check_support(const struct glint_pass *pass, struct faults *faults) 
         case GLINT_ROW_HISTORY:
             what = "HISTORY";
             break;
+        case GLINT_ROW_DISPATCH_LIST:
+            what = "DISPATCH_LIST";
+            break;
         case GLINT_ROW_PER_RAY:
             what = "PER_RAY";
             break;
@@ -38,35 +41,18 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
     if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
     else if (row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), cube ? "image2DArray" : "image2D") != 0)
         is = cube ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
-    else if (row_is_sampled(binding) && ((strstr(kind, "Cube") != NULL) != cube || (strstr(kind, "Array") && !array)))
+    else if (row_is_sampled(binding) && ((strstr(kind, "Cube") != NULL) != cube || (strstr(kind, "Array") && !cube)))
         is = array ? "an array of cube maps" : cube ? "a cube map" : "a plain image";
     if (is)
         faults_add(faults, GLINT_ERROR_USAGE, "%s/%s %s %s as %s, but it is %s", pass->slot, pass->variant,
                    row_is_output(binding) ? "writes" : "reads", row_image(binding), kind, is);
 }
 
-static bool reads(const struct glint_pass *pass, const char *image) {
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (pass->rows[r].kind == GLINT_ROW_READ && strcmp(pass->rows[r].name, image) == 0) return true;
-    return false;
-}
-
 /* Rows that speak of another row of the same pass. */
 static void check_rows(const struct glint_pass *pass, struct faults *faults) {
-    const struct glint_row *dispatch = NULL; /* the last one */
     check_support(pass, faults);
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r], *own = pass_output(pass, row_image(row));
-        if ((row_is_output(row) || row->optional) && row->size == GLINT_SIZE_LIST &&
-            (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
-                       pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH_LIST && (!reads(pass, row->name) || !dispatch))
-            faults_add(faults, GLINT_ERROR_USAGE,
-                       "%s/%s: DISPATCH_LIST %s: expected an image that the pass reads, and a DISPATCH before it",
-                       pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS)
-            dispatch = row->kind == GLINT_ROW_DISPATCH ? row : NULL;
         if (row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
         if (row->kind == GLINT_ROW_SELF && !own)
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: SELF %s: expected an image that the pass writes", pass->slot,

@@ -115,9 +115,13 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     case GLINT_SIZE_CHAIN:
         expected[0] = sizes->chain, expected[1] = sizes->active;
         break;
+    case GLINT_SIZE_VOLUME:
+        if (existing_size(run, image, found)) expected[0] = found[0], expected[1] = sizes->active;
+        break;
     case GLINT_SIZE_LIST:
         expected[0] = LIST_WIDTH;
-        expected[1] = 1 + (sizes->half[0] * sizes->half[1] + LIST_WIDTH - 1) / LIST_WIDTH;
+        /* and a row, so that each class of items may be filled up to whole workgroups */
+        expected[1] = 2 + (sizes->half[0] * sizes->half[1] + LIST_WIDTH - 1) / LIST_WIDTH;
         break;
     }
     if (existing_size(run, image, found) && !(cube && !expected[0]) &&

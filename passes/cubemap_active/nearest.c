@@ -1,5 +1,6 @@
 /* Chooses the active cube maps around the player and the order in which each start tries the others. */
 #include <math.h>
+#include <string.h>
 
 #include "glint/passes.h"
 
@@ -86,6 +87,45 @@ static void chain_from(const struct glint_host_context *context, const size_t *a
     }
 }
 
+/* A box as the planes of its faces. */
+static uint32_t volume_planes(const struct glint_cubemap *cubemap, double planes[GLINT_MAX_PLANES][4]) {
+    memset(planes, 0, sizeof cubemap->planes);
+    if (cubemap->inner == GLINT_VOLUME_BOX)
+        for (size_t k = 0; k < 3; ++k) {
+            planes[2 * k][k] = -1;
+            planes[2 * k][3] = cubemap->box_min[k];
+            planes[2 * k + 1][k] = 1;
+            planes[2 * k + 1][3] = -cubemap->box_max[k];
+        }
+    if (cubemap->inner != GLINT_VOLUME_HULL) return cubemap->inner == GLINT_VOLUME_BOX ? 6 : 0;
+    memcpy(planes, cubemap->planes, sizeof cubemap->planes);
+    return cubemap->plane_count < GLINT_MAX_PLANES ? cubemap->plane_count : GLINT_MAX_PLANES;
+}
+
+static uint32_t volume_texels(const struct glint_cubemap *cubemap) {
+    double planes[GLINT_MAX_PLANES][4];
+    return 1 + volume_planes(cubemap, planes) + (cubemap->inner == GLINT_VOLUME_SPHERE);
+}
+
+/* One row of active_volume: head, planes with unit normals, sphere. */
+static void fill_volume(const struct glint_cubemap *cubemap, const double eye[3], double metres, float *row) {
+    double planes[GLINT_MAX_PLANES][4], center[3];
+    uint32_t count = volume_planes(cubemap, planes);
+    for (size_t k = 0; k < 3; ++k) center[k] = cubemap->center[k] - eye[k];
+    row[0] = (float)count;
+    row[1] = cubemap->inner == GLINT_VOLUME_SPHERE;
+    for (uint32_t i = 0; i < count; ++i) {
+        const double *n = planes[i];
+        double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        double offset = n[3] - (n[0] * center[0] + n[1] * center[1] + n[2] * center[2]);
+        for (size_t k = 0; k < 3; ++k) row[4 * (1 + i) + k] = (float)(n[k] / length);
+        row[4 * (1 + i) + 3] = (float)(offset / length * metres);
+    }
+    if (cubemap->inner != GLINT_VOLUME_SPHERE) return;
+    for (size_t k = 0; k < 3; ++k) row[4 + k] = (float)((cubemap->sphere_center[k] + center[k]) * metres);
+    row[7] = (float)(cubemap->sphere_radius * metres);
+}
+
 bool glint_host_cubemap_active_nearest(struct glint_host_context *context, struct glint_error *err) {
     if (context->cubemap_count == 0)
         return glint_fail(err, GLINT_ERROR_USAGE,
@@ -100,7 +140,13 @@ bool glint_host_cubemap_active_nearest(struct glint_host_context *context, struc
     struct glint_table *index = context->table(context, "active_index", width, 1, err);
     struct glint_table *center = index ? context->table(context, "active_center", width, 1, err) : NULL;
     struct glint_table *chains = center ? context->table(context, "active_chain", (uint32_t)chain, width, err) : NULL;
-    if (!chains) return false;
+    uint32_t texels = 1;
+    for (size_t i = 0; i < count; ++i) {
+        uint32_t own = volume_texels(&context->cubemaps[active[i]]);
+        if (own > texels) texels = own;
+    }
+    struct glint_table *volume = chains ? context->table(context, "active_volume", texels, width, err) : NULL;
+    if (!volume) return false;
     double metres = context->frame->metres_per_unit > 0 ? context->frame->metres_per_unit : 1;
     for (size_t i = 0; i < count; ++i) {
         const struct glint_cubemap *cubemap = &context->cubemaps[active[i]];
@@ -108,6 +154,7 @@ bool glint_host_cubemap_active_nearest(struct glint_host_context *context, struc
         for (size_t k = 0; k < 3; ++k)
             center->texels.f[4 * i + k] = (float)((cubemap->center[k] - context->eye[k]) * metres);
         center->texels.f[4 * i + 3] = (float)(cubemap->fade > 0 ? cubemap->fade : 1);
+        fill_volume(cubemap, context->eye, metres, &volume->texels.f[4 * i * texels]);
         chain_from(context, active, count, i, &chains->texels.u[chain * i], chain);
     }
     return true;

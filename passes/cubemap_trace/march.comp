@@ -10,12 +10,14 @@
 #include "shared/end_reasons.glsl"
 #include "shared/random.glsl"
 #include "shared/steps.glsl"
+#include "shared/work_list.glsl"
+#include "volume.glsl"
 
 const uint NO_PLACE = 255u;
 
 struct Quality {
     int steps, refinements;
-    float first_m, ratio;
+    float first_m, ratio, level;
 };
 
 Quality quality_of(float roughness, uvec2 pixel) {
@@ -28,26 +30,44 @@ Quality quality_of(float roughness, uvec2 pixel) {
         q.first_m = min(first_step_m, total_m);
         q.ratio = geometric_ratio(total_m / q.first_m, q.steps);
     } else {
-        float part = random_scale ? random4(pixel, frame.counts.y, RANDOM_STEP_SCALE).x : 0.5;
+        float part = random_scale ? random4(pixel, random_frame(), RANDOM_STEP_SCALE).x : 0.5;
         q.ratio = smooth_surface ? mix(scale_min, scale_max, part) : mix(scale_min_lq, scale_max_lq, part);
         q.first_m = geometric_first_step(total_m, q.ratio, q.steps);
     }
+    q.level = smooth_surface ? 0.0 : floor(rough_level * roughness);
     return q;
+}
+
+int face_size(textureCubeArray map) { return textureSize(samplerCubeArray(map, nearest_clamp), 0).x; }
+int last_level(textureCubeArray map) { return textureQueryLevels(samplerCubeArray(map, nearest_clamp)) - 1; }
+
+// A chain that no pass makes is one texel with one level.
+bool through_cocoon() { return depth == depth_capped && face_size(cocoon_distance) == int(frame.counts.z); }
+
+float distance_at(vec4 at, float level, bool smoothly) {
+    if (through_cocoon())
+        return smoothly ? textureLod(samplerCubeArray(cocoon_distance, linear_clamp), at, level).x
+                        : textureLod(samplerCubeArray(cocoon_distance, nearest_clamp), at, level).x;
+    if (level > 0.0 && last_level(cubemap_distance_mips) > 0)
+        return smoothly ? textureLod(samplerCubeArray(cubemap_distance_mips, linear_clamp), at, level).x
+                        : textureLod(samplerCubeArray(cubemap_distance_mips, nearest_clamp), at, level).x;
+    return smoothly ? textureLod(samplerCubeArray(cubemap_distance, linear_clamp), at, 0.0).x
+                    : textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x;
 }
 
 // Distance of the surface that a cube map sees in a direction; +inf for sky. Interpolation with a sky texel is inf or
 // NaN, and stays out: the nearest texel counts there, so that nothing but finite values or +inf comes back.
-precise float seen_distance(vec3 from_center, uint place) {
+float seen_distance(vec3 from_center, uint place, float level) {
     vec4 at = vec4(from_center, place);
-    float nearest_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x;
+    float nearest_m = distance_at(at, level, false);
     if (!(nearest_m < LARGEST)) return INFINITE;
     if (!bilinear) return nearest_m;
-    float smooth_m = textureLod(samplerCubeArray(cubemap_distance, linear_clamp), at, 0.0).x;
+    float smooth_m = distance_at(at, level, true);
     if (!(smooth_m < LARGEST)) return nearest_m;
     return clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
 }
 
-precise float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
+float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
     float advance_m = mass == mass_along ? step_m : abs(dot(from_center, direction)) / distance_m * step_m;
     return mass_m + mass_step * advance_m;
 }
@@ -59,12 +79,65 @@ struct Result {
 
 vec3 center_of(uint place) { return texelFetch(active_center, ivec2(place, 0), 0).xyz; }
 
-// Where a ray ends that no cube map could follow.
-void fall_back(inout Result result, uint best, uint reason) {
+// The distance along the ray at which it leaves the cocoon, which is smooth and closed; < 0 when it has none there: all
+// of the map is sky, or no pass made a cocoon, or the ray starts outside and does not come in. A start outside goes on
+// to where the ray enters. Up to the sphere around the farthest texel the ray is sampled at growing distances, and the
+// interval in which it goes behind is halved.
+float leaves_cocoon(vec3 from_center, vec3 direction, float start_m, uint place, inout uint fetches) {
+    float level = clamp(ceil(log2(float(face_size(cocoon_distance)) / float(cocoon_size)) - 1e-4), 0.0,
+                        float(last_level(cocoon_distance)));
+    float farthest_m = 0.0;
+    for (int face = 0; face < 6; ++face) {
+        vec3 axis = vec3(0.0);
+        axis[face >> 1] = (face & 1) == 0 ? 1.0 : -1.0;
+        farthest_m = max(farthest_m, textureLod(samplerCubeArray(cocoon_distance, nearest_clamp), vec4(axis, place), 99.0).x);
+    }
+    fetches += 6u;
+    if (!(farthest_m < LARGEST)) return -1.0;
+    float half_b = dot(from_center, direction), c = dot(from_center, from_center) - farthest_m * farthest_m;
+    float root = half_b * half_b - c;
+    if (root <= 0.0) return -1.0;
+    float last_m = sqrt(root) - half_b, first_m = max(start_m, -sqrt(root) - half_b);
+    if (last_m <= first_m) return -1.0;
+    bool inside = false;
+    float low_m = first_m;
+    for (int i = 0; i <= cocoon_steps; ++i) {
+        float part = float(i) / float(cocoon_steps), t = mix(first_m, last_m, part * part);
+        vec3 at = from_center + direction * t;
+        ++fetches;
+        if (length(at) <= textureLod(samplerCubeArray(cocoon_distance, linear_clamp), vec4(at, place), level).x) {
+            inside = true;
+        } else if (inside) {
+            float high_m = t;
+            for (int k = 0; k < 8; ++k) {
+                float middle_m = 0.5 * (low_m + high_m);
+                at = from_center + direction * middle_m;
+                ++fetches;
+                bool in_front = length(at) <= textureLod(samplerCubeArray(cocoon_distance, linear_clamp), vec4(at, place), level).x;
+                if (in_front) low_m = middle_m;
+                else high_m = middle_m;
+            }
+            return 0.5 * (low_m + high_m);
+        }
+        low_m = t;
+    }
+    return inside ? last_m : -1.0;
+}
+
+// Where a ray ends that no cube map could follow. What has no end in the cocoon is looked up by its direction.
+void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, uint reason) {
+    bool from_surface = fallback_start == fallback_start_surface;
     result.end = reason;
     if (fallback == fallback_black) {
         result.place = NO_PLACE;
-    } else if (fallback_start == fallback_start_surface) {
+        return;
+    }
+    if (fallback == fallback_cocoon) {
+        float start_m = from_surface ? 0.0 : result.travelled_m;
+        float end_m = leaves_cocoon(origin - center_of(best), direction, start_m, best, result.fetches);
+        result.place = best;
+        result.travelled_m = end_m < 0.0 ? INFINITE : end_m;
+    } else if (from_surface) {
         result.place = best;
         result.travelled_m = INFINITE;
     }
@@ -75,9 +148,9 @@ struct Sample {
     float t, gap, distance_m, seen_m;
 };
 
-Sample sample_at(vec3 from_center, vec3 direction, float t, uint place) {
+Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, float level) {
     precise vec3 at = from_center + direction * t;
-    precise float distance_m = length(at), seen_m = seen_distance(at, place);
+    precise float distance_m = length(at), seen_m = seen_distance(at, place, level);
     return Sample(t, distance_m - seen_m, distance_m, seen_m);
 }
 
@@ -87,6 +160,21 @@ precise float secant_between(Sample front, Sample behind) {
     if (!(front.gap > -LARGEST)) return behind.t;
     float gap = min(front.gap, 0.0);
     return mix(front.t, behind.t, gap / (gap - behind.gap));
+}
+
+void end_in_sky(inout Result result) {
+    result.travelled_m = INFINITE;
+    result.end = END_sky;
+    if (frame.counts.w > 0u) result.place = NO_PLACE; // else the cube map holds what there is of the sky
+}
+
+// A hit on the cap that a cocoon's chain puts over the sky is the sky.
+Result capped(Result result, vec3 from_center, vec3 direction) {
+    if (!through_cocoon()) return result;
+    vec4 at = vec4(from_center + direction * result.travelled_m, result.place);
+    result.fetches++;
+    if (!(textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x < LARGEST)) end_in_sky(result);
+    return result;
 }
 
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
@@ -100,10 +188,11 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     precise float step_m = quality.first_m;
     Sample front = NONE, behind = NONE, now = NONE;
     int used = 0, refined = 0;
+    if (skip_volume) now.t = leaves_volume(active_volume, best, origin, direction, now.t);
     for (int i = 0; i < quality.steps; ++i) {
         result.steps++;
         result.fetches += fetches;
-        now = sample_at(from_center, direction, now.t + step_m, result.place);
+        now = sample_at(from_center, direction, now.t + step_m, result.place, quality.level);
         if (!(now.gap > bias * now.seen_m + bias_m)) {
             front = now;
             if (refined == 0) step_m *= quality.ratio;
@@ -119,20 +208,21 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             }
             result.travelled_m = secant ? secant_between(front, behind) : behind.t;
             result.end = END_hit;
-            if (!verify) return result;
+            if (!verify) return capped(result, from_center, direction);
             result.fetches += fetches;
-            Sample end = sample_at(from_center, direction, result.travelled_m, result.place);
-            if (abs(end.gap) <= verify_part * end.seen_m) return result;
+            Sample end = sample_at(from_center, direction, result.travelled_m, result.place, quality.level);
+            if (abs(end.gap) <= verify_part * end.seen_m) return capped(result, from_center, direction);
         }
         if (++used >= longest) {
             result.travelled_m = now.t;
-            fall_back(result, best, END_shadow_region);
+            fall_back(result, origin, direction, best, END_shadow_region);
             return result;
         }
         result.place = texelFetch(active_chain, ivec2(used, best), 0).x;
         from_center = origin - center_of(result.place);
         if (step_back) now.t -= step_m;
         else step_m *= quality.ratio;
+        if (skip_volume) now.t = leaves_volume(active_volume, result.place, origin, direction, now.t);
         front = NONE; // what the last cube map saw says nothing about this one
         refined = 0;
     }
@@ -141,12 +231,12 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     if (refined > 0) {
         result.travelled_m = secant ? secant_between(front, behind) : behind.t;
         result.end = END_hit;
-    } else if (now.seen_m == INFINITE) {
-        result.travelled_m = INFINITE;
-        result.end = END_sky;
-        if (frame.counts.w > 0u) result.place = NO_PLACE; // else the cube map holds what there is of the sky
+        return capped(result, from_center, direction);
+    }
+    if (now.seen_m == INFINITE) {
+        end_in_sky(result);
     } else if (exhausted == exhausted_fallback) {
-        fall_back(result, best, END_steps_exhausted);
+        fall_back(result, origin, direction, best, END_steps_exhausted);
     } else if (exhausted == exhausted_direction) {
         result.travelled_m = INFINITE;
     }
@@ -163,7 +253,7 @@ Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = work_pixel(cubemap_list);
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec4 normal = texelFetch(normal_jittered, pixel, 0);

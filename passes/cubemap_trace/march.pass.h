@@ -2,6 +2,11 @@
    others; values without a pair hold for both. */
 PASS("March along the chain", "000, Cube-map tracing pseudo-code")
 #include "slot.h"
+#line 202
+OPTIONAL_READ(textureCubeArray, cubemap_distance_mips, R32F, CUBEMAPS_MIPS, INFINITY)
+OPTIONAL_READ(textureCubeArray, cocoon_distance, R32F, CUBEMAPS_MIPS, INFINITY)
+OPTIONAL_READ(utexture2D, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
+READ(texture2D, active_volume)
 SPEC(int,   steps_hq,       24,    1,  1024, "steps", "000, Cube-map tracing", "steps of a ray, refinements and switches included")
 SPEC(int,   steps_lq,       16,    1,  1024, "steps", "000, Cube-map tracing", "the same on rougher surfaces")
 SPEC(int,   refinements,    4,     1,  32,   "halvings", "000, Cube-map tracing", "times the step is halved to close in on a hit, the first included; 1: none")
@@ -14,8 +19,12 @@ SPEC(bool,  random_scale,   true,  0,  1,    "1", "000, Cube-map tracing pseudo-
 SPEC(bool,  step_back,      true,  0,  1,    "1", "chosen by measuring", "after a switch the next cube map takes the last step again; off: goes on from its end")
 CHOICE2(mass, along, along, radial, "000, ComputeMassDepth (not printed); chosen by measuring", "what the step adds to the thickness of a surface: its length, or its part away from the centre")
 CHOICE3(exhausted, stopped, fallback, stopped, direction, "000 leaves it open; chosen by measuring", "a ray that used all steps: looks up its direction, takes the fallback, or ends where it stopped")
-CHOICE2(fallback, lookup, black, lookup, "000, Tracing fallback solution in Mafia III", "a ray that no cube map of the chain could follow: looks up the best one, or is black")
-CHOICE2(fallback_start, surface, stopped, surface, "000 leaves it open; chosen by measuring", "lookup: by the ray's direction, or towards where the ray stopped")
+CHOICE3(fallback, lookup, black, lookup, cocoon, "000, Tracing fallback solution in Mafia III; Current tracing fallback solution", "a ray that no cube map of the chain could follow: is black, looks up the best one, or is traced through the cocoon of the best one")
+CHOICE2(fallback_start, surface, stopped, surface, "000 leaves it open; chosen by measuring", "lookup: by the ray's direction, or towards where the ray stopped; cocoon: traced from the surface, or from there")
+CHOICE2(depth, captured, captured, capped, "000, Generating cocoon MIP (optimization for rays ending up at sky)", "distance that rays are marched through: as it is, or the cocoon's chain, in which rays to the sky soon meet its cap")
+SPEC(bool,  skip_volume,  true,  0,  1,    "1", "000, Cube-map tracing optimizations", "rays start where they leave a cube map's inner volume; off: all of it is marched")
+SPEC(int,   cocoon_size,  32,    1,  4096, "texels", "000, Cocoon cube-map depth MIP", "width of the level that is the cocoon")
+SPEC(int,   cocoon_steps, 16,    1,  256,  "steps", "chosen by measuring", "steps of the fallback's trace before the hit is closed in on")
 PUSH(float, length_m,       300.0, 0.001, 1e6, "m", "000, Cube-map tracing", "sum of the steps")
 PUSH(float, length_lq_m,    100.0, 0.001, 1e6, "m", "000, Cube-map tracing", "the same on rougher surfaces")
 PUSH(float, scale_min,      1.18,  1.0, 4.0, "1", "000, Cube-map tracing", "smallest ratio of a step to the one before")
@@ -30,3 +39,4 @@ PUSH(float, mass_m,         0.1,   0.0, 1e6, "m", "000, ComputeMassDepth (not pr
 PUSH(float, mass_step,      3.0,   0.0, 100.0, "1", "000, ComputeMassDepth (not printed); chosen by measuring", "part of the step that adds to it")
 PUSH(float, clamp_part,     0.05,  0.0, 100.0, "1", "000, threshold (not printed); chosen by measuring", "part of the nearest texel's distance within which interpolation stays")
 PUSH(float, verify_part,    0.02,  0.0, 100.0, "1", "chosen by measuring", "part of the distance within which verify accepts")
+PUSH(float, rough_level,    0.0,   0.0, 16.0, "levels", "000, Cube-map tracing optimizations", "level of the distance chain at roughness 1; less rough surfaces take a part of it, smooth ones level 0; 0: off")

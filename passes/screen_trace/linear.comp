@@ -9,6 +9,7 @@
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
 #include "shared/random.glsl"
+#include "shared/work_list.glsl"
 
 // A ray in the picture. At parameter s its place is start + s · across (full-resolution pixels) and its inverse depth
 // is inverse + s · inverse_rate: with w for depth and P, D for projected origin and direction, the ray parameter is
@@ -169,7 +170,7 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     ScreenRay ray = screen_ray(start, view, direction);
     float scale = reduction(frame.size);
     Grid grid = Grid(start - scale * vec2(pixel), scale);
-    float shift = dither ? random4(uvec2(pixel), frame.counts.y, RANDOM_SCREEN_START).x : 0.0;
+    float shift = dither ? random4(uvec2(pixel), random_frame(), RANDOM_SCREEN_START).x : 0.0;
     Result result = march(ray, grid, shift);
     if (sky && ray.vanishes && result.end == ray.limit) {
         result.fetches++;
@@ -180,11 +181,11 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = work_pixel(screen_list);
     if (any(greaterThanEqual(pixel, imageSize(screen_travelled)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
-    Result result = Result(0.0, true, END_not_traced, 0u, 0u);
+    Result result = Result(0.0, false, END_not_traced, 0u, 0u);
     if (reflects(depth_m, normal)) result = trace(pixel, depth_m, normal);
     imageStore(screen_travelled, pixel, vec4(result.travelled_m));
     imageStore(screen_finished, pixel, uvec4(result.finished ? 1u : 0u));

@@ -170,6 +170,7 @@ static void load(struct gpu *gpu) {
         &(struct glint_sample_options){
             .width = 240, .height = 160, .cube_size = 256, .probes_given = true, .probes = GLINT_PROBES_PERFECT});
     gpu_reset(gpu);
+    gpu_set(gpu, "cubemap_trace.skip_volume=false"); /* the inner volume is the box itself: nothing would be marched */
 }
 
 static void fine_steps(struct gpu *gpu) {
@@ -282,6 +283,7 @@ static void load_narrow(struct gpu *gpu) {
                                               .eye = {0.6, 1.2, 3.1},
                                               .target = {6.5, 0.0, 2.9}});
     gpu_reset(gpu);
+    gpu_set(gpu, "cubemap_trace.skip_volume=false");
 }
 
 static void rays_that_leave_the_screen_go_on_from_there(void **state) {

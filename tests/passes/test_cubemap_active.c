@@ -18,8 +18,8 @@ struct stand_in {
     struct glint_frame frame;
     struct glint_cubemap cubemaps[MOST];
     double count, chain, outdoor, vertical;
-    struct glint_table index, center, chains;
-    float memory[3][4 * MOST * MOST];
+    struct glint_table index, center, chains, volumes;
+    float memory[4][4 * MOST * (GLINT_MAX_PLANES + 1)];
 };
 
 static double value(const struct glint_host_context *context, const char *parameter) {
@@ -35,13 +35,15 @@ static struct glint_table *table(struct glint_host_context *context, const char 
                                  struct glint_error *err) {
     (void)err;
     struct stand_in *s = context->user;
-    struct glint_table *t = strcmp(image, "active_index") == 0    ? &s->index
-                            : strcmp(image, "active_center") == 0 ? &s->center
-                                                                  : &s->chains;
-    t->width = width;
-    t->height = height;
-    t->texels.f = s->memory[t == &s->index ? 0 : t == &s->center ? 1 : 2];
-    return t;
+    static const char *const names[] = {"active_index", "active_center", "active_chain", "active_volume"};
+    struct glint_table *const tables[] = {&s->index, &s->center, &s->chains, &s->volumes};
+    size_t i = 0;
+    while (i < 3 && strcmp(image, names[i]) != 0) ++i;
+    assert_string_equal(image, names[i]);
+    tables[i]->width = width;
+    tables[i]->height = height;
+    tables[i]->texels.f = s->memory[i];
+    return tables[i];
 }
 
 /* Cube maps along x at 1, 2, … m, all indoors. */
@@ -175,9 +177,62 @@ static void no_cube_map_is_an_error(void **state) {
     free(s);
 }
 
+/* How far a point (relative to the eye, metres) lies outside row i's planes, at most; -1e30 without planes. */
+static double outside(const struct stand_in *s, uint32_t i, const double at[3]) {
+    const float *row = &s->volumes.texels.f[4 * s->volumes.width * i];
+    double most = -1e30;
+    for (uint32_t k = 1; k <= (uint32_t)row[0]; ++k) {
+        const float *n = &row[4 * k];
+        double norm = (double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        double d = (double)n[0] * at[0] + (double)n[1] * at[1] + (double)n[2] * at[2] + (double)n[3];
+        assert_true(fabs(norm - 1) < 1e-6);
+        if (d > most) most = d;
+    }
+    return most;
+}
+
+static void inner_volumes_become_planes_and_spheres_around_the_eye(void **state) {
+    (void)state;
+    struct stand_in *s = corridor(4);
+    s->context.eye[0] = 1000;
+    s->frame.metres_per_unit = 0.5;
+    s->frame.has_player = true;
+    for (int i = 0; i < 4; ++i) s->cubemaps[i].center[0] += 1000;
+    struct glint_cubemap *box = &s->cubemaps[0], *sphere = &s->cubemaps[1], *hull = &s->cubemaps[2];
+    box->inner = GLINT_VOLUME_BOX;
+    for (int k = 0; k < 3; ++k) box->box_min[k] = -1 - k, box->box_max[k] = 2 + k;
+    sphere->inner = GLINT_VOLUME_SPHERE;
+    sphere->sphere_center[1] = 3;
+    sphere->sphere_radius = 5;
+    hull->inner = GLINT_VOLUME_HULL; /* |x| + |y| + |z| <= 1 about its centre */
+    hull->plane_count = 8;
+    for (int i = 0; i < 8; ++i) {
+        for (int k = 0; k < 3; ++k) hull->planes[i][k] = i >> k & 1 ? 7 : -7;
+        hull->planes[i][3] = -7;
+    }
+    run(s);
+    assert_int_equal(s->volumes.width, 9);
+    assert_int_equal(s->volumes.height, 4);
+    /* In metres from the eye, whose unit is half a metre: the box has its centre at (0.5, 0, 0). */
+    const double corner[3] = {0.5 - 0.5, -1, -1.5}, other[3] = {0.5 + 1, 1.5, 2};
+    const double beyond[3] = {0.5 + 1.25, 0, 0};
+    assert_true(fabs(outside(s, 0, corner) - (0)) < 1e-6);
+    assert_true(fabs(outside(s, 0, other) - (0)) < 1e-6);
+    assert_true(fabs(outside(s, 0, beyond) - (0.25)) < 1e-6);
+    const float *row = &s->volumes.texels.f[4 * 9];
+    const float expected[8] = {0, 1, 0, 0, 1, 1.5f, 0, 2.5f};
+    assert_memory_equal(row, expected, sizeof expected);
+    const double tip[3] = {1.5, 0.5, 0}, centre[3] = {1.5, 0, 0};
+    assert_true(fabs(outside(s, 2, tip) - (0)) < 1e-6);
+    assert_true(fabs(outside(s, 2, centre) - (-0.5 / sqrt(3))) < 1e-6);
+    assert_true(s->volumes.texels.f[4 * 9 * 3] == 0 && s->volumes.texels.f[4 * 9 * 3 + 1] == 0);
+    free(s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_nearest_in_order),
+        cmocka_unit_test(inner_volumes_become_planes_and_spheres_around_the_eye),
         cmocka_unit_test(around_the_camera_without_a_player),
         cmocka_unit_test(one_outdoor_is_kept),
         cmocka_unit_test(an_outdoor_one_already_there_changes_nothing),

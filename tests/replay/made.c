@@ -20,15 +20,6 @@
 #define PASS_ID reader
 #include "made/reader.pass.h"
 #undef PASS_ID
-#define PASS_ID sieve
-#include "made/sieve.pass.h"
-#undef PASS_ID
-#define PASS_ID worker
-#include "made/worker.pass.h"
-#undef PASS_ID
-#define PASS_ID forger
-#include "made/forger.pass.h"
-#undef PASS_ID
 
 #include "rows.h"
 static const struct glint_row chain_rows[] = {
@@ -46,21 +37,6 @@ static const struct glint_row reader_rows[] = {
 #include "made/reader.pass.h"
 #undef PASS_ID
 };
-static const struct glint_row sieve_rows[] = {
-#define PASS_ID sieve
-#include "made/sieve.pass.h"
-#undef PASS_ID
-};
-static const struct glint_row worker_rows[] = {
-#define PASS_ID worker
-#include "made/worker.pass.h"
-#undef PASS_ID
-};
-static const struct glint_row forger_rows[] = {
-#define PASS_ID forger
-#include "made/forger.pass.h"
-#undef PASS_ID
-};
 
 #define DEFINE(name)                                                                                                   \
     const struct glint_pass made_##name = {.slot = #name,                                                              \
@@ -72,9 +48,6 @@ static const struct glint_row forger_rows[] = {
 DEFINE(chain);
 DEFINE(cubes);
 DEFINE(reader);
-DEFINE(sieve);
-DEFINE(worker);
-DEFINE(forger);
 
 void made_init(struct made *made, const struct glint_pass *const *passes) {
     *made = (struct made){.pipeline = {.name = (char *)"made"}};

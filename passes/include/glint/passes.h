@@ -41,6 +41,7 @@ enum glint_size_class {
     GLINT_SIZE_SKY,      /* the sky's cube map */
     GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
     GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
+    GLINT_SIZE_VOLUME,   /* 2D, what the longest description of an inner volume takes × active cube maps */
     /* the class of that name with all levels down to 1 × 1 */
     GLINT_SIZE_FULL_MIPS,
     GLINT_SIZE_HALF_MIPS,

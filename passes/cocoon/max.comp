@@ -1,0 +1,79 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "max.pass.h"
+#include "shared/push_begin.glsl"
+#include "max.pass.h"
+};
+#include "shared/cube_chain.glsl"
+
+float texel_of(ivec3 at, int width, int level) { return texel_color(chain, at, width, float(level)).x; }
+
+// Top-down: the farthest that is not sky.
+float farthest_child(ivec3 at, int width, int level) {
+    if (level == 0) return texel_color(cubemap_distance, at, width, 0.0).x;
+    int finer = face_size(chain, level - 1);
+    Footprint x = footprint(at.x, width, finer), y = footprint(at.y, width, finer);
+    float most = -1.0;
+    for (int j = 0; j < y.count; ++j) {
+        for (int i = 0; i < x.count; ++i) {
+            float distance_m = texel_of(ivec3(x.first + i, y.first + j, at.z), finer, level - 1);
+            if (distance_m < LARGEST) most = max(most, distance_m);
+        }
+    }
+    return most < 0.0 ? INFINITE : most;
+}
+
+// The coarsest level has nothing coarser to be filled from: a face of sky takes the farthest of the whole cube map.
+float farthest_of_map(int layer, int level) {
+    float most = -1.0;
+    for (int face = 0; face < 6; ++face) {
+        float distance_m = level == 0 ? texel_color(cubemap_distance, ivec3(0, 0, layer - layer % 6 + face), 1, 0.0).x
+                                      : farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level);
+        if (distance_m < LARGEST) most = max(most, distance_m);
+    }
+    return most < 0.0 ? INFINITE : most;
+}
+
+// Weighted MAX over the coarser level, which has no sky left unless all is. The pivot is the sample in the texel's own
+// direction; others count less the farther they are from it. Deviation: a dot below 0, whose power is NaN, weighs 0.
+float weighted_max(vec4 direction, int level) {
+    float coarser = float(level + 1), pivot = textureLod(samplerCubeArray(chain, linear_clamp), direction, coarser).x;
+    if (!(pivot < LARGEST)) return INFINITE;
+    vec3 axis = normalize(direction.xyz), tangent, bitangent;
+    tangent_frame(axis, tangent, bitangent);
+    float rim = cone_tangent_of_level(0.0, float(face_size(chain, level + 1)), kernel);
+    float power = cone_power(rim, threshold), depth_m = 0.0;
+    for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+            if (!is_tap(ivec2(x, y), reach)) continue;
+            vec2 offset = vec2(x, y) * rim / (float(reach) + 0.5);
+            vec3 tap = normalize(axis + offset.x * tangent + offset.y * bitangent);
+            float seen_m = textureLod(samplerCubeArray(chain, linear_clamp), vec4(tap, direction.w), coarser).x;
+            depth_m = max(depth_m, pivot + (seen_m - pivot) * pow(max(dot(tap, axis), 0.0), power));
+        }
+    }
+    return depth_m;
+}
+
+void main() {
+    ivec3 at = ivec3(gl_GlobalInvocationID);
+    int width = imageSize(cocoon_distance).x, level = int(dispatch_level);
+    if (at.x >= width || at.y >= width) return;
+    if (dispatch_phase == 0u) {
+        imageStore(cocoon_distance, at, vec4(farthest_child(at, width, level)));
+        return;
+    }
+    int coarsest = textureQueryLevels(samplerCubeArray(chain, nearest_clamp)) - 1;
+    int cocoon = int(ceil(log2(max(float(face_size(chain, 0)) / float(size), 1.0)) - 1e-4));
+    bool is_sky = !(texel_of(at, width, level) < LARGEST);
+    if (!is_sky && level != cocoon) return;
+    float distance_m;
+    if (level == coarsest) distance_m = is_sky ? farthest_of_map(at.z, level) : texel_of(at, width, level);
+    else if (level >= cocoon) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
+    else if (cap_sky)
+        distance_m = textureLod(samplerCubeArray(chain, linear_clamp), texel_direction(at.xy, width, at.z), float(cocoon)).x;
+    else return;
+    imageStore(cocoon_distance, at, vec4(distance_m));
+}

@@ -1,0 +1,8 @@
+/* Chains without a pre-filter: each level is the box mean of the finer one. */
+PASS("Box filter", "000, Pre-filtering cube-maps (regular MIP chain)")
+#include "slot.h"
+#line 202
+SELF(textureCubeArray, finer_color, cubemap_color_mips)
+SELF(textureCubeArray, finer_distance, cubemap_distance_mips)
+#include "distances.h"
+DISPATCH_LEVELS(cubemap_color_mips, 0, -1, down)

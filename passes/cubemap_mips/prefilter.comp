@@ -1,0 +1,22 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "prefilter.pass.h"
+#include "shared/push_begin.glsl"
+#include "prefilter.pass.h"
+};
+#include "distances.glsl"
+
+void main() {
+    ivec3 at = ivec3(gl_GlobalInvocationID);
+    int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);
+    if (at.x >= size || at.y >= size) return;
+    if (dispatch_phase == 0u) {
+        vec4 color = level == 0 ? texel_color(cubemap_color, at, size, 0.0) : box_color(finer_color, at, size, level);
+        imageStore(cubemap_color_box, at, color);
+        imageStore(cubemap_distance_mips, at, vec4(joined_distance(at, size, level)));
+    } else {
+        imageStore(cubemap_color_mips, at, prefiltered(finer_color, at, size, level, reach, texel_scale, threshold));
+    }
+}

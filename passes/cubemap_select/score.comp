@@ -1,0 +1,51 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "score.pass.h"
+#include "shared/push_begin.glsl"
+#include "score.pass.h"
+};
+#include "shared/camera.glsl"
+#include "shared/work_list.glsl"
+
+// Each term lies in [0, 1].
+float score(vec3 position, vec3 ray, uint place) {
+    vec4 center = texelFetch(active_center, ivec2(place, 0), 0);
+    vec3 offset = position - center.xyz;
+    float distance_m = length(offset), sum = fade * center.w + distance * near_m / (near_m + distance_m);
+    if (visibility > 0.0) {
+        float seen_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(offset, place), 0.0).x;
+        if (distance_m <= seen_m * (1.0 + tolerance)) sum += visibility;
+    }
+    return sum + direction * (0.5 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));
+}
+
+uint best_place(vec3 position, vec3 ray) {
+    uint best = 255u;
+    float best_score = -INFINITE;
+    for (uint i = 0u; i < frame.counts.x; ++i) {
+        float found = score(position, ray, i);
+        if (found > best_score) {
+            best_score = found;
+            best = i;
+        }
+    }
+    return best;
+}
+
+void main() {
+    ivec2 pixel = work_pixel(cubemap_list);
+    if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;
+    float depth_m = texelFetch(depth_half, pixel, 0).x;
+    vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
+    uint best = 255u;
+    if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal)) {
+        vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
+        vec3 position = mat3(frame.world_from_view) *
+                        view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        vec3 ray = mirror_direction(position, normal);
+        best = best_place(position + ray * texelFetch(screen_travelled, pixel, 0).x, ray);
+    }
+    imageStore(cubemap_best, pixel, uvec4(best));
+}

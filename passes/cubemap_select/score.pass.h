@@ -1,0 +1,12 @@
+/* The cube map with the best score where the screen ray ended. */
+PASS("Best score", "000, Best cube-map selection, GPU")
+#include "slot.h"
+#line 202
+READ(textureCubeArray, cubemap_distance)
+OPTIONAL_READ(utexture2D, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
+PUSH(float, visibility, 1.0,  0.0, 16.0, "1", "000, Best cube-map selection, GPU", "weight of: the point is seen from the centre; 0: off")
+PUSH(float, distance,   1.0,  0.0, 16.0, "1", "000, Best cube-map selection, GPU", "weight of: the centre is near; 0: off")
+PUSH(float, direction,  0.25, 0.0, 16.0, "1", "000, Best cube-map selection, GPU", "weight of: the ray goes away from the centre; 0: off")
+PUSH(float, fade,       1.0,  0.0, 16.0, "1", "000, Best cube-map selection, GPU", "weight of: the cube map is not being faded; 0: off")
+PUSH(float, near_m,     10.0, 0.01, 1e4, "m", "000, Best cube-map selection (not printed); chosen by measuring", "distance at which its term is a half")
+PUSH(float, tolerance,  0.03, 0.0, 1.0,  "1", "000, Best cube-map selection (not printed); chosen by measuring", "part of the distance by which a point may lie behind what is seen")

@@ -1,0 +1,224 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "exact.pass.h"
+#include "shared/push_begin.glsl"
+#include "exact.pass.h"
+};
+#include "shared/camera.glsl"
+#include "shared/cubemap.glsl"
+#include "shared/end_reasons.glsl"
+
+const uint NO_PLACE = 255u;
+
+// Distance of the surface in a direction, +inf for sky. On a plane, major axis over distance is linear in the place on the
+// face, and stays so across the face's border; four texels that are not of one plane give the nearest.
+float seen_distance(vec3 from_center, uint place) {
+    int size = int(frame.counts.z);
+    if (!interpolate || size < 2)
+        return textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(from_center, place), 0.0).x;
+    vec3 face = face_from_direction(from_center), a = abs(from_center);
+    vec2 texel = face.xy * float(size) - 0.5;
+    ivec2 corner = clamp(ivec2(floor(texel)), ivec2(0), ivec2(size - 2));
+    vec2 part = texel - vec2(corner);
+    vec3 between = direction_from_face(vec3((vec2(corner) + 1.0) / float(size), face.z));
+    // Gather's order: (0,1) (1,1) (1,0) (0,0).
+    vec4 distance_m = textureGather(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(between, place));
+    vec2 low = 2.0 * (vec2(corner) + 0.5) / float(size) - 1.0, high = low + 2.0 / float(size);
+    vec4 u = vec4(low.x, high.x, high.x, low.x), v = vec4(high.y, high.y, low.y, low.y);
+    vec4 q = sqrt(1.0 + u * u + v * v) / distance_m;
+    float least = min(min(q.x, q.y), min(q.z, q.w)), most = max(max(q.x, q.y), max(q.z, q.w));
+    if (abs(q.x - q.w - (q.y - q.z)) <= 0.02 * least && most < 2.0 * least) {
+        float on_plane = mix(mix(q.w, q.z, part.x), mix(q.x, q.y, part.x), part.y);
+        return length(from_center) / max(a.x, max(a.y, a.z)) / max(on_plane, 0.5 * least);
+    }
+    return part.x < 0.5 ? (part.y < 0.5 ? distance_m.w : distance_m.x) : (part.y < 0.5 ? distance_m.z : distance_m.y);
+}
+
+// The ray as one cube map sees it: at parameter t it is at foot + (from_foot + t) · direction, foot being nearest to the
+// centre and `aside` from it.
+struct View {
+    vec3 foot;
+    float from_foot, aside;
+    uint place;
+};
+
+View view_of(vec3 origin, vec3 direction, uint place) {
+    vec3 from_center = origin - texelFetch(active_center, ivec2(place, 0), 0).xyz;
+    View view;
+    view.from_foot = dot(from_center, direction);
+    view.foot = from_center - view.from_foot * direction;
+    view.aside = length(view.foot);
+    view.place = place;
+    return view;
+}
+
+vec3 at(View view, vec3 direction, float t) { return view.foot + (view.from_foot + t) * direction; }
+
+// How far the ray lies behind what is seen, relative to that; <= 0 in front.
+float gap_at(View view, vec3 direction, float t, inout uint fetches) {
+    vec3 from_center = at(view, direction, t);
+    fetches++;
+    return length(from_center) / seen_distance(from_center, view.place) - 1.0;
+}
+
+// Where the direction from the centre has turned by a part of a texel; +inf when what is left to turn is less. With s along
+// the ray from its foot, tan(angle) = s/aside; the addition theorem of the tangent.
+float next_t(View view, vec3 direction, float t) {
+    vec3 from_center = at(view, direction, t);
+    float k = texel_part * texel_angle(from_center, float(frame.counts.z)), s = view.from_foot + t;
+    float turn = view.aside - s * k;
+    if (!(turn > 0.0)) return INFINITE;
+    return max(t + k * dot(from_center, from_center) / turn, t * (1.0 + 1e-6) + 1e-6);
+}
+
+struct Result {
+    float travelled_m;
+    uint place, end, steps, fetches;
+};
+
+// Of the cube maps that see a point of the ray the one with the nearest centre, whose texels are finest there.
+uint seer(vec3 origin, vec3 direction, float t, float allowed, inout uint fetches) {
+    uint best = NO_PLACE;
+    float best2 = INFINITE;
+    for (uint i = 0u; i < frame.counts.x; ++i) {
+        View view = view_of(origin, direction, i);
+        vec3 from_center = at(view, direction, t);
+        float distance2 = dot(from_center, from_center);
+        if (distance2 >= best2 || gap_at(view, direction, t, fetches) > allowed) continue;
+        best = i;
+        best2 = distance2;
+    }
+    return best;
+}
+
+uint nearest_center(vec3 point, out float distance2) {
+    uint nearest = 0u;
+    distance2 = INFINITE;
+    for (uint i = 0u; i < frame.counts.x; ++i) {
+        vec3 offset = point - texelFetch(active_center, ivec2(i, 0), 0).xyz;
+        float own2 = dot(offset, offset);
+        if (own2 < distance2) {
+            distance2 = own2;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+// A ray on its way: the cube map that it is followed in, whether that one sees it, and whether it has been in front of a
+// surface there, which it can now go behind.
+struct Walk {
+    View view;
+    float t;
+    bool seen, front;
+};
+
+// Takes the cube map that sees the ray at t_after; from t_before on if it sees it there in front of a surface, too.
+void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, float t_after, inout uint fetches) {
+    uint place = seer(origin, direction, t_after, tolerance, fetches);
+    float distance2;
+    walk.seen = place != NO_PLACE;
+    walk.view = view_of(origin, direction, walk.seen ? place : nearest_center(origin + t_after * direction, distance2));
+    walk.t = t_after;
+    walk.front = false;
+    if (!walk.seen) return;
+    walk.front = gap_at(walk.view, direction, t_after, fetches) <= 0.0;
+    if (gap_at(walk.view, direction, t_before, fetches) > 0.0) return;
+    walk.t = t_before;
+    walk.front = true;
+}
+
+// A cube map whose centre is nearer has finer texels here.
+void take_finer_view(inout Walk walk, vec3 origin, vec3 direction, inout uint fetches) {
+    float distance2;
+    uint nearest = nearest_center(origin + walk.t * direction, distance2);
+    if (nearest == walk.view.place) return;
+    View view = view_of(origin, direction, nearest);
+    if (gap_at(view, direction, walk.t, fetches) <= 0.0) walk.view = view;
+}
+
+// The interval in which the ray goes behind, halved. True when it meets a surface there, on either side of an edge.
+bool closes_in(View view, vec3 direction, inout float low, inout float high, inout uint fetches) {
+    for (int i = 0; i < refinements; ++i) {
+        float middle = 0.5 * (low + high);
+        if (gap_at(view, direction, middle, fetches) <= 0.0) low = middle;
+        else high = middle;
+    }
+    return gap_at(view, direction, low, fetches) >= -tolerance || gap_at(view, direction, high, fetches) <= tolerance;
+}
+
+void end_at(inout Result result, float travelled_m, uint place, uint end) {
+    result.travelled_m = travelled_m;
+    result.place = place;
+    result.end = end;
+}
+
+Result march(vec3 origin, vec3 direction, float start_m, uint best) {
+    Result result = Result(start_m, NO_PLACE, END_steps_exhausted, 0u, 0u);
+    Walk walk;
+    change_view(walk, origin, direction, start_m, start_m, result.fetches);
+    while (result.steps < uint(steps) && walk.t < length_m && (walk.seen || unseen == unseen_pass)) {
+        result.steps++;
+        float next = next_t(walk.view, direction, walk.t);
+        if (!(next < LARGEST)) { // one texel is left: the sky, or a surface that the ray must be behind at twice its distance
+            float last_m = seen_distance(direction, walk.view.place);
+            result.fetches++;
+            if (!walk.seen) break;
+            if (!(last_m < LARGEST)) {
+                end_at(result, INFINITE, frame.counts.w > 0u ? NO_PLACE : walk.view.place, END_sky);
+                return result;
+            }
+            next = max(2.0 * (last_m + walk.view.aside) - walk.view.from_foot, 2.0 * walk.t);
+        }
+        if (!walk.seen) {
+            change_view(walk, origin, direction, next, next, result.fetches);
+            continue;
+        }
+        float gap = gap_at(walk.view, direction, next, result.fetches);
+        if (gap <= 0.0) {
+            walk.t = next;
+            walk.front = true;
+            take_finer_view(walk, origin, direction, result.fetches);
+        } else if (walk.front) {
+            float low = walk.t, high = next;
+            if (closes_in(walk.view, direction, low, high, result.fetches)) {
+                end_at(result, 0.5 * (low + high), walk.view.place, END_hit);
+                return result;
+            }
+            change_view(walk, origin, direction, low, high, result.fetches);
+        } else if (gap <= tolerance) { // still on the surface where it started
+            walk.t = next;
+        } else {
+            change_view(walk, origin, direction, next, next, result.fetches);
+        }
+    }
+    if (walk.seen) end_at(result, walk.t, walk.view.place, END_steps_exhausted);
+    else end_at(result, INFINITE, best, END_shadow_region);
+    return result;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
+    float depth_m = texelFetch(depth_half, pixel, 0).x;
+    vec4 normal = texelFetch(normal_jittered, pixel, 0);
+    float start_m = texelFetch(screen_travelled, pixel, 0).x;
+    Result result = Result(start_m, NO_PLACE, END_not_traced, 0u, 0u);
+    if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal.xyz)) {
+        vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
+        vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        vec3 direction = mirror_direction(origin, normal.xyz);
+        uint best = texelFetch(cubemap_best, pixel, 0).x;
+        result = frame.counts.x > 0u ? march(origin, direction, start_m, best)
+                                     : Result(start_m, NO_PLACE, END_no_cubemap, 0u, 0u);
+    }
+    imageStore(travelled, pixel, vec4(result.travelled_m));
+    imageStore(cubemap_index, pixel, uvec4(result.place));
+    if (diagnostics) {
+        imageStore(cubemap_end, pixel, uvec4(result.end));
+        imageStore(cubemap_steps, pixel, uvec4(result.steps));
+        imageStore(cubemap_fetches, pixel, uvec4(result.fetches));
+    }
+}

@@ -1,0 +1,11 @@
+/* What the other tracers are measured against: nothing is skipped, and every active cube map is asked. */
+PASS("Half-texel march", "glint, after 000, Multiple cube-maps")
+#include "slot.h"
+#line 202
+SPEC(int,   steps,       16384, 1,  1048576, "steps", "glint", "most steps of a ray")
+SPEC(int,   refinements, 24,    0,  64,    "halvings", "glint", "times the step in which a ray went behind is halved")
+SPEC(bool,  interpolate, true,  0,  1,     "1", "glint", "distance between four texels of one surface, exact on planes; off: the nearest texel")
+CHOICE2(unseen, pass, stop, pass, "chosen by measuring", "where no cube map sees the ray it ends, or goes on until one does")
+PUSH(float, texel_part,  0.5,   0.01, 4.0, "texels", "glint", "how far a step moves the direction from the centre")
+PUSH(float, length_m,    1e5,   0.001, 1e6, "m", "glint", "no farther than this")
+PUSH(float, tolerance,   0.02,  0.0, 1.0,  "1", "glint", "part of the distance by which a surface may jump between texels; a greater jump is an edge that hides what lies behind")
