@@ -12,9 +12,6 @@ static void check_support(const struct glint_pass *pass, struct faults *faults) 
         case GLINT_ROW_HISTORY:
             what = "HISTORY";
             break;
-        case GLINT_ROW_DISPATCH_LIST:
-            what = "DISPATCH_LIST";
-            break;
         case GLINT_ROW_PER_RAY:
             what = "PER_RAY";
             break;
@@ -48,11 +45,28 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
                    row_is_output(binding) ? "writes" : "reads", row_image(binding), kind, is);
 }
 
+static bool reads(const struct glint_pass *pass, const char *image) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_READ && strcmp(pass->rows[r].name, image) == 0) return true;
+    return false;
+}
+
 /* Rows that speak of another row of the same pass. */
 static void check_rows(const struct glint_pass *pass, struct faults *faults) {
+    const struct glint_row *dispatch = NULL; /* the last one */
     check_support(pass, faults);
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r], *own = pass_output(pass, row_image(row));
+        if ((row_is_output(row) || row->optional) && row->size == GLINT_SIZE_LIST &&
+            (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
+                       pass->slot, pass->variant, row->name);
+        if (row->kind == GLINT_ROW_DISPATCH_LIST && (!reads(pass, row->name) || !dispatch))
+            faults_add(faults, GLINT_ERROR_USAGE,
+                       "%s/%s: DISPATCH_LIST %s: expected an image that the pass reads, and a DISPATCH before it",
+                       pass->slot, pass->variant, row->name);
+        if (row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS)
+            dispatch = row->kind == GLINT_ROW_DISPATCH ? row : NULL;
         if (row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
         if (row->kind == GLINT_ROW_SELF && !own)
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: SELF %s: expected an image that the pass writes", pass->slot,

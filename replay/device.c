@@ -227,6 +227,7 @@ bool host_buffer_init(struct host_buffer *buffer, struct glint_device *device, e
         [HOST_BUFFER_UPLOAD] = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
         [HOST_BUFFER_READBACK] = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
         [HOST_BUFFER_UNIFORM] = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+        [HOST_BUFFER_INDIRECT] = VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
     };
     *buffer = (struct host_buffer){.size = size};
     const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage[use]};
@@ -237,8 +238,10 @@ bool host_buffer_init(struct host_buffer *buffer, struct glint_device *device, e
     vkGetBufferMemoryRequirements(device->device, buffer->buffer, &need);
     const VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     /* Reading uncached memory is slow; writing it is not. */
-    const VkMemoryPropertyFlags cached = use == HOST_BUFFER_READBACK ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : 0;
-    if (!device_allocate(device, &need, coherent, cached, name, &buffer->memory, err)) goto fail;
+    const VkMemoryPropertyFlags preferred = use == HOST_BUFFER_READBACK   ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                                            : use == HOST_BUFFER_INDIRECT ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+                                                                          : 0;
+    if (!device_allocate(device, &need, coherent, preferred, name, &buffer->memory, err)) goto fail;
     result = vkBindBufferMemory(device->device, buffer->buffer, buffer->memory, 0);
     if (result == VK_SUCCESS) result = vkMapMemory(device->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map);
     if (result == VK_SUCCESS) return true;

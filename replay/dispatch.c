@@ -36,10 +36,24 @@ static void add_levels(struct step *step, uint32_t phase, const struct glint_row
         add(step, phase, image, (uint32_t)(row->order == GLINT_ORDER_up ? coarse - i : fine + i));
 }
 
+/* The images of the rows DISPATCH_LIST that follow row `r`; 0 when there are none, or one of them was not made. */
+static size_t lists_after(const struct run *run, const struct glint_pass *pass, size_t r, struct image **lists) {
+    size_t count = 0;
+    while (++r < pass->row_count) {
+        const struct glint_row *row = &pass->rows[r];
+        if (row->kind != GLINT_ROW_DISPATCH_LIST && row_is_dispatch(row)) break;
+        if (row->kind != GLINT_ROW_DISPATCH_LIST) continue;
+        if (graph_find(&run->graph, row->name)->source == SOURCE_NOTHING) return 0;
+        lists[count++] = run_image(run, row->name);
+    }
+    return count;
+}
+
 bool step_plan(const struct run *run, struct step *step, struct glint_error *err) {
     const struct glint_pass *pass = step->pass->pass;
     step->dispatches = calloc(pass->row_count * LEVELS_MAX, sizeof *step->dispatches);
     if (!step->dispatches) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    struct image *lists[PASS_IMAGES_MAX];
     uint32_t phase = 0;
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r];
@@ -48,8 +62,13 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
         if (!image)
             return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s dispatches over %s, which it neither reads nor writes",
                               pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH) add(step, phase, image, 0);
-        else if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(step, phase, row, image);
+        const size_t count = row->kind == GLINT_ROW_DISPATCH ? lists_after(run, pass, r, lists) : 0;
+        for (size_t i = 0; i < count; i++)
+            step->dispatches[step->dispatch_count++] =
+                (struct dispatch){.phase = phase + 1 + (uint32_t)i, .list = lists[i]};
+        step->list_count += count;
+        if (row->kind == GLINT_ROW_DISPATCH && count == 0) add(step, phase, image, 0);
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(step, phase, row, image);
         phase++;
     }
     if (phase > 0) return true;
@@ -113,10 +132,18 @@ static void access_images(const struct run *run, const struct glint_pass *pass, 
     }
 }
 
+/* Over a list a pass does not reach every pixel. */
+static void clear_outputs(const struct run *run, const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (row_is_output(&pass->rows[r]) && graph_find(&run->graph, pass->rows[r].name)->source == SOURCE_MADE)
+            image_record_clear(run_image(run, pass->rows[r].name), run->replay->device, pass->rows[r].nothing);
+}
+
 void step_record(const struct run *run, struct step *step) {
     struct glint_device *device = run->replay->device;
     VkCommandBuffer commands = device->commands;
     VkPipelineLayout layout = step->program->layout;
+    if (step->list_count) clear_outputs(run, step->pass->pass);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
     vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
                        step->constants.push);
@@ -125,10 +152,12 @@ void step_record(const struct run *run, struct step *step) {
         const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
         const uint32_t place[] = {dispatch->level, dispatch->phase}; /* how push_begin.glsl opens the block */
         struct barriers barriers = {.count = 0};
+        if (dispatch->list) image_record_groups(dispatch->list, device, &run->replay->indirect, dispatch->at);
         access_images(run, step->pass->pass, &barriers);
         barriers_record(&barriers, device);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof place, place);
-        vkCmdDispatch(commands, dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
+        if (dispatch->list) vkCmdDispatchIndirect(commands, run->replay->indirect.buffer, dispatch->at);
+        else vkCmdDispatch(commands, dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
     }
 }

@@ -52,18 +52,28 @@ static bool prepare_queries(struct run *run, struct glint_error *err) {
 bool run_prepare(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     uint32_t sets = 0, sampled = 0, storage = 0;
+    VkDeviceSize groups = 0;
     for (size_t p = 0; p < run->graph.pass_count; p++) {
         struct step *step = &run->steps[p];
+        if (!step->pass->runs || step->pass->pass->host) continue;
+        if (!step_plan(run, step, err)) return false;
         if (!step->execute) continue;
+        for (size_t d = 0; d < step->dispatch_count; d++)
+            if (step->dispatches[d].list) step->dispatches[d].at = groups, groups += 4 * sizeof(uint32_t);
         const struct glint_pass *pass = step->pass->pass;
         step->program = programs_get(&replay->programs, replay->device, pass, &step->spirv, &step->constants, err);
-        if (!step->program || !step_plan(run, step, err)) return false;
+        if (!step->program) return false;
         const uint32_t dispatches = (uint32_t)step->dispatch_count;
         sets += dispatches;
         for (size_t r = 0; r < pass->row_count; r++) {
             sampled += dispatches * row_is_sampled(&pass->rows[r]);
             storage += dispatches * row_is_output(&pass->rows[r]);
         }
+    }
+    if (groups > replay->indirect.size) {
+        host_buffer_finish(&replay->indirect, replay->device);
+        if (!host_buffer_init(&replay->indirect, replay->device, HOST_BUFFER_INDIRECT, groups, "groups of lists", err))
+            return false;
     }
     VkResult result = create_pool(run, sets, sampled, storage);
     if (result != VK_SUCCESS) return vk_fail(err, "creating the descriptor pool", result);

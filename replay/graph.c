@@ -193,6 +193,10 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
             if (read && read->source == SOURCE_RUN && size_is_array(read->row->size))
                 link_read(graph, i, "active_index", NULL, inputs, faults); /* how many cube maps there are */
             if (read) graph_check_kind(pass->pass, row, read->row, faults);
+            const struct graph_image *list = row->kind == GLINT_ROW_DISPATCH_LIST ? graph_find(graph, row->name) : NULL;
+            if (list && list->row->size != GLINT_SIZE_LIST)
+                faults_add(faults, GLINT_ERROR_USAGE, "%s/%s dispatches over %s, which is no list", pass->pass->slot,
+                           pass->pass->variant, row->name);
             if (!row_is_output(row)) continue;
             bool made = row->kind == GLINT_ROW_WRITE || options->diagnostics;
             graph->images[graph->image_count++] =
@@ -205,6 +209,27 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                                      .first_use = i,
                                      .last_use = i};
         }
+    }
+}
+
+/* Cube maps and the tables about them stay from frame to frame, and so does what is made from them alone. */
+static bool stays(const struct graph *graph, const struct graph_image *image) {
+    if (image->source == SOURCE_MADE && !image->pass->host) return graph->passes[image->maker].cached_work;
+    return image->source == SOURCE_NOTHING || size_is_cube(image->row->size) || image->row->size == GLINT_SIZE_ACTIVE ||
+           image->row->size == GLINT_SIZE_CHAIN;
+}
+
+static void find_cached_work(struct graph *graph) {
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        struct graph_pass *pass = &graph->passes[i];
+        bool still = pass->runs && !pass->pass->host, cubes = false;
+        for (size_t r = 0; still && r < pass->pass->row_count; r++) {
+            const struct glint_row *row = &pass->pass->rows[r];
+            const struct graph_image *image = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
+            if (row->kind == GLINT_ROW_HISTORY || (image && !stays(graph, image))) still = false;
+            cubes |= image && size_is_cube(image->row->size);
+        }
+        pass->cached_work = still && cubes;
     }
 }
 
@@ -228,6 +253,7 @@ bool graph_init(struct graph *graph, const struct graph_inputs *inputs, struct g
     sort(graph, &faults);
     if (!graph_decide(graph, inputs, &faults, err)) goto fail;
     link_images(graph, inputs, &faults);
+    if (faults.count == 0) find_cached_work(graph);
     if (faults_none(&faults, inputs->pipeline->name, err)) return true;
 fail:
     graph_finish(graph);

@@ -27,6 +27,7 @@ struct graph_pass {
     const struct pipeline_pass *entry;
     const struct glint_pass *pass;
     bool runs;
+    bool cached_work; /* it reads cube maps and nothing that changes with every frame */
     char reason[192];
 };
 

@@ -89,6 +89,9 @@ void image_record_upload(struct image *image, struct glint_device *device, const
                          VkDeviceSize offset, uint32_t level, uint32_t first_layer, uint32_t layers, bool discard);
 void image_record_readback(struct image *image, struct glint_device *device, const struct host_buffer *to,
                            VkDeviceSize offset, uint32_t level);
+/* Records copying the group counts that open a list to where an indirect dispatch reads them. */
+void image_record_groups(struct image *list, struct glint_device *device, const struct host_buffer *to,
+                         VkDeviceSize offset);
 /* Records filling with one value. */
 void image_record_clear(struct image *image, struct glint_device *device, double value);
 /* Makes device writes to host buffers visible to the host; last thing before a submit. */

@@ -24,6 +24,9 @@ static json_t *pass_record(const struct run *run, size_t p) {
     json_object_set_new(object, "ran", json_boolean(pass->runs));
     json_object_set_new(object, "reason", json_string(result->reason));
     json_object_set_new(object, "cached", json_boolean(result->cached));
+    if (pass->cached_work) json_object_set_new(object, "cached_work", json_true());
+    if (!pass->pass->host)
+        json_object_set_new(object, "dispatches", json_integer((json_int_t)run->steps[p].dispatch_count));
     if (pass->pass->host) json_object_set_new(object, "host", json_true());
     if (pass->entry->shader) json_object_set_new(object, "shader", json_string(pass->entry->shader));
     json_object_set_new(object, "parameters", parameters);

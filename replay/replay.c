@@ -45,6 +45,7 @@ void glint_replay_destroy(struct glint_replay **pointer) {
         programs_finish(&replay->programs, replay->device);
         host_buffer_finish(&replay->frame, replay->device);
         host_buffer_finish(&replay->staging, replay->device);
+        host_buffer_finish(&replay->indirect, replay->device);
     }
     free(replay->plan);
     free(replay);
@@ -83,7 +84,7 @@ static bool store_results(struct run *run, struct glint_error *err) {
     for (size_t p = 0; p < count; p++) {
         const struct graph_pass *pass = &run->graph.passes[p];
         struct glint_pass_result *result = &replay->results[p];
-        *result = (struct glint_pass_result){.pass = pass->pass, .ran = pass->runs};
+        *result = (struct glint_pass_result){.pass = pass->pass, .ran = pass->runs, .cached_work = pass->cached_work};
         memcpy(result->reason, pass->reason, sizeof result->reason);
         if (!pass->runs) continue;
         if (pass->pass->host) {

@@ -24,7 +24,7 @@ struct glint_replay {
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
     struct image *images;    /* kept between runs while their descriptions stay */
     struct programs programs;
-    struct host_buffer frame, staging;
+    struct host_buffer frame, staging, indirect;
     struct glint_plan_entry *plan;
     struct glint_pass_result *results;
     size_t *result_places; /* in the whole pipeline's order, counted from 1 */
@@ -37,6 +37,8 @@ struct glint_replay {
 struct dispatch {
     uint32_t phase, level, groups[3];
     VkDescriptorSet set; /* with this level of what the pass writes */
+    struct image *list;  /* whose header says how many groups; NULL: `groups` */
+    VkDeviceSize at;     /* of the copy of that header */
 };
 
 /* One pass of a run on the device. */
@@ -47,6 +49,7 @@ struct step {
     struct program *program;
     struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
     size_t dispatch_count;
+    size_t list_count; /* how many of them run over lists */
     uint64_t key;
     bool execute;
     uint64_t *ns; /* one for each timed round */

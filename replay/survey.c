@@ -79,6 +79,7 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
         for (size_t i = 0; i < 4; i++) widen(ranges[i], pixel[at[i]]);
         if (!(pixel[at[2]] > 0) && !(pixel[at[3]] > 0)) continue;
         survey->reflecting++;
+        survey->smooth += !(pixel[at[1]] > 0.1f);
         int bin = (int)(fminf(fmaxf(pixel[at[1]], 0), 1) * GLINT_SURVEY_BINS); /* fmaxf turns NaN into 0 */
         survey->roughness[bin < GLINT_SURVEY_BINS ? bin : GLINT_SURVEY_BINS - 1]++;
     }
@@ -110,6 +111,13 @@ bool survey_fact(const struct glint_survey *survey, const char *fact, char *reas
     if (strcmp(fact, "reflecting") == 0) {
         snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels reflect", survey->reflecting, survey->pixels);
         return survey->reflecting > 0;
+    }
+    const bool smooth = strcmp(fact, "smooth") == 0;
+    if (smooth || strcmp(fact, "rough") == 0) {
+        const uint64_t count = smooth ? survey->smooth : survey->reflecting - survey->smooth;
+        snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels reflect with roughness %s 0.1", count, survey->pixels,
+                 smooth ? "up to" : "above");
+        return count > 0;
     }
     if (strcmp(fact, "cubemaps") == 0) {
         snprintf(reason, size, "%u cube map%s", survey->cubemaps, survey->cubemaps == 1 ? "" : "s");

@@ -27,6 +27,29 @@ void image_record_readback(struct image *image, struct glint_device *device, con
     vkCmdCopyImageToBuffer(device->commands, image->image, VK_IMAGE_LAYOUT_GENERAL, to->buffer, 1, &copy);
 }
 
+void image_record_groups(struct image *list, struct glint_device *device, const struct host_buffer *to,
+                         VkDeviceSize offset) {
+    const VkMemoryBarrier2 before = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                     .srcStageMask = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                     .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT},
+                           after = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                    .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                    .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                    .dstStageMask = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                                    .dstAccessMask = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
+    VkDependencyInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &before};
+    struct barriers barriers = {.count = 0};
+    image_access(list, IMAGE_COPY_READ, &barriers);
+    barriers_record(&barriers, device);
+    vkCmdPipelineBarrier2(device->commands, &info); /* an earlier round has read what is overwritten */
+    const VkBufferImageCopy copy = {
+        .bufferOffset = offset, .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {3, 1, 1}};
+    vkCmdCopyImageToBuffer(device->commands, list->image, VK_IMAGE_LAYOUT_GENERAL, to->buffer, 1, &copy);
+    info.pMemoryBarriers = &after;
+    vkCmdPipelineBarrier2(device->commands, &info);
+}
+
 void image_record_clear(struct image *image, struct glint_device *device, double value) {
     struct barriers barriers = {.count = 0};
     image->block->owner = NULL;

@@ -138,11 +138,26 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
     return ok;
 }
 
+/* A list from a file must not start more work than it has items for. */
+static bool check_list(const struct run *run, size_t i, const uint32_t *header, struct glint_error *err) {
+    const struct image_desc *desc = &run->images[i]->desc;
+    const uint64_t capacity = (uint64_t)(desc->height - 1) * desc->width;
+    const uint64_t most = (capacity + LIST_ITEMS - 1) / LIST_ITEMS;
+    if (header[3] <= capacity && header[0] <= most && header[1] <= most && header[2] <= most &&
+        (uint64_t)header[0] * header[1] * header[2] <= most)
+        return true;
+    return glint_fail(err, GLINT_ERROR_FORMAT,
+                      "image %s: expected at most %llu items in %llu workgroups, found %u in %u x %u x %u",
+                      run->images[i]->name, (unsigned long long)capacity, (unsigned long long)most, header[3],
+                      header[0], header[1], header[2]);
+}
+
 /* Values that are in memory already: tables and images of runs or of the engine. */
 static bool upload_values(struct run *run, size_t i, const void *values, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     struct image *image = run->images[i];
     const struct image_desc *desc = &image->desc;
+    if (run->graph.images[i].row->size == GLINT_SIZE_LIST && !check_list(run, i, values, err)) return false;
     image->key = 0;
     bool ok = true;
     const uint32_t *from = values;

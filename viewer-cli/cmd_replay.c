@@ -111,10 +111,17 @@ static double milliseconds(uint64_t ns) {
     return (double)ns * 1e-6;
 }
 
+static void print_total(struct table *table, const char *what, double ms) {
+    table_cell(table, "%s", what);
+    table_cell(table, "%s", "");
+    table_cell(table, "%.3f", ms);
+    for (int k = 0; k < 3; k++) table_cell(table, "%s", "");
+}
+
 static void print_passes(const struct glint_pass_result *results, size_t count) {
     static const char *const titles[] = {"<slot", "<variant", ">median ms", ">min", ">max", "<", NULL};
     struct table *table = table_create(titles);
-    double total = 0;
+    double frame = 0, cubes = 0;
     for (size_t i = 0; i < count; i++) {
         const struct glint_pass_result *r = &results[i];
         bool timed = r->ran && r->time.n > 0;
@@ -124,15 +131,18 @@ static void print_passes(const struct glint_pass_result *results, size_t count) 
             table_cell(table, "%.3f", milliseconds(r->time.median_ns));
             table_cell(table, "%.3f", milliseconds(r->time.min_ns));
             table_cell(table, "%.3f", milliseconds(r->time.max_ns));
-            total += milliseconds(r->time.median_ns);
+            *(r->cached_work ? &cubes : &frame) += milliseconds(r->time.median_ns);
         } else
             for (int k = 0; k < 3; k++) table_cell(table, "%s", "–");
-        table_cell(table, "%s", !r->ran ? r->reason : r->cached ? "unchanged" : r->pass->host ? "on the host" : "");
+        table_cell(table, "%s",
+                   !r->ran          ? r->reason
+                   : r->cached      ? "unchanged"
+                   : r->pass->host  ? "on the host"
+                   : r->cached_work ? "when a cube map changes"
+                                    : "");
     }
-    const char *const last[] = {"together", "", NULL, "", "", ""};
-    for (int k = 0; k < 6; k++)
-        if (last[k]) table_cell(table, "%s", last[k]);
-        else table_cell(table, "%.3f", total);
+    print_total(table, cubes > 0 ? "every frame" : "together", frame);
+    if (cubes > 0) print_total(table, "cube maps", cubes);
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -162,11 +172,12 @@ static json_t *run_json(const char *capture, const char *folder, const struct co
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     for (size_t i = 0; i < count; i++) {
         const struct glint_pass_result *r = &results[i];
-        json_array_append_new(passes, json_pack("{s:s, s:s, s:b, s:b, s:s, s:{s:I, s:I, s:I, s:I}}", "slot",
-                                                r->pass->slot, "variant", r->pass->variant, "ran", r->ran, "cached",
-                                                r->cached, "reason", r->reason, "time_ns", "n", (json_int_t)r->time.n,
-                                                "min", (json_int_t)r->time.min_ns, "median",
-                                                (json_int_t)r->time.median_ns, "max", (json_int_t)r->time.max_ns));
+        json_array_append_new(passes,
+                              json_pack("{s:s, s:s, s:b, s:b, s:b, s:s, s:{s:I, s:I, s:I, s:I}}", "slot", r->pass->slot,
+                                        "variant", r->pass->variant, "ran", r->ran, "cached", r->cached, "cached_work",
+                                        r->cached_work, "reason", r->reason, "time_ns", "n", (json_int_t)r->time.n,
+                                        "min", (json_int_t)r->time.min_ns, "median", (json_int_t)r->time.median_ns,
+                                        "max", (json_int_t)r->time.max_ns));
     }
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         json_object_set_new(seconds, phases[i], json_number(glint_replay_seconds(replay, phases[i])));

@@ -108,6 +108,9 @@ static void cube_maps_are_written_by_layer_and_read_by_direction(void **state) {
             for (int x = 0; x < face; x++) assert_true(pixels[y * face + x] == (float)(y / face + 1000 * l));
         free(pixels);
     }
+    assert_true(fixture_result(fixture, "cubes")->cached_work); /* cube maps alone */
+    assert_false(fixture_result(fixture, "chain")->cached_work);
+    assert_false(fixture_result(fixture, "reader")->cached_work);
     float *seen = made_read(fixture, "seen");
     assert_true(seen[3] == 1006);
     free(seen);

@@ -20,6 +20,15 @@
 #define PASS_ID reader
 #include "made/reader.pass.h"
 #undef PASS_ID
+#define PASS_ID sieve
+#include "made/sieve.pass.h"
+#undef PASS_ID
+#define PASS_ID worker
+#include "made/worker.pass.h"
+#undef PASS_ID
+#define PASS_ID forger
+#include "made/forger.pass.h"
+#undef PASS_ID
 
 #include "rows.h"
 static const struct glint_row chain_rows[] = {
@@ -37,6 +46,21 @@ static const struct glint_row reader_rows[] = {
 #include "made/reader.pass.h"
 #undef PASS_ID
 };
+static const struct glint_row sieve_rows[] = {
+#define PASS_ID sieve
+#include "made/sieve.pass.h"
+#undef PASS_ID
+};
+static const struct glint_row worker_rows[] = {
+#define PASS_ID worker
+#include "made/worker.pass.h"
+#undef PASS_ID
+};
+static const struct glint_row forger_rows[] = {
+#define PASS_ID forger
+#include "made/forger.pass.h"
+#undef PASS_ID
+};
 
 #define DEFINE(name)                                                                                                   \
     const struct glint_pass made_##name = {.slot = #name,                                                              \
@@ -48,6 +72,9 @@ static const struct glint_row reader_rows[] = {
 DEFINE(chain);
 DEFINE(cubes);
 DEFINE(reader);
+DEFINE(sieve);
+DEFINE(worker);
+DEFINE(forger);
 
 void made_init(struct made *made, const struct glint_pass *const *passes) {
     *made = (struct made){.pipeline = {.name = (char *)"made"}};

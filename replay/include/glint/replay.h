@@ -60,6 +60,7 @@ double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct 
 enum { GLINT_SURVEY_BINS = 10 };
 struct glint_survey {
     uint64_t pixels, sky, reflecting;      /* reflecting: not sky, and specular or metalness above 0 */
+    uint64_t smooth;                       /* of those, with roughness up to 0.1 */
     uint64_t roughness[GLINT_SURVEY_BINS]; /* reflecting pixels by roughness, bins of 0.1 */
     float depth_m[2], roughness_range[2], specular_range[2], metalness_range[2]; /* lowest and highest without sky */
     uint32_t cubemaps;
@@ -98,6 +99,7 @@ struct glint_time {
 struct glint_pass_result {
     const struct glint_pass *pass;
     bool ran, cached; /* cached: unchanged since the last run in this process */
+    bool cached_work; /* it reads cube maps and nothing of the frame: paid when a cube map changes, not every frame */
     char reason[192];
     struct glint_time time; /* n = 0 when not timed */
 };
@@ -155,7 +157,7 @@ void glint_run_close(struct glint_run **run);
 /* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
    driver, driver_version, times_are}, "preset", "resolution" {full, half}, "precision", "diagnostics", "inputs",
    "active_cubemaps", "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
-   cached, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
+   cached, cached_work, dispatches, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
    unit, meaning, width, height, format}}. */
 const char *glint_run_json(const struct glint_run *run);
 size_t glint_run_image_count(const struct glint_run *run);
