@@ -142,8 +142,9 @@ static void print_distances(const struct glint_distance_errors *errors) {
 }
 
 static void print_image(const struct comparison *c) {
-    static const char *const titles[] = {"<surfaces",     ">pixels",        ">mean",         ">mean error", ">RMSE",
-                                         ">relative MSE", ">truth's noise", ">RMSE without", ">invalid",    NULL};
+    static const char *const titles[] = {"<surfaces",     ">pixels",       ">mean",      ">mean error",
+                                         ">RMSE",         ">relative MSE", ">symmetric", ">truth's noise",
+                                         ">RMSE without", ">invalid",      NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
         const struct glint_image_error *e = &c->image.of[k];
@@ -154,6 +155,7 @@ static void print_image(const struct comparison *c) {
         table_cell(table, "%+.5f", e->mean);
         table_cell(table, "%.5f", e->rmse);
         table_cell(table, "%.5f", e->relative_mse);
+        table_cell(table, "%.5f", e->symmetric);
         table_cell(table, "%.5f", e->truth_noise);
         table_cell(table, "%.5f", e->clean_rmse);
         table_cell(table, "%llu", (unsigned long long)e->invalid);
@@ -205,13 +207,14 @@ static json_t *image_json(const struct comparison *c) {
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
         const struct glint_image_error *e = &c->image.of[k];
         if (e->pixels + e->invalid == 0) continue;
-        json_array_append_new(
-            rows, json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "surfaces",
-                            glint_surface_name((enum glint_surface)k), "pixels", (json_int_t)e->pixels, "invalid",
-                            (json_int_t)e->invalid, "truth_mean", json_number(e->truth_mean), "mean_error",
-                            json_number(e->mean), "rmse", json_number(e->rmse), "relative_mse",
-                            json_number(e->relative_mse), "truth_noise", json_number(e->truth_noise), "clean_rmse",
-                            json_number(e->clean_rmse), "clean_relative_mse", json_number(e->clean_relative_mse)));
+        json_array_append_new(rows, json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "surfaces",
+                                              glint_surface_name((enum glint_surface)k), "pixels",
+                                              (json_int_t)e->pixels, "invalid", (json_int_t)e->invalid, "truth_mean",
+                                              json_number(e->truth_mean), "mean_error", json_number(e->mean), "rmse",
+                                              json_number(e->rmse), "relative_mse", json_number(e->relative_mse),
+                                              "symmetric", json_number(e->symmetric), "truth_noise",
+                                              json_number(e->truth_noise), "clean_rmse", json_number(e->clean_rmse),
+                                              "clean_relative_mse", json_number(e->clean_relative_mse)));
     }
     return json_pack("{s:f, s:o}", "epsilon", GLINT_RELATIVE_EPSILON, "surfaces", rows);
 }

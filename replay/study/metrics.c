@@ -24,7 +24,7 @@ void glint_pixels_finish(struct glint_pixels *pixels) {
 /* Sums over the values of one class. */
 struct sums {
     uint64_t pixels, invalid;
-    double truth, difference, square, relative, noise, relative_noise;
+    double truth, difference, square, relative, symmetric, noise, relative_noise;
 };
 
 static void add_pixel(struct sums *sums, const float *found, const float *truth, uint32_t channels, double error) {
@@ -40,6 +40,7 @@ static void add_pixel(struct sums *sums, const float *found, const float *truth,
         sums->difference += d;
         sums->square += d * d;
         sums->relative += d * d * weight;
+        sums->symmetric += fabs(d) / (fabs(d + t) + fabs(t) + GLINT_SYMMETRIC_EPSILON);
         sums->noise += t * t * error * error;
         sums->relative_noise += t * t * error * error * weight;
     }
@@ -52,6 +53,7 @@ static void add_sums(struct sums *to, const struct sums *from) {
     to->difference += from->difference;
     to->square += from->square;
     to->relative += from->relative;
+    to->symmetric += from->symmetric;
     to->noise += from->noise;
     to->relative_noise += from->relative_noise;
 }
@@ -64,6 +66,7 @@ static struct glint_image_error error_of(const struct sums *s, uint32_t channels
     e.mean = s->difference / n;
     e.rmse = sqrt(s->square / n);
     e.relative_mse = s->relative / n;
+    e.symmetric = s->symmetric / n;
     e.clean_rmse = sqrt(fmax(0, s->square - s->noise) / n);
     e.clean_relative_mse = fmax(0, s->relative - s->relative_noise) / n;
     e.truth_noise = sqrt(s->noise / n);

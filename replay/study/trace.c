@@ -150,7 +150,7 @@ static double radiance_error(const struct inputs *in, size_t texel, size_t pixel
     double sum = 0;
     for (size_t k = 0; k < 3; ++k) {
         double found = (double)in->reflection.data.f[4 * texel + k], truth = (double)in->radiance[3 * pixel + k];
-        sum += fabs(found - truth) / (found + truth + 0.05) / 3;
+        sum += fabs(found - truth) / (found + truth + GLINT_SYMMETRIC_EPSILON) / 3;
     }
     return sum;
 }

@@ -32,6 +32,7 @@ static void figures_are_those_of_a_sum_by_hand(void **state) {
     assert_near(e.of[MIRROR].mean, 0, 0);
     assert_near(e.of[MIRROR].rmse, sqrt(0.5), 1e-15);
     assert_near(e.of[MIRROR].relative_mse, (1 / 1.01 + 1 / 4.01) / 4, 1e-15);
+    assert_near(e.of[MIRROR].symmetric, (1 / 3.05 + 1 / 3.05) / 4, 1e-15);
     assert_near(e.of[GLOSSY].mean, 2, 0);
     assert_near(e.of[GLOSSY].rmse, 2, 1e-15);
     assert_int_equal(e.of[0].pixels, 3);

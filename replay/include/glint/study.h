@@ -35,6 +35,7 @@ void glint_pixels_finish(struct glint_pixels *pixels);
 
 /* Added to the square of the truth below the fraction of the relative error, so that black can be compared. */
 #define GLINT_RELATIVE_EPSILON 0.01
+#define GLINT_SYMMETRIC_EPSILON 0.05
 
 struct glint_image_error {
     uint64_t pixels;     /* compared */
@@ -43,7 +44,8 @@ struct glint_image_error {
     double mean;         /* of found - truth */
     double rmse;         /* root of the mean of (found - truth)² */
     double relative_mse; /* mean of (found - truth)²/(truth² + GLINT_RELATIVE_EPSILON) */
-    /* The same without what the truth's own noise is expected to add, and that noise's root mean square. Truths whose
+    double symmetric; /* mean of |found - truth|/(|found| + |truth| + GLINT_SYMMETRIC_EPSILON): no outlier rules it */
+    /* rmse and relative_mse without what the truth's own noise is expected to add, and that noise's root mean square. Truths whose
        draws are spread better than independent ones have less noise than they declare: the real error lies between. */
     double clean_rmse, clean_relative_mse, truth_noise;
 };
@@ -97,7 +99,8 @@ struct glint_trace_row {
     double right;        /* share of this row's rays within 5 % of the truth */
     double median_error; /* relative */
     double p95_error;
-    double radiance_error; /* mean of |found - truth|/(found + truth + 0.05) over R G B of reflection_half and
+    double
+        radiance_error; /* mean of |found - truth|/(found + truth + GLINT_SYMMETRIC_EPSILON) over R G B of reflection_half and
                               truth.reflection.ggx; NAN when one is missing. The truth has no fog: compare without */
 };
 struct glint_trace_table {

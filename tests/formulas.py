@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""The sources' formulas in double precision, by quadrature instead of the shaders' closed forms: tables, and a self-test."""
+import math
+import sys
+
+THRESHOLD = 0.1  # of the lobe's peak, below which the slides ignore directions
+
+
+def power_of_roughness(roughness):
+    return 2 / roughness**4 - 2
+
+
+def roughness_of_power(power):
+    return (2 / (power + 2)) ** 0.25
+
+
+def angle_of_power(power, threshold=THRESHOLD):
+    """Where cosⁿ has fallen to the threshold."""
+    return math.acos(threshold ** (1 / power))
+
+
+def power_of_angle(angle, threshold=THRESHOLD):
+    return math.log(threshold) / math.log(math.cos(angle))
+
+
+def lobe(power, up_to=math.pi / 2, nodes=400):
+    """Midpoint nodes (angle, weight) of a density ∝ cosⁿ per solid angle below `up_to`; weights sum to 1."""
+    up_to = min(up_to, 6 / math.sqrt(power)) if power > 16 else up_to
+    step = up_to / nodes
+    angles = [(i + 0.5) * step for i in range(nodes)]
+    weights = [math.exp(power * math.log(math.cos(a))) * math.sin(a) for a in angles]
+    total = sum(weights)
+    return [(a, w / total) for a, w in zip(angles, weights)]
+
+
+def disc(radius, nodes=400):
+    """Directions spread evenly over a cone."""
+    step = radius / nodes
+    weights = [math.sin((i + 0.5) * step) for i in range(nodes)]
+    return [((i + 0.5) * step, w / sum(weights)) for i, w in enumerate(weights)]
+
+
+def reflected(normals):
+    """At normal incidence a normal tilted by θ turns the ray by 2θ."""
+    return [(2 * a, w) for a, w in normals]
+
+
+def rms(nodes):
+    return math.sqrt(sum(w * a * a for a, w in nodes))
+
+
+def convolved(rays, cone, turns=16):
+    """Angles from the axis of directions that lie `cone` around `rays`."""
+    result = []
+    for a, wa in rays:
+        for b, wb in cone:
+            for k in range(turns):
+                c = math.cos(a) * math.cos(b) + math.sin(a) * math.sin(b) * math.cos((k + 0.5) * math.pi / turns)
+                result.append((math.acos(max(-1, min(1, c))), wa * wb / turns))
+    return result
+
+
+def farthest_apart(found, wanted, steps=256):
+    """Greatest difference of the shares of directions within an angle (Kolmogorov's distance)."""
+    top = max(a for a, _ in wanted)
+    sums = [[0.0] * (steps + 1), [0.0] * (steps + 1)]
+    for which, nodes in enumerate((found, wanted)):
+        for a, w in nodes:
+            sums[which][min(steps, int(a / top * steps))] += w
+    apart = total = 0.0
+    for f, w in zip(*sums):
+        total += f - w
+        apart = max(apart, abs(total))
+    return apart
+
+
+def slides_cone(power, share):
+    """The slides leave (1 - share) of the normal's angle to the MIP level."""
+    return (1 - share) * angle_of_power(power)
+
+
+def variance_cone(power, share):
+    """The cone whose filter cosᵐ, with the threshold at its rim, has the variance that the cut takes from the rays."""
+    angle = angle_of_power(power)
+    lost = rms(reflected(lobe(power, angle))) ** 2 - rms(reflected(lobe(power, share * angle))) ** 2
+    low, high = 1e-4, 1.5
+    for _ in range(50):  # rms of the filter rises with the angle
+        middle = (low + high) / 2
+        if rms(lobe(power_of_angle(middle))) ** 2 < lost:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def combined_rows(powers, shares):
+    """Of each power and share: the lobe cut at its angle, the slides' sum of rays and cone, and the one by variance."""
+    for power in powers:
+        angle = angle_of_power(power)
+        target = reflected(lobe(power, angle))
+        for share in shares:
+            rays = reflected(lobe(power, share * angle, 60))
+            row = {"power": power, "share": share, "angle": angle, "target": rms(target)}
+            for name, cone in (("slides", slides_cone(power, share)), ("variance", variance_cone(power, share))):
+                both = convolved(rays, lobe(power_of_angle(cone), nodes=40))
+                row[name] = {"cone": cone, "rms": rms(both), "apart": farthest_apart(both, target)}
+            yield row
+
+
+def first_step(length, ratio, count):
+    """By adding the steps up."""
+    return length / sum(ratio**i for i in range(count))
+
+
+def cube_level(angle, travelled, distance, face, texel_scale=3.5):
+    """The cone's base in texels of the face, whose width at the distance of 1 is 2."""
+    radius_texels = math.tan(angle) * travelled / distance * face / 2
+    return max(0.0, math.log2(radius_texels / texel_scale))
+
+
+CHECKS = []
+
+
+def check(what, found, expected, tolerance):
+    CHECKS.append((what, found, expected, abs(found - expected) <= tolerance))
+
+
+def self_test():
+    check("roughness 0.5 is power 30", power_of_roughness(0.5), 30, 1e-12)
+    check("power 30 is roughness 0.5", roughness_of_power(30), 0.5, 1e-12)
+    check("power 30 falls to 0.1 at 0.3868", angle_of_power(30), 0.3868, 5e-5)
+    check("and back", power_of_angle(angle_of_power(30)), 30, 1e-9)
+    # FACTS: two digits are given
+    angle = angle_of_power(30)
+    half = reflected(lobe(30, angle / 2))
+    check("target lobe, rms of the ray", rms(reflected(lobe(30))), 0.50, 0.01)
+    check("cut at the threshold", rms(reflected(lobe(30, angle))), 0.44, 0.01)
+    for factor, expected in ((0.5, 0.29), (1.0, 0.38), (1.3, 0.44)):
+        both = convolved(half[::8], disc(factor * angle, 50))
+        total = sum(w for _, w in both)
+        check(f"half by rays, a cone of {factor} angles", rms([(a, w / total) for a, w in both]), expected, 0.01)
+    # a cosine lobe's mean square angle by its moments: E[1 - cos θ] = 1/(n + 2)
+    for power in (2, 30, 1000):
+        nodes = lobe(power)
+        check(f"mean cosine of power {power}", sum(w * math.cos(a) for a, w in nodes), (power + 1) / (power + 2), 2e-5)
+    # the combined lobe by variance spreads as the target does; the slides' is far narrower
+    row = next(combined_rows([30], [0.5]))
+    check("cone by variance keeps the spread", row["variance"]["rms"] / row["target"], 1, 0.03)
+    check("the slides' cone loses it", row["slides"]["rms"], 0.29, 0.015)
+    check("24 steps of ratio 1.2 to 300 m begin with", first_step(300, 1.2, 24), 0.76, 0.005)
+    check("closed form of the series", first_step(300, 1.2, 24), 300 * 0.2 / (1.2**24 - 1), 1e-12)
+    check("a cone with a base of 3.5 texels is level 0", cube_level(math.atan(3.5 / 256), 4, 4, 512), 0, 1e-12)
+    check("of 14 texels, level 2", cube_level(math.atan(14 / 256), 4, 4, 512), 2, 1e-12)
+    check("twice the way, one level more", cube_level(0.1, 8, 4, 512) - cube_level(0.1, 4, 4, 512), 1, 1e-12)
+    print(f"1..{len(CHECKS)}")
+    for i, (what, found, expected, good) in enumerate(CHECKS, 1):
+        print(f"{'ok' if good else 'not ok'} {i} - {what}: {found:.6g}, expected {expected:.6g}")
+    return 0 if all(c[3] for c in CHECKS) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(self_test())
