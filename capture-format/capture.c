@@ -63,6 +63,7 @@ static bool adopt(struct glint_capture *capture, struct glint_check *check, stru
         part->channels = theirs.channels;
         part->channel_count = theirs.channel_count;
         part->encodings = theirs.encodings;
+        memcpy(part->sibling_hash, sibling->hex, sizeof part->sibling_hash);
         *source = (struct glint_source){.exr = sibling->exr, .part = i};
         return true;
     }

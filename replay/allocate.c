@@ -26,7 +26,8 @@ void replay_drop_images(struct glint_replay *replay, bool all) {
 }
 
 static bool is_transient(const struct run *run, const struct graph_image *image) {
-    return run->options->outputs && image->source == SOURCE_MADE && !image->wanted && !image->pass->host;
+    return run->options->outputs && image->source == SOURCE_MADE && !image->wanted && !image->kept &&
+           !image->pass->host;
 }
 
 struct shared_block {
@@ -99,7 +100,9 @@ bool run_allocate(struct run *run, struct glint_error *err) {
         end = &image->next;
         image->used = true;
         image->transient = transient;
-        image->listed = wanted->source == SOURCE_RUN || wanted->source == SOURCE_ENGINE || wanted->wanted;
+        image->kept = wanted->kept;
+        image->listed =
+            (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE || wanted->wanted;
         for (uint32_t l = 0; l < desc.levels; l++) {
             image->levels[l].info.row = wanted->row;
             image->levels[l].info.pass = wanted->pass;

@@ -9,9 +9,6 @@ static void check_support(const struct glint_pass *pass, struct faults *faults) 
     for (size_t r = 0; r < pass->row_count; r++) {
         const char *what = NULL;
         switch (pass->rows[r].kind) {
-        case GLINT_ROW_HISTORY:
-            what = "HISTORY";
-            break;
         case GLINT_ROW_PER_RAY:
             what = "PER_RAY";
             break;

@@ -86,10 +86,15 @@ static void cull(struct graph *graph, const struct glint_replay_options *options
                        *name, graph->passes[maker].pass->slot);
         else needed[maker] = true;
     }
+    for (bool more = true; more;) { /* again for what history asks of passes further back */
+        more = false;
+        for (size_t i = graph->pass_count; i-- > 0;)
+            for (size_t j = 0; j < graph->pass_count && !needed[i]; j++)
+                more |= needed[i] = needed[j] && graph->passes[j].runs &&
+                                    (pass_depends(graph->passes[j].pass, graph->passes[i].pass) ||
+                                     pass_remembers(graph->passes[j].pass, graph->passes[i].pass));
+    }
     for (size_t i = graph->pass_count; i-- > 0;) {
-        for (size_t j = i + 1; j < graph->pass_count && !needed[i]; j++)
-            needed[i] =
-                needed[j] && graph->passes[j].runs && pass_depends(graph->passes[j].pass, graph->passes[i].pass);
         if (graph->passes[i].runs && !needed[i]) {
             graph->passes[i].runs = false;
             snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason,

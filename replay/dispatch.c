@@ -5,9 +5,12 @@
 #include <string.h>
 
 struct image *run_image(const struct run *run, const char *name) {
-    for (size_t i = 0; i < run->graph.image_count; i++)
-        if (strcmp(run->graph.images[i].name, name) == 0) return run->images[i];
-    return NULL;
+    const struct graph_image *image = graph_find(&run->graph, name);
+    return image ? run->images[image - run->graph.images] : NULL;
+}
+
+static struct image *bound(const struct run *run, const struct glint_row *binding) {
+    return run->images[graph_bound(&run->graph, binding) - run->graph.images];
 }
 
 static bool row_is_dispatch(const struct glint_row *row) {
@@ -80,7 +83,7 @@ static void describe(const struct run *run, const struct step *step, const struc
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r];
         if (!row_is_image(row)) continue;
-        const struct image *image = run_image(run, row_image(row));
+        const struct image *image = bound(run, row);
         const uint32_t coarsest = image->desc.levels - 1;
         const bool sampled = row_is_sampled(row), array = strstr(row->glsl, "CubeArray") != NULL;
         const VkDescriptorImageInfo info = {
@@ -124,7 +127,7 @@ static void access_images(const struct run *run, const struct glint_pass *pass, 
         for (size_t s = 0; s < pass->row_count && row_is_output(row); s++)
             own |= pass->rows[s].kind == GLINT_ROW_SELF && strcmp(row_image(&pass->rows[s]), row->name) == 0;
         if (row_is_image(row) && row->kind != GLINT_ROW_SELF)
-            image_access(run_image(run, row_image(row)),
+            image_access(bound(run, row),
                          own                  ? IMAGE_SHADER_BOTH
                          : row_is_output(row) ? IMAGE_SHADER_WRITE
                                               : IMAGE_SHADER_READ,

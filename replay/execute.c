@@ -174,4 +174,5 @@ void run_release(struct run *run) {
     tables_finish(&run->tables);
     graph_finish(&run->graph);
     glint_run_close(&run->inputs);
+    glint_run_close(&run->history);
 }

@@ -105,5 +105,5 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     fill_fog(block, frame, eye, metres);
     block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
-    block->flags = (uvec4){frame->has_previous, frame->cut, sizes->chain, 0};
+    block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};
 }

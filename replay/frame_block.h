@@ -25,6 +25,7 @@ struct frame_block {
 struct frame_sizes {
     uint32_t full[2], half[2];
     uint32_t active, chain, cube_face, sky_face;
+    bool history; /* what HISTORY rows name is there */
 };
 
 /* World position of a camera in engine units. */

@@ -43,6 +43,13 @@ struct graph_image *graph_find(const struct graph *graph, const char *name) {
     return NULL;
 }
 
+struct graph_image *graph_bound(const struct graph *graph, const struct glint_row *binding) {
+    for (size_t i = 0; binding->kind == GLINT_ROW_HISTORY && i < graph->image_count; i++)
+        if (graph->images[i].history && strcmp(graph->images[i].name + strlen(HISTORY_PREFIX), binding->image) == 0)
+            return &graph->images[i];
+    return binding->kind == GLINT_ROW_HISTORY ? NULL : graph_find(graph, row_image(binding));
+}
+
 const struct glint_row *pass_output(const struct glint_pass *pass, const char *image) {
     for (size_t i = 0; i < pass->row_count; i++)
         if (row_is_output(&pass->rows[i]) && strcmp(pass->rows[i].name, image) == 0) return &pass->rows[i];
@@ -83,6 +90,12 @@ bool pass_depends(const struct glint_pass *later, const struct glint_pass *earli
         for (size_t n = reads_of(&later->rows[r], names); n-- > 0;)
             if (pass_output(earlier, names[n])) return true;
     }
+    return false;
+}
+
+bool pass_remembers(const struct glint_pass *later, const struct glint_pass *earlier) {
+    for (size_t r = 0; r < later->row_count; r++)
+        if (later->rows[r].kind == GLINT_ROW_HISTORY && pass_output(earlier, row_image(&later->rows[r]))) return true;
     return false;
 }
 
@@ -137,6 +150,18 @@ static void complain_missing(const struct graph_pass *reader, const char *image,
                    reader->pass->variant, image);
 }
 
+/* The row that defines an image: of the pipeline's passes, of the capture, or of any pass there is. */
+static const struct glint_row *find_row(const struct graph *graph, const char *name, const struct glint_pass **pass) {
+    const size_t maker = graph_maker(graph, name);
+    size_t count;
+    const struct glint_pass *all = glint_passes(&count);
+    *pass = maker < graph->pass_count ? graph->passes[maker].pass : NULL;
+    const struct glint_row *row = *pass ? pass_output(*pass, name) : capture_row(name);
+    for (size_t i = 0; i < count && !row; i++)
+        if ((row = pass_output(&all[i], name))) *pass = &all[i];
+    return row;
+}
+
 /* Where an image that pass `reader` reads comes from; adds it to the graph's images. `optional`: the row that says what
    it is when no pass makes it, or NULL. */
 static void link_read(struct graph *graph, size_t reader, const char *name, const struct glint_row *optional,
@@ -149,18 +174,12 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
         return;
     }
     struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader};
-    size_t maker = graph_maker(graph, name);
-    bool dropped = false; /* by the plan: it gets nothing; one merely not asked for has to come from somewhere */
-    if (maker < graph->pass_count) {
-        fresh.pass = graph->passes[maker].pass;
-        fresh.row = pass_output(fresh.pass, name);
-        dropped = !inputs->options->passes || list_has(inputs->options->passes, fresh.pass->slot);
-    } else if (!(fresh.row = capture_row(name)) && !optional) {
-        size_t count;
-        const struct glint_pass *all = glint_passes(&count);
-        for (size_t i = 0; i < count && !fresh.row; i++)
-            if ((fresh.row = pass_output(&all[i], name))) fresh.pass = &all[i];
-    }
+    const size_t maker = graph_maker(graph, name);
+    /* Dropped by the plan, it gets nothing; one merely not asked for has to come from somewhere. */
+    const bool dropped =
+        maker < graph->pass_count &&
+        (!inputs->options->passes || list_has(inputs->options->passes, graph->passes[maker].pass->slot));
+    if (!optional || maker < graph->pass_count) fresh.row = find_row(graph, name, &fresh.pass);
     char part[128];
     snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
     if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
@@ -177,6 +196,40 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
     else complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);
     if (fresh.row) graph->images[graph->image_count++] = fresh;
+}
+
+/* What an image held at the end of the frame before. The image itself is kept for the next one. */
+static void link_history(struct graph *graph, size_t reader, const struct glint_row *row,
+                         const struct graph_inputs *inputs, struct faults *faults) {
+    struct graph_image *image = graph_find(graph, row->image), *known = graph_bound(graph, row);
+    const bool given = inputs->run && glint_run_find(inputs->run, row->image);
+    if (capture_row(row->image)) {
+        faults_add(faults, GLINT_ERROR_USAGE,
+                   "%s/%s remembers %s, an image of the capture: a capture's own previous parts hold it",
+                   graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, row->image);
+        return;
+    }
+    if (!image && given) {
+        link_read(graph, reader, row->image, NULL, inputs, faults);
+        image = graph_find(graph, row->image);
+    }
+    if (image) image->kept = true;
+    if (known) {
+        known->last_use = reader > known->last_use ? reader : known->last_use;
+        return;
+    }
+    struct graph_image fresh = {.source = SOURCE_HISTORY, .history = true, .first_use = reader, .last_use = reader};
+    struct graph_image *place = &graph->images[graph->image_count];
+    fresh.row = find_row(graph, row->image, &fresh.pass);
+    if (!fresh.row) {
+        complain_missing(&graph->passes[reader], row->image, NULL, inputs->options, faults);
+        return;
+    }
+    snprintf(fresh.history_name, sizeof fresh.history_name, HISTORY_PREFIX "%s", row->image);
+    *place = fresh;
+    place->name = place->history_name;
+    graph->image_count++;
+    graph_check_kind(graph->passes[reader].pass, row, fresh.row, faults);
 }
 
 static void link_images(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults) {
@@ -210,6 +263,10 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                                      .last_use = i};
         }
     }
+    for (size_t i = 0; i < graph->pass_count; i++) /* once it is known what is made */
+        for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++)
+            if (graph->passes[i].pass->rows[r].kind == GLINT_ROW_HISTORY)
+                link_history(graph, i, &graph->passes[i].pass->rows[r], inputs, faults);
 }
 
 /* Cube maps and the tables about them stay from frame to frame, and so does what is made from them alone. */

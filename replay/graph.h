@@ -9,18 +9,22 @@ enum source {
     SOURCE_MADE,    /* a pass of this run writes it */
     SOURCE_CAPTURE, /* decoded from the capture */
     SOURCE_RUN,     /* read from a run folder */
+    SOURCE_HISTORY, /* what the device still holds of the frame before */
     SOURCE_ENGINE,  /* the engine's own, a part engine.SLOT.IMAGE of the capture */
     SOURCE_NOTHING  /* the row's "nothing" value */
 };
 
 struct graph_image {
-    const char *name;
+    const char *name;              /* of history: "history." and the image's */
     const struct glint_row *row;   /* the WRITE, DIAGNOSTIC or CAPTURE row that defines it */
     const struct glint_pass *pass; /* whose row it is; NULL for a capture image */
     enum source source;
     bool wanted;                /* written out: its memory is its own */
+    bool history;               /* of the frame before */
+    bool kept;                  /* the next frame's history: its memory is its own */
     size_t maker;               /* MADE: place of the pass in the graph */
     size_t first_use, last_use; /* places of the passes that touch it */
+    char history_name[80];
 };
 
 struct graph_pass {
@@ -73,6 +77,11 @@ bool row_is_output(const struct glint_row *row);
 bool row_is_sampled(const struct glint_row *row);
 bool row_is_image(const struct glint_row *row); /* it is a binding: one of the above */
 const char *row_image(const struct glint_row *row);
+#define HISTORY_PREFIX "history."
+/* The graph's image that a binding shows. */
+struct graph_image *graph_bound(const struct graph *graph, const struct glint_row *binding);
+/* True when pass `later` reads what pass `earlier` made in the frame before. */
+bool pass_remembers(const struct glint_pass *later, const struct glint_pass *earlier);
 
 bool size_is_cube(enum glint_size_class size);  /* one cube map or an array of them */
 bool size_is_array(enum glint_size_class size); /* of cube maps */

@@ -38,12 +38,17 @@ uint32_t level_count(uint32_t width, uint32_t height) {
     return levels;
 }
 
+void image_rename(struct image *image, const char *name) {
+    snprintf(image->name, sizeof image->name, "%s", name);
+    for (uint32_t i = 1; i < image->desc.levels; i++)
+        snprintf(image->levels[i].name, sizeof image->levels[i].name, "%s.level%u", image->name, i);
+}
+
 static void describe_levels(struct image *image) {
     const struct image_desc *desc = &image->desc;
     for (uint32_t i = 0; i < desc->levels; i++) {
         struct image_level *level = &image->levels[i];
         const VkExtent3D extent = image_extent(desc, i);
-        if (i) snprintf(level->name, sizeof level->name, "%s.level%u", image->name, i);
         level->info = (struct glint_image){.name = i ? level->name : image->name,
                                            .format = desc->format,
                                            .width = extent.width,
@@ -61,8 +66,8 @@ struct image *image_create(struct glint_device *device, const char *name, const 
         glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", name);
         return NULL;
     }
-    snprintf(image->name, sizeof image->name, "%s", name);
     image->desc = *desc;
+    image_rename(image, name);
     describe_levels(image);
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                     .flags = desc->layers ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,

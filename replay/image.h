@@ -29,7 +29,7 @@ enum { LEVELS_MAX = 17 };
 struct image_level {
     struct glint_image info; /* as callers see it */
     VkImageView view;        /* to write it: 2D, or an array of all layers */
-    char name[80];           /* of levels above 0 */
+    char name[96];           /* of levels above 0 */
 };
 
 struct image {
@@ -43,7 +43,8 @@ struct image {
     bool listed;    /* shown to callers */
     bool used;      /* in this run */
     bool transient; /* shares its memory */
-    char name[64];
+    bool kept;      /* the next frame's history */
+    char name[80];
     struct image *next;
 };
 
@@ -64,6 +65,8 @@ struct block *block_create(struct glint_device *device, const VkMemoryRequiremen
                            struct glint_error *err);
 /* Binds and makes the views. A block frees itself with its last image. */
 bool image_bind(struct image *image, struct glint_device *device, struct block *block, struct glint_error *err);
+/* Under another name the image is another one. */
+void image_rename(struct image *image, const char *name);
 void image_destroy(struct image **image, struct glint_device *device);
 
 /* Barriers gathered for one step. */

@@ -19,12 +19,6 @@ static uint64_t mix_number(uint64_t key, uint64_t number) {
     return mix(key, &number, sizeof number);
 }
 
-static size_t place_of(const struct run *run, const char *name) {
-    size_t i = 0;
-    while (i < run->graph.image_count && strcmp(run->graph.images[i].name, name) != 0) i++;
-    return i;
-}
-
 static uint64_t table_key(const struct glint_table *table) {
     uint64_t key = mix_number(mix_text(1, table->name), ((uint64_t)table->width << 32) | table->height);
     return mix(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
@@ -40,20 +34,41 @@ static bool read_given(const struct run *run, size_t i, uint64_t *key, struct gl
     for (uint32_t l = 0; l < desc->levels; l++) values += image_values(desc, l);
     uint32_t *at = run->given[i] = malloc(values * sizeof *at);
     if (!at) return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
+    const struct graph_image *source = &run->graph.images[i];
     const double start = now_seconds();
     for (uint32_t l = 0; l < desc->levels; at += image_values(desc, l++)) {
         const struct glint_image *level = &image->levels[l].info;
-        const struct glint_run_image *info = glint_run_find(run->inputs, level->name);
+        const struct glint_run_image *info = run_given(run, source, level->name);
         if (!info || info->width != level->width || info->height != level->height || info->components != components ||
             info->integer != integer)
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u of %u %s channels, found %s",
-                              run->options->inputs, level->name, level->width, level->height, components,
-                              integer ? "uint" : "float", info ? "another size or kind" : "none");
-        if (!glint_run_read(run->inputs, info, integer ? GLINT_U32 : GLINT_F32, at, err)) return false;
+                              source->history ? run->options->history : run->options->inputs, level->name, level->width,
+                              level->height, components, integer ? "uint" : "float",
+                              info ? "another size or kind" : "none");
+        if (!glint_run_read(run_folder(run, source), info, integer ? GLINT_U32 : GLINT_F32, at, err)) return false;
     }
     run->replay->seconds[PHASE_READ] += now_seconds() - start;
     *key = mix(*key, run->given[i], values * sizeof *at);
     return true;
+}
+
+/* Cube maps in a file beside the capture are told apart by what the file holds, so that a shot makes them once.
+   Everything else is another with every load. */
+static uint64_t capture_key(const struct run *run, const struct graph_image *image, uint64_t key) {
+    const struct glint_frame *frame = glint_capture_frame(run->replay->capture);
+    const struct glint_part_info **parts = NULL;
+    size_t count = 0;
+    bool siblings = size_is_array(image->row->size) && image->source == SOURCE_CAPTURE &&
+                    cubemap_parts(run->replay->capture, &parts, &count, NULL);
+    for (uint32_t i = 0; siblings && i < run->sizes.active; i++) {
+        const struct glint_part_info *part = parts[run->active[i]];
+        siblings = part->sibling_hash[0] != 0;
+        key = mix_text(mix_text(key, part->name), part->sibling_hash);
+    }
+    free(parts);
+    if (!siblings) return mix_number(key, run->replay->serial);
+    const double scale[] = {frame->pre_exposure, frame->metres_per_unit};
+    return mix(key, scale, sizeof scale);
 }
 
 /* Of an image that no shader of this run makes. Images of a run folder are read, and told apart by their pixels. */
@@ -61,7 +76,7 @@ static bool given_key(const struct run *run, size_t i, uint64_t *key, struct gli
     const struct graph_image *image = &run->graph.images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->desc.format), image->name);
     if (image->source == SOURCE_NOTHING) *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
-    else *key = mix_number(*key, run->replay->serial);
+    else if (image->source != SOURCE_RUN) *key = capture_key(run, image, *key);
     if (size_is_array(image->row->size) && run->active)
         *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
     if (image->source != SOURCE_RUN) return true;
@@ -76,10 +91,15 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
     key = mix(key, step->constants.data, step->constants.count * sizeof(uint32_t));
     key = mix(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));
-    key = mix(key, &run->block, sizeof run->block);
+    uint32_t words[FRAME_WORDS];
+    memcpy(words, &run->block, sizeof words);
+    for (uint64_t w = 0; w < FRAME_WORDS; w++)
+        if (step->spirv.frame_words[w]) key = mix_number(key, w << 32 | words[w]);
     for (size_t r = 0; r < pass->row_count; r++)
-        if (pass->rows[r].kind == GLINT_ROW_READ)
-            key = mix_number(mix_text(key, pass->rows[r].name), run->keys[place_of(run, pass->rows[r].name)]);
+        if (row_is_sampled(&pass->rows[r]) && pass->rows[r].kind != GLINT_ROW_SELF) {
+            const struct graph_image *image = graph_bound(&run->graph, &pass->rows[r]);
+            key = mix_number(mix_text(key, image->name), run->keys[image - run->graph.images]);
+        }
     step->key = key;
     return true;
 }
@@ -97,18 +117,19 @@ static void decide(struct run *run, struct step *step, size_t place) {
     }
     for (size_t i = 0; step->execute && i < step->pass->pass->row_count; i++)
         if (row_is_image(&step->pass->pass->rows[i]))
-            run->needed[place_of(run, row_image(&step->pass->pass->rows[i]))] = true;
+            run->needed[graph_bound(&run->graph, &step->pass->pass->rows[i]) - run->graph.images] = true;
 }
 
 bool run_keys(struct run *run, struct glint_error *err) {
     const struct graph *graph = &run->graph;
     for (size_t i = 0; i < graph->image_count; i++) {
         const struct graph_image *image = &graph->images[i];
-        run->needed[i] = image->wanted;
+        run->needed[i] = image->wanted || image->kept;
         if (image->source == SOURCE_MADE && image->pass->host)
             run->keys[i] = table_key(tables_find(&run->tables, image->name));
+        else if (image->source == SOURCE_HISTORY) run->keys[i] = run->images[i]->key;
         else if (image->source != SOURCE_MADE && !given_key(run, i, &run->keys[i], err)) return false;
-        if (image->source == SOURCE_RUN) run->needed[i] = true; /* it is among the run's images */
+        if (image->source == SOURCE_RUN && !image->history) run->needed[i] = true; /* it is among the run's images */
     }
     for (size_t p = 0; p < graph->pass_count; p++) {
         struct step *step = &run->steps[p];

@@ -53,6 +53,13 @@ static bool inputs_match(const struct run *run) {
     return match;
 }
 
+static json_int_t history_number(const struct glint_run *history) {
+    json_t *root = json_loads(glint_run_json(history), 0, NULL);
+    const json_int_t number = json_integer_value(json_object_get(root, "frame"));
+    json_decref(root);
+    return number;
+}
+
 static json_t *warnings(const struct run *run) {
     json_t *list = json_array();
     for (size_t i = 0; i < run->graph.image_count; i++) {
@@ -63,6 +70,12 @@ static json_t *warnings(const struct run *run) {
     }
     if (run->inputs && !inputs_match(run))
         json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
+    const struct glint_frame *frame = glint_capture_frame(run->replay->capture);
+    if (run->history && history_number(run->history) + 1 != (json_int_t)frame->number)
+        json_array_append_new(list, json_sprintf("%s holds frame %lld, but this is frame %u", run->options->history,
+                                                 (long long)history_number(run->history), frame->number));
+    if (run->sizes.history && !frame->has_previous)
+        json_array_append_new(list, json_string("the capture has no camera of the frame before: it counts as still"));
     const char *last = NULL;
     uint32_t messages = glint_device_messages(run->replay->device, &last);
     if (messages) json_array_append_new(list, json_sprintf("%u validation messages, the last: %s", messages, last));
@@ -75,6 +88,7 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "format", json_integer(1));
     json_object_set_new(root, "tool", json_pack("{ssss}", "name", "glint", "version", GLINT_VERSION));
     json_object_set_new(root, "device", device_record(glint_device_get_info(run->replay->device)));
+    json_object_set_new(root, "frame", json_integer((json_int_t)glint_capture_frame(run->replay->capture)->number));
     json_object_set_new(root, "preset", json_string(run->pipeline->name));
     json_object_set_new(root, "resolution",
                         json_pack("{s[ii]s[ii]}", "full", (int)run->sizes.full[0], (int)run->sizes.full[1], "half",
@@ -82,6 +96,7 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "precision", json_string(options->float_precision ? "float" : "half"));
     json_object_set_new(root, "diagnostics", json_boolean(options->diagnostics));
     json_object_set_new(root, "inputs", options->inputs ? json_string(options->inputs) : json_null());
+    json_object_set_new(root, "history", options->history ? json_string(options->history) : json_null());
     json_object_set_new(root, "active_cubemaps", json_integer((json_int_t)run->sizes.active));
     for (size_t p = 0; p < run->graph.pass_count; p++) json_array_append_new(passes, pass_record(run, p));
     json_object_set_new(root, "passes", passes);

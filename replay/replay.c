@@ -55,6 +55,7 @@ bool glint_replay_load(struct glint_replay *replay, struct glint_capture *captur
     if (capture && !glint_capture_find(capture, "gbuffer"))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing, and a replay needs it",
                           glint_capture_path(capture));
+    if (capture) replay_age_images(replay, glint_capture_frame(capture));
     replay->capture = capture;
     replay->serial++;
     replay->surveyed = false;
@@ -107,7 +108,7 @@ static bool run_all(struct run *run, struct glint_error *err) {
     if (!replay_graph(replay, run->pipeline, options, run->inputs, &run->graph, err)) return false;
     double start;
     if (!allocate_run(run, err) || !tables_init(&run->tables, &run->graph, replay->capture, run->host_seconds, err) ||
-        !run_sizes(run, err))
+        !run_sizes(run, err) || !run_history(run, err))
         return false;
     frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
     if (!run_allocate(run, err) || !run_keys(run, err)) return false;
@@ -135,6 +136,7 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
     channels_finish(&replay->gbuffer);
     if (!ok) forget_results(replay);
     run_release(&run);
+    replay->ran = ok;
     if (ok) replay_drop_images(replay, false);
     else if (run.touched && own.code != GLINT_ERROR_INTERRUPTED)
         replay_drop_images(replay, true); /* what the device did to them is not known */

@@ -131,12 +131,16 @@ static json_t *image_record(const struct image_part *part, const char *file) {
 
 /* Replacing the run that this one was made from would lose what this one left out. */
 static bool check_not_inputs(const struct glint_replay *replay, const char *folder, struct glint_error *err) {
-    const char *inputs = json_string_value(json_object_get(replay->record, "inputs"));
+    static const char *const keys[] = {"inputs", "history"};
     struct stat from, to;
-    if (!inputs || stat(inputs, &from) != 0 || stat(folder, &to) != 0 || from.st_dev != to.st_dev ||
-        from.st_ino != to.st_ino)
-        return true;
-    return glint_fail(err, GLINT_ERROR_USAGE, "%s: the inputs of this run lie here; expected another folder", folder);
+    bool same = false;
+    for (size_t i = 0; i < 2; i++) {
+        const char *inputs = json_string_value(json_object_get(replay->record, keys[i]));
+        same |= inputs && stat(inputs, &from) == 0 && stat(folder, &to) == 0 && from.st_dev == to.st_dev &&
+                from.st_ino == to.st_ino;
+    }
+    return !same ||
+           glint_fail(err, GLINT_ERROR_USAGE, "%s: the inputs of this run lie here; expected another folder", folder);
 }
 
 /* Removes the files that an earlier run.json lists, and that file first: no mixture ever looks complete. */

@@ -9,8 +9,6 @@
 #include <glslang/Public/resource_limits_c.h>
 #include <xxhash.h>
 
-#include "graph.h"
-
 /* glslang's log, one message a line, as one line of ours. The linker's messages name no file. */
 static bool fail_with_log(const char *path, bool names_file, const char *log, struct glint_error *err) {
     char text[800] = "", line[512];
@@ -69,34 +67,6 @@ static bool compile(struct spirv *spirv, const char *path, const char *code, str
     return ok;
 }
 
-static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
-    if (set == 1) return binding <= 2; /* passes/shared/bindings.glsl */
-    for (size_t r = 0; set == 0 && r < pass->row_count; r++)
-        if (row_is_image(&pass->rows[r]) && pass->rows[r].id == binding) return true;
-    return false;
-}
-
-/* A user's shader may declare bindings by hand; what no row declares has no image behind it. */
-static bool check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
-                           struct glint_error *err) {
-    enum { HEADER = 5, OP_DECORATE = 71, BINDING = 33, DESCRIPTOR_SET = 34 };
-    const size_t count = spirv->bytes / sizeof(uint32_t);
-    const uint32_t bound = spirv->words[3]; /* ids are below it */
-    uint32_t *sets = calloc(bound, sizeof *sets);
-    bool ok = sets || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    for (int round = 0; ok && round < 2; round++) /* the set may follow the binding */
-        for (size_t i = HEADER; ok && i < count && spirv->words[i] >> 16; i += spirv->words[i] >> 16) {
-            const uint32_t *op = &spirv->words[i];
-            if ((op[0] & 0xffff) != OP_DECORATE || op[0] >> 16 != 4 || i + 4 > count || op[1] >= bound) continue;
-            if (round == 0 && op[2] == DESCRIPTOR_SET) sets[op[1]] = op[3];
-            if (round == 1 && op[2] == BINDING && !is_declared(pass, sets[op[1]], op[3]))
-                ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: binding %u of set %u is no image that %s/%s declares",
-                                path, op[3], sets[op[1]], pass->slot, pass->variant);
-        }
-    free(sets);
-    return ok;
-}
-
 bool spirv_init(struct spirv *spirv, const struct pipeline_pass *entry, struct glint_error *err) {
     *spirv = (struct spirv){0};
     if (entry->shader) {
@@ -105,7 +75,7 @@ bool spirv_init(struct spirv *spirv, const struct pipeline_pass *entry, struct g
         if (!code) return glint_fail(err, own.code, "%s", own.message);
         bool ok = compile(spirv, entry->shader, code, err);
         free(code);
-        if (!ok || !check_bindings(spirv, entry->pass, entry->shader, err)) return false;
+        if (!ok || !spirv_check_bindings(spirv, entry->pass, entry->shader, err)) return false;
     } else {
         spirv->words = entry->pass->spirv;
         spirv->bytes = entry->pass->spirv_bytes;
@@ -114,6 +84,7 @@ bool spirv_init(struct spirv *spirv, const struct pipeline_pass *entry, struct g
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s/%s: this build has no shader for it", entry->pass->slot,
                           entry->pass->variant);
     spirv->hash = XXH3_64bits(spirv->words, spirv->bytes);
+    spirv_find_frame_words(spirv);
     return true;
 }
 

@@ -11,7 +11,7 @@ static bool existing_size(const struct run *run, const struct graph_image *image
     size[0] = size[1] = 0;
     if (image->source == SOURCE_MADE && table) size[0] = table->width, size[1] = table->height;
     else if (image->source == SOURCE_RUN) {
-        const struct glint_run_image *info = glint_run_find(run->inputs, image->name);
+        const struct glint_run_image *info = run_given(run, image, image->name);
         size[0] = info->width, size[1] = info->height;
     } else if (image->source == SOURCE_ENGINE) {
         char name[128];

@@ -18,7 +18,9 @@ enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE
 struct glint_replay {
     struct glint_device *device;
     struct glint_capture *capture;
-    uint64_t serial; /* of the load: contents of another capture never pass for this one's */
+    uint32_t number;  /* of the frame loaded last */
+    bool loaded, ran; /* a frame was loaded; it was run */
+    uint64_t serial;  /* of the load: contents of another capture never pass for this one's */
     struct glint_survey survey;
     bool surveyed;
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
@@ -60,7 +62,7 @@ struct run {
     struct glint_replay *replay;
     const struct glint_pipeline *pipeline;
     const struct glint_replay_options *options;
-    struct glint_run *inputs;
+    struct glint_run *inputs, *history;
     struct graph graph;
     struct tables tables;
     double *host_seconds; /* one for each pass */
@@ -89,6 +91,13 @@ bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipe
 bool run_sizes(struct run *run, struct glint_error *err);
 bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
                         struct glint_error *err);
+
+/* history.c: what is left of the frame before. */
+void replay_age_images(struct glint_replay *replay, const struct glint_frame *next);
+bool run_history(struct run *run, struct glint_error *err);
+/* The run folder that an image is read from, and its name (or its level's) there. */
+struct glint_run *run_folder(const struct run *run, const struct graph_image *image);
+const struct glint_run_image *run_given(const struct run *run, const struct graph_image *image, const char *name);
 
 /* allocate.c: images and their memory. */
 bool run_allocate(struct run *run, struct glint_error *err);

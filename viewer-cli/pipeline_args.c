@@ -13,6 +13,9 @@ error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct
     case KEY_INPUTS:
         args->replay.inputs = arg;
         return 0;
+    case KEY_HISTORY:
+        args->replay.history = arg;
+        return 0;
     case KEY_ALL:
         args->replay.all = true;
         return 0;

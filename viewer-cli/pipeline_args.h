@@ -12,7 +12,7 @@ struct pipeline_args {
     struct glint_replay_options replay; /* its lists are filled by pipeline_args_options */
 };
 
-enum { KEY_USE = 512, KEY_SET, KEY_SHADER, KEY_PASSES, KEY_INPUTS, KEY_OUTPUTS, KEY_SKIP, KEY_FORCE, KEY_ALL };
+enum { KEY_USE = 512, KEY_SET, KEY_SHADER, KEY_PASSES, KEY_INPUTS, KEY_HISTORY, KEY_OUTPUTS, KEY_SKIP, KEY_FORCE, KEY_ALL };
 
 /* clang-format off */
 #define PIPELINE_OPTIONS \
@@ -22,6 +22,7 @@ enum { KEY_USE = 512, KEY_SET, KEY_SHADER, KEY_PASSES, KEY_INPUTS, KEY_OUTPUTS, 
     {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead", 0}, \
     {"passes",  KEY_PASSES,  "SLOT,...",       0, "Only these slots; what they need comes from --inputs", 0}, \
     {"inputs",  KEY_INPUTS,  "RUN",            0, "A run to read missing images from", 0}, \
+    {"history", KEY_HISTORY, "RUN",            0, "The run of the frame before, for passes that remember it", 0}, \
     {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, and what they need (default: all)", 0}, \
     {"all",     KEY_ALL,     NULL,             0, "Run every pass, even one that has nothing to do", 0}, \
     {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these", 0}, \

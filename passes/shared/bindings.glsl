@@ -11,6 +11,9 @@
 // workgroup of 64 items each (item gl_LocalInvocationIndex + 64 * workgroup); its outputs are filled with their
 // "nothing" values before. Otherwise it runs over the whole image, and the list's header says 0xFFFFFFFF items.
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
+//
+// HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when
+// frame.flags.x is 1; otherwise they are stand-ins of one texel with the image's "nothing" value.
 layout(constant_id = 0) const bool diagnostics = false;
 #define PASS(title, source)
 #define SLOT(title)

@@ -67,7 +67,8 @@ static bool add_gbuffer(struct glint_writer *writer, const struct gbuffer *g, st
 }
 
 /* A cube map of a box of 6 m around its centre, whose colour tells the cube map and the face apart. */
-static bool add_cubemap(struct glint_writer *writer, int number, struct glint_error *err) {
+static bool add_cubemap(struct glint_writer *writer, int number, int color, const char *sibling,
+                        struct glint_error *err) {
     static const char *const names[] = {"R", "G", "B", "A", "distance.Z"};
     float texels[6 * N][N][5];
     char name[32];
@@ -75,7 +76,7 @@ static bool add_cubemap(struct glint_writer *writer, int number, struct glint_er
         for (int x = 0; x < N; x++) {
             const double u = (x + 0.5) / N * 2 - 1, v = (y % N + 0.5) / N * 2 - 1;
             const bool sky = y / N == 2; /* +Y */
-            texels[y][x][0] = (float)(0.2 + 0.1 * number), texels[y][x][1] = (float)(0.1 * (y / N));
+            texels[y][x][0] = (float)(0.2 + 0.1 * color), texels[y][x][1] = (float)(0.1 * (y / N));
             texels[y][x][2] = (float)(0.5 + 0.4 * u), texels[y][x][3] = !sky;
             texels[y][x][4] = sky ? INFINITY : (float)(3 * sqrt(1 + u * u + v * v));
         }
@@ -84,11 +85,9 @@ static bool add_cubemap(struct glint_writer *writer, int number, struct glint_er
         channels[c] = (struct glint_channel){names[c], GLINT_F32, &texels[0][0][c], sizeof texels[0][0], 0, NULL};
     const struct glint_cubemap cubemap = {.center = {number - 1.0, 1.5, -2.0 - number}, .outdoor = number == 2};
     snprintf(name, sizeof name, "cubemap.%03d", number);
-    return glint_writer_add_part(
-        writer,
-        &(struct glint_part){
-            .name = name, .width = N, .height = 6 * N, .channels = channels, .channel_count = 5, .cubemap = &cubemap},
-        err);
+    struct glint_part part = {.name = name, .cubemap = &cubemap, .sibling = sibling};
+    if (!sibling) part.width = N, part.height = 6 * N, part.channels = channels, part.channel_count = 5;
+    return glint_writer_add_part(writer, &part, err);
 }
 
 static bool add_sky(struct glint_writer *writer, struct glint_error *err) {
@@ -108,26 +107,40 @@ static bool add_sky(struct glint_writer *writer, struct glint_error *err) {
 
 bool fixture_write_capture(const char *path, const struct fixture_options *options, struct glint_error *err) {
     const double near = 0.1, far = 100;
-    const struct glint_frame frame = {
+    struct glint_frame frame = {
         .camera = {.world_to_view = {1, 0, 0, 0, 0, 1, 0, -1.5, 0, 0, 1, 0, 0, 0, 0, 1},
                    .view_to_clip = {1 / 0.9, 0, 0, 0, 0, 1 / 0.55, 0, 0, 0, 0, far / (near - far),
                                     near * far / (near - far), 0, 0, -1, 0}},
         .number = 7,
         .has_fog = true,
         .fog = {.color = {0.3f, 0.4f, 0.5f}, .density = 0.02}};
+    if (options && options->number) frame.number = options->number;
+    frame.cut = options && options->cut;
     struct gbuffer *g = calloc(1, sizeof *g);
     struct glint_writer *writer = glint_writer_create(path, NULL, err);
     bool ok = g && writer && glint_writer_set_frame(writer, &frame, err);
     for (int y = 0; ok && y < H; y++)
-        for (int x = 0; x < W; x++) trace_pixel(g, x, y, options && options->matte);
+        for (int x = 0; x < W; x++) {
+            trace_pixel(g, x, y, options && options->matte);
+            g->depth[y][x] *= 1 + 0.125f * (float)(frame.number - 7);
+        }
     ok = ok && add_gbuffer(writer, g, err);
     for (int i = 0; ok && i < FIXTURE_CUBEMAPS && !(options && options->no_cubemaps); i++)
-        ok = add_cubemap(writer, i, err);
+        ok = add_cubemap(writer, i, i, options ? options->cubemaps : NULL, err);
     ok = ok && add_sky(writer, err);
     if (options && options->extra) ok = ok && glint_writer_add_part(writer, options->extra, err);
     ok = ok && glint_writer_finish(writer, err);
     glint_writer_destroy(&writer);
     free(g);
+    return ok;
+}
+
+bool fixture_write_cubemaps(const char *path, int first, struct glint_error *err) {
+    struct glint_writer *writer = glint_writer_create(path, NULL, err);
+    bool ok = writer != NULL;
+    for (int i = 0; ok && i < FIXTURE_CUBEMAPS; i++) ok = add_cubemap(writer, i, first + i, NULL, err);
+    ok = ok && glint_writer_finish(writer, err);
+    glint_writer_destroy(&writer);
     return ok;
 }
 

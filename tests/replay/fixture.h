@@ -24,9 +24,15 @@ struct fixture_options {
     bool matte; /* nothing reflects */
     bool no_cubemaps;
     const struct glint_part *extra; /* one more part, or NULL */
+    uint32_t number;                /* of the frame, 0: 7; each has other depths */
+    bool cut;
+    const char *cubemaps; /* a file beside the capture that holds the cube maps, or NULL */
 };
 /* Writes the capture. False when the writer refused it. */
 bool fixture_write_capture(const char *path, const struct fixture_options *options, struct glint_error *err);
+
+/* Cube maps alone, for captures that name the file; `first` numbers their colours. */
+bool fixture_write_cubemaps(const char *path, int first, struct glint_error *err);
 
 /* cmocka group fixtures: *state receives a struct fixture. Without a Vulkan device the tests skip. */
 int fixture_setup_device(void **state);

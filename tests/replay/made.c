@@ -1,6 +1,7 @@
 /* Passes made up for tests. Their declarations are read as those of passes/ are. */
 #include "made.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,6 +29,9 @@
 #undef PASS_ID
 #define PASS_ID forger
 #include "made/forger.pass.h"
+#undef PASS_ID
+#define PASS_ID memory
+#include "made/memory.pass.h"
 #undef PASS_ID
 
 #include "rows.h"
@@ -61,6 +65,11 @@ static const struct glint_row forger_rows[] = {
 #include "made/forger.pass.h"
 #undef PASS_ID
 };
+static const struct glint_row memory_rows[] = {
+#define PASS_ID memory
+#include "made/memory.pass.h"
+#undef PASS_ID
+};
 
 #define DEFINE(name)                                                                                                   \
     const struct glint_pass made_##name = {.slot = #name,                                                              \
@@ -75,6 +84,7 @@ DEFINE(reader);
 DEFINE(sieve);
 DEFINE(worker);
 DEFINE(forger);
+DEFINE(memory);
 
 void made_init(struct made *made, const struct glint_pass *const *passes) {
     *made = (struct made){.pipeline = {.name = (char *)"made"}};

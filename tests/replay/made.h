@@ -5,7 +5,7 @@
 #include "fixture.h"
 #include "pipeline.h"
 
-extern const struct glint_pass made_chain, made_cubes, made_reader, made_sieve, made_worker, made_forger;
+extern const struct glint_pass made_chain, made_cubes, made_reader, made_sieve, made_worker, made_forger, made_memory;
 
 enum { MADE_MAX = 8 };
 struct made {

@@ -244,7 +244,8 @@ struct glint_part_info {
     bool has_cubemap, has_planar;
     struct glint_cubemap cubemap;
     struct glint_planar planar;
-    char sibling[256]; /* "" or the file that holds the pixels; sizes and channels are that file's */
+    char sibling[256];     /* "" or the file that holds the pixels; sizes and channels are that file's */
+    char sibling_hash[33]; /* its XXH3-128, which was compared with the file; "" without a sibling */
     const struct glint_attribute *attributes; /* those that glint does not know (string, double, int, float) */
     size_t attribute_count;
 };

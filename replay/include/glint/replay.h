@@ -78,6 +78,9 @@ struct glint_replay_options {
     /* A run folder, or NULL. Images that the passes read and no pass of this run makes come from there, else from the
        capture's parts engine.SLOT.IMAGE, whose channels are named as the image's row names them. */
     const char *inputs;
+    /* A run folder that holds the frame before this one, or NULL: what passes remember of it is read from there instead
+       of from the frame that this replay ran last. */
+    const char *history;
     const char *const *skip, *const *force; /* slots, NULL-terminated */
     bool all;                               /* no pass is dropped for having nothing to do */
     bool diagnostics;                       /* end reasons, steps, fetches; changes no bit of the other images */
@@ -117,7 +120,8 @@ struct glint_replay;
 /* The device stays the caller's and must outlive the replay. NULL: plans only. */
 struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err);
 void glint_replay_destroy(struct glint_replay **replay);
-/* The capture stays the caller's and must outlive its use here; NULL unloads. */
+/* The capture stays the caller's and must outlive its use here; NULL unloads. When its frame is the one after the frame
+   that was run last, and no cut, passes that remember find that frame's images. */
 bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err);
 /* What would run. Reads what the survey needs from the capture. *entries is valid until the next call on `replay`. */
 bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline *pipeline,
@@ -155,7 +159,7 @@ struct glint_run_image {
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
 void glint_run_close(struct glint_run **run);
 /* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
-   driver, driver_version, times_are}, "preset", "resolution" {full, half}, "precision", "diagnostics", "inputs",
+   driver, driver_version, times_are}, "frame", "preset", "resolution" {full, half}, "precision", "diagnostics", "inputs", "history",
    "active_cubemaps", "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
    cached, cached_work, dispatches, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
    unit, meaning, width, height, format}}. */

@@ -1,0 +1,64 @@
+/* What is left of the frame before: images that change their name when the next frame of a shot is loaded, or those of
+   a run folder. */
+#include "state.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool is_history(const struct image *image) {
+    return strncmp(image->name, HISTORY_PREFIX, strlen(HISTORY_PREFIX)) == 0;
+}
+
+void replay_age_images(struct glint_replay *replay, const struct glint_frame *next) {
+    const bool follows = replay->loaded && replay->ran && !next->cut && next->number == replay->number + 1;
+    for (struct image *image = replay->images; image; image = image->next) image->used = !is_history(image);
+    replay_drop_images(replay, false);
+    for (struct image *image = replay->images; image; image = image->next) {
+        char name[sizeof image->name];
+        if (!follows || !image->kept || !image->key || image->transient) continue;
+        snprintf(name, sizeof name, HISTORY_PREFIX "%.64s", image->name);
+        image_rename(image, name);
+        image->kept = image->listed = false;
+    }
+    replay->number = next->number;
+    replay->loaded = true;
+    replay->ran = false;
+}
+
+struct glint_run *run_folder(const struct run *run, const struct graph_image *image) {
+    return image->history ? run->history : run->inputs;
+}
+
+const struct glint_run_image *run_given(const struct run *run, const struct graph_image *image, const char *name) {
+    return glint_run_find(run_folder(run, image), image->history ? name + strlen(HISTORY_PREFIX) : name);
+}
+
+static bool on_device(const struct run *run, const char *name, const struct image_desc *desc) {
+    for (const struct image *image = run->replay->images; image; image = image->next)
+        if (strcmp(image->name, name) == 0) return image->key && image_desc_equal(&image->desc, desc);
+    return false;
+}
+
+/* History is there as a whole or not at all. */
+bool run_history(struct run *run, struct glint_error *err) {
+    const struct glint_frame *frame = glint_capture_frame(run->replay->capture);
+    if (run->options->history && !(run->history = glint_run_open(run->options->history, err))) return false;
+    size_t count = 0;
+    bool whole = !frame->cut;
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        struct image_desc desc;
+        if (!image->history) continue;
+        if (!run_describe_image(run, image, &desc, err)) return false;
+        const struct glint_run_image *given = run->history ? run_given(run, image, image->name) : NULL;
+        whole = whole && (run->history ? given && given->width == desc.width &&
+                                             given->height == desc.height * image_layers(&desc)
+                                       : on_device(run, image->name, &desc));
+        count++;
+    }
+    run->sizes.history = whole && count > 0;
+    for (size_t i = 0; i < run->graph.image_count; i++)
+        if (run->graph.images[i].history)
+            run->graph.images[i].source = !whole ? SOURCE_NOTHING : run->history ? SOURCE_RUN : SOURCE_HISTORY;
+    return true;
+}

@@ -1,0 +1,119 @@
+/* What a SPIR-V module says of itself: its bindings, and which words of the frame's block it reads. */
+#include "shader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "graph.h"
+
+enum {
+    HEADER = 5,
+    OP_TYPE_POINTER = 32,
+    OP_CONSTANT = 43,
+    OP_FUNCTION = 54,
+    OP_VARIABLE = 59,
+    OP_ACCESS_CHAIN = 65,
+    OP_IN_BOUNDS_ACCESS_CHAIN = 66,
+    OP_DECORATE = 71,
+    OP_MEMBER_DECORATE = 72,
+    BINDING = 33,
+    DESCRIPTOR_SET = 34,
+    OFFSET = 35
+};
+
+static uint32_t opcode(const uint32_t *op) {
+    return op[0] & 0xffff;
+}
+static uint32_t op_words(const uint32_t *op) {
+    return op[0] >> 16;
+}
+/* The instruction at `op` when it lies in the module as a whole, otherwise NULL. */
+static const uint32_t *whole_op(const struct spirv *spirv, const uint32_t *op) {
+    const size_t left = spirv->bytes / sizeof *op - (size_t)(op - spirv->words);
+    return left > 0 && op_words(op) > 0 && op_words(op) <= left ? op : NULL;
+}
+static const uint32_t *first_op(const struct spirv *spirv) {
+    return spirv->bytes > HEADER * sizeof(uint32_t) ? whole_op(spirv, spirv->words + HEADER) : NULL;
+}
+static const uint32_t *next_op(const struct spirv *spirv, const uint32_t *op) {
+    return whole_op(spirv, op + op_words(op));
+}
+
+static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
+    if (set == 1) return binding <= 2; /* passes/shared/bindings.glsl */
+    for (size_t r = 0; set == 0 && r < pass->row_count; r++)
+        if (row_is_image(&pass->rows[r]) && pass->rows[r].id == binding) return true;
+    return false;
+}
+
+/* A user's shader may declare bindings by hand; what no row declares has no image behind it. */
+bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
+                          struct glint_error *err) {
+    const uint32_t bound = spirv->words[3]; /* ids are below it */
+    uint32_t *sets = calloc(bound, sizeof *sets);
+    bool ok = sets || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    for (int round = 0; ok && round < 2; round++) /* the set may follow the binding */
+        for (const uint32_t *op = first_op(spirv); ok && op; op = next_op(spirv, op)) {
+            if (opcode(op) != OP_DECORATE || op_words(op) != 4 || op[1] >= bound) continue;
+            if (round == 0 && op[2] == DESCRIPTOR_SET) sets[op[1]] = op[3];
+            if (round == 1 && op[2] == BINDING && !is_declared(pass, sets[op[1]], op[3]))
+                ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: binding %u of set %u is no image that %s/%s declares",
+                                path, op[3], sets[op[1]], pass->slot, pass->variant);
+        }
+    free(sets);
+    return ok;
+}
+
+/* The variable of set 1, binding 0 (passes/shared/bindings.glsl); 0: none. */
+static uint32_t find_frame(const struct spirv *spirv) {
+    uint32_t found = 0;
+    for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op)) {
+        if (opcode(op) != OP_DECORATE || op_words(op) != 4 || op[2] != DESCRIPTOR_SET || op[3] != 1) continue;
+        for (const uint32_t *at = first_op(spirv); at; at = next_op(spirv, at))
+            if (opcode(at) == OP_DECORATE && op_words(at) == 4 && at[1] == op[1] && at[2] == BINDING && at[3] == 0)
+                found = op[1];
+    }
+    return found;
+}
+
+/* The word of an instruction `code` whose word `at` is `value`; 0 when there is none. */
+static uint32_t look_up(const struct spirv *spirv, uint32_t code, uint32_t at, uint32_t value, uint32_t word) {
+    for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op))
+        if (opcode(op) == code && op_words(op) > at && op_words(op) > word && op[at] == value) return op[word];
+    return 0;
+}
+
+static uint32_t member_offset(const struct spirv *spirv, uint32_t type, uint32_t member) {
+    for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op))
+        if (opcode(op) == OP_MEMBER_DECORATE && op_words(op) == 5 && op[1] == type && op[2] == member &&
+            op[3] == OFFSET)
+            return op[4];
+    return sizeof(struct frame_block);
+}
+
+/* Words that an access chain into the block reaches: a component when the second index is constant, otherwise the
+   member. */
+static void mark(struct spirv *spirv, uint32_t type, const uint32_t *op) {
+    const uint32_t member = op_words(op) > 4 ? look_up(spirv, OP_CONSTANT, 2, op[4], 3) : UINT32_MAX;
+    const uint32_t begin = member_offset(spirv, type, member), end = member_offset(spirv, type, member + 1);
+    const bool component = op_words(op) == 6 && end - begin == 16;
+    const uint32_t place = component ? look_up(spirv, OP_CONSTANT, 2, op[5], 3) : 0;
+    for (uint32_t word = begin / 4; word < end / 4 && word < FRAME_WORDS; word++)
+        if (!component || word == begin / 4 + place) spirv->frame_words[word] = true;
+}
+
+void spirv_find_frame_words(struct spirv *spirv) {
+    const uint32_t frame = find_frame(spirv);
+    const uint32_t pointer = look_up(spirv, OP_VARIABLE, 2, frame, 1);
+    const uint32_t type = look_up(spirv, OP_TYPE_POINTER, 1, pointer, 3);
+    bool code = false, whole = false;
+    memset(spirv->frame_words, 0, sizeof spirv->frame_words);
+    for (const uint32_t *op = first_op(spirv); op && frame; op = next_op(spirv, op)) {
+        const bool chain = opcode(op) == OP_ACCESS_CHAIN || opcode(op) == OP_IN_BOUNDS_ACCESS_CHAIN;
+        code |= opcode(op) == OP_FUNCTION;
+        if (chain && op_words(op) > 3 && op[3] == frame) mark(spirv, type, op);
+        else /* any other use: all of it may matter */
+            for (uint32_t w = 1; code && w < op_words(op); w++) whole |= op[w] == frame;
+    }
+    for (uint32_t word = 0; whole && word < FRAME_WORDS; word++) spirv->frame_words[word] = true;
+}

@@ -1,0 +1,209 @@
+/* Shots on a device under validation: what passes remember, and work that stays between frames. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "made.h"
+
+enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT, PIXEL = (H - 1) * W + 7 /* floor, not sky */ };
+
+/* Writes a frame beside the fixture's capture and loads it. */
+static struct glint_capture *load(struct fixture *fixture, const struct fixture_options *frame) {
+    struct glint_error err = {0};
+    char path[128];
+    snprintf(path, sizeof path, "%s/frame%u.exr", fixture->folder, frame->number);
+    if (!fixture_write_capture(path, frame, &err)) fail_msg("%s", err.message);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    if (!capture || !glint_replay_load(fixture->replay, capture, &err)) fail_msg("%s", err.message);
+    return capture;
+}
+
+static void unload(struct fixture *fixture, struct glint_capture *capture) {
+    assert_true(glint_replay_load(fixture->replay, NULL, NULL));
+    glint_capture_close(&capture);
+}
+
+struct remembered {
+    float frames, valid, depth, level;
+};
+static struct remembered remembered(struct fixture *fixture) {
+    float *sum = made_read(fixture, "sum");
+    const struct remembered at = {sum[4 * PIXEL], sum[4 * PIXEL + 1], sum[4 * PIXEL + 2], sum[4 * PIXEL + 3]};
+    free(sum);
+    return at;
+}
+
+static float depth_now(struct fixture *fixture) {
+    float *depths = made_read(fixture, "depth_now");
+    const float depth = depths[PIXEL];
+    free(depths);
+    return depth;
+}
+
+/* Catches: history taken from this frame or from two frames ago, kept over a cut or a gap, levels that do not come
+   along, and a valid flag that does not follow. */
+static void a_shot_remembers_and_a_cut_forgets(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    static const struct {
+        uint32_t number;
+        bool cut;
+        float frames;
+    } shot[] = {{20, false, 1}, {21, false, 2}, {22, false, 3}, {23, true, 1},
+                {24, false, 2}, {26, false, 1}, {26, false, 1}, {27, false, 2}};
+    struct made made;
+    float before = 0, level = 0;
+    MADE(&made, &made_chain, &made_memory);
+    for (size_t i = 0; i < sizeof shot / sizeof shot[0]; i++) {
+        struct glint_capture *capture =
+            load(fixture, &(struct fixture_options){.number = shot[i].number, .cut = shot[i].cut});
+        for (size_t r = 0; r < made_chain.row_count; r++) /* another chain in each frame */
+            if (strcmp(made_chain.rows[r].name, "factor") == 0) made.values[0][r] = 1 + (double)i / 4;
+        made_run(fixture, &made, NULL);
+        const struct remembered at = remembered(fixture);
+        const bool valid = shot[i].frames > 1;
+        assert_true(at.valid == (valid ? 1.0f : 0.0f));
+        assert_true(at.frames == shot[i].frames + 0.5f); /* 0.5: of nothing */
+        if (valid) {
+            assert_true(at.depth == before);
+            assert_true(at.level == level);
+        } else assert_true(isinf(at.depth)); /* depth_now's value for nothing */
+        assert_true(depth_now(fixture) != before);
+        before = depth_now(fixture);
+        float *chain = made_read(fixture, "chain.level2");
+        const int x = PIXEL % W / 4, y = PIXEL / W / 4 < H / 4 ? PIXEL / W / 4 : H / 4 - 1;
+        level = chain[y * (W / 4) + x];
+        free(chain);
+        unload(fixture, capture);
+        if (i == 5) before = 0; /* the same frame comes again */
+    }
+}
+
+/* Catches: history that moves on when a frame is run again, and keys that leave history out. */
+static void a_frame_run_twice_has_the_same_history(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct made made;
+    MADE(&made, &made_chain, &made_memory);
+    unload(fixture, load(fixture, &(struct fixture_options){.number = 40})); /* nothing is left of other tests */
+    for (uint32_t number = 41; number < 44; number++) {
+        struct glint_capture *capture = load(fixture, &(struct fixture_options){.number = number});
+        made_run(fixture, &made, NULL);
+        assert_false(fixture_result(fixture, "memory")->cached);
+        made_run(fixture, &made, NULL);
+        assert_true(fixture_result(fixture, "memory")->cached);
+        made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .repeat = 3});
+        assert_true(remembered(fixture).frames == (float)(number - 40) + 0.5f);
+        unload(fixture, capture);
+    }
+}
+
+/* Catches: outputs that let go of what the next frame needs, or put it into shared memory. */
+static void what_is_remembered_is_kept_though_nobody_asks_for_it(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    const char *const outputs[] = {"depth_now", NULL}, *const sum[] = {"sum", NULL};
+    struct made made;
+    MADE(&made, &made_chain, &made_memory);
+    for (uint32_t number = 51; number < 54; number++) {
+        struct glint_capture *capture = load(fixture, &(struct fixture_options){.number = number});
+        made_run(fixture, &made, &(struct glint_replay_options){.outputs = number == 53 ? sum : outputs, .repeat = 2});
+        if (number == 53) assert_true(remembered(fixture).frames == 3.5f && remembered(fixture).level != 0);
+        unload(fixture, capture);
+    }
+}
+
+/* Catches: a frame replayed alone, or a part of it, that differs from the frame in its shot; history that comes from the
+   device though a folder was named. */
+static void a_frame_alone_has_the_bits_of_its_shot(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct made made;
+    struct snapshot whole, alone;
+    char folders[3][128];
+    MADE(&made, &made_chain, &made_memory);
+    for (uint32_t i = 0; i < 3; i++) {
+        struct glint_capture *capture = load(fixture, &(struct fixture_options){.number = 61 + i});
+        char name[16];
+        made_run(fixture, &made, NULL);
+        snprintf(name, sizeof name, "shot%u", i);
+        fixture_write_run(fixture, name, folders[i]);
+        if (i == 2) {
+            snapshot_take(&whole, fixture->replay);
+            made_check_cuts(fixture, &made, (struct glint_replay_options){.history = folders[1]});
+            made_run(fixture, &made, &(struct glint_replay_options){.history = folders[0]});
+            assert_true(remembered(fixture).frames == 2.5f);
+            assert_false(glint_replay_write(fixture->replay, folders[0], NULL, NULL, &err));
+            fixture_says(&err, "expected another folder");
+        }
+        unload(fixture, capture);
+    }
+    struct glint_capture *capture = load(fixture, &(struct fixture_options){.number = 63});
+    made_run(fixture, &made, NULL);
+    assert_true(remembered(fixture).valid == 0); /* the frame before was 63 too */
+    made_run(fixture, &made, &(struct glint_replay_options){.history = folders[1]});
+    snapshot_take(&alone, fixture->replay);
+    assert_true(snapshot_compare(&alone, &whole) == whole.count);
+    snapshot_free(&whole), snapshot_free(&alone);
+    unload(fixture, capture);
+}
+
+/* Catches: cube maps worked on again in each frame of a shot, and ones that changed taken for the old. */
+static void cube_maps_in_a_file_of_their_own_are_worked_on_once(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    char path[128];
+    struct made made;
+    MADE(&made, glint_pass_find("cubemap_active", "nearest"), &made_cubes, &made_chain);
+    struct pipeline_pass swap = made.passes[1]; /* by slot's name */
+    made.passes[0].shader = NULL;
+    made.passes[1] = made.passes[2], made.passes[2] = swap;
+    for (int i = 0; i < 4; i++) {
+        snprintf(path, sizeof path, "%s/cubes.exr", fixture->folder);
+        if (i % 3 == 0 && !fixture_write_cubemaps(path, i, &err)) fail_msg("%s", err.message); /* others at last */
+        struct glint_capture *capture =
+            load(fixture, &(struct fixture_options){.number = 71 + (uint32_t)i, .cubemaps = "cubes.exr"});
+        made_run(fixture, &made, NULL);
+        assert_int_equal(fixture_result(fixture, "cubes")->cached, i == 1 || i == 2);
+        assert_true(fixture_result(fixture, "cubes")->cached_work);
+        assert_false(fixture_result(fixture, "chain")->cached);
+        unload(fixture, capture);
+    }
+}
+
+/* Catches: history that would be there in a shot and not in a folder, which holds no capture's images. */
+static void images_of_the_capture_are_not_remembered(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct glint_row rows[16];
+    struct glint_pass pass = made_memory;
+    struct made made;
+    memcpy(rows, made_memory.rows, made_memory.row_count * sizeof *rows);
+    for (size_t r = 0; r < made_memory.row_count; r++)
+        if (rows[r].kind == GLINT_ROW_HISTORY) rows[r].image = "depth_full";
+    pass.rows = rows;
+    MADE(&made, &made_chain, &pass);
+    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
+    fixture_says(&err, "memory/made remembers depth_full, an image of the capture");
+}
+
+static int restore(void **state) {
+    struct fixture *fixture = *state;
+    struct glint_error err = {0};
+    return !fixture->device || glint_replay_load(fixture->replay, fixture->capture, &err) ? 0 : -1;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(a_shot_remembers_and_a_cut_forgets, restore),
+        cmocka_unit_test_teardown(a_frame_run_twice_has_the_same_history, restore),
+        cmocka_unit_test_teardown(what_is_remembered_is_kept_though_nobody_asks_for_it, restore),
+        cmocka_unit_test_teardown(a_frame_alone_has_the_bits_of_its_shot, restore),
+        cmocka_unit_test_teardown(cube_maps_in_a_file_of_their_own_are_worked_on_once, restore),
+        cmocka_unit_test(images_of_the_capture_are_not_remembered),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
+}

@@ -1,0 +1,10 @@
+/* Remembers what it made in the frame before, and what another pass made then. */
+PASS("Memory", "made for tests")
+READ(texture2D, depth_full)
+READ(texture2D, chain)
+HISTORY(texture2D, sum_before, sum)
+HISTORY(texture2D, depth_before, depth_now)
+HISTORY(texture2D, chain_before, chain)
+WRITE(image2D, sum, RGBA32F, "1", FULL, "R G B A", 0.5, "frames since history began; whether it is valid; depth before; level 2 of chain before")
+WRITE(image2D, depth_now, R32F, "1", FULL, "Z", INFINITY, "depth_full")
+DISPATCH(sum)
