@@ -19,7 +19,21 @@ uint class_of(ivec2 pixel, ivec2 size) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = ivec2(frame.size.zw);
-    if (dispatch_phase == 0u) count_tile(cubemap_tiles, class_of(pixel, size));
-    else if (dispatch_phase == 1u) sum_tiles(tiles, cubemap_groups, tile_count(size));
-    else store_items(tiles, groups, cubemap_list, tile_count(size), pixel, class_of(pixel, size));
+    uint lane = gl_LocalInvocationIndex, group = workgroup_index(), tile_total = tile_count(size);
+    if (dispatch_phase == 0u) {
+        uint counts = counted_tile(class_of(pixel, size));
+        if (lane == 0u) imageStore(cubemap_tiles, list_texel(group), uvec4(counts));
+    } else if (dispatch_phase == 1u) {
+        if (64u * group >= tile_total) return;
+        uvec2 sums = summed_tiles(tiles, tile_total);
+        if (lane < 2u) imageStore(cubemap_groups, list_texel(2u * group + lane), uvec4(sums[lane]));
+    } else {
+        uint kind = class_of(pixel, size);
+        Places places = places_of(tiles, groups, tile_total, kind);
+        if (kind < CLASSES) imageStore(cubemap_list, list_texel(places.item), uvec4(item_of(pixel)));
+        if (group > 0u) return;
+        for (uint k = 0u; k < CLASSES; ++k)
+            if (places.filler[k] < places.ends[k]) imageStore(cubemap_list, list_texel(places.filler[k]), uvec4(NO_ITEM));
+        if (lane < 4u) imageStore(cubemap_list, ivec2(lane, 0), uvec4(places.header[lane]));
+    }
 }

@@ -7,6 +7,7 @@
 #include "march.pass.h"
 };
 #include "shared/camera.glsl"
+#include "shared/cubemap.glsl"
 #include "shared/end_reasons.glsl"
 #include "shared/random.glsl"
 #include "shared/steps.glsl"
@@ -44,27 +45,67 @@ int last_level(textureCubeArray map) { return textureQueryLevels(samplerCubeArra
 // A chain that no pass makes is one texel with one level.
 bool through_cocoon() { return depth == depth_capped && face_size(cocoon_distance) == int(frame.counts.z); }
 
-float distance_at(vec4 at, float level, bool smoothly) {
-    if (through_cocoon())
-        return smoothly ? textureLod(samplerCubeArray(cocoon_distance, linear_clamp), at, level).x
-                        : textureLod(samplerCubeArray(cocoon_distance, nearest_clamp), at, level).x;
-    if (level > 0.0 && last_level(cubemap_distance_mips) > 0)
-        return smoothly ? textureLod(samplerCubeArray(cubemap_distance_mips, linear_clamp), at, level).x
-                        : textureLod(samplerCubeArray(cubemap_distance_mips, nearest_clamp), at, level).x;
-    return smoothly ? textureLod(samplerCubeArray(cubemap_distance, linear_clamp), at, 0.0).x
-                    : textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x;
+// Four texels of a face between which a direction lies, in gather's order (0,1) (1,1) (1,0) (0,0), and where between. Near
+// the border the face's last two rows are continued. Interpolated here, because what a sampler makes of them may depend
+// on the neighbouring invocations, which are others when a list is worked on.
+struct Patch {
+    vec4 distance_m;
+    vec2 part;
+};
+
+Patch patch_of(textureCubeArray map, vec4 at, float level) {
+    int size = max(face_size(map) >> int(level), 1);
+    vec3 face = face_from_direction(at.xyz);
+    vec2 texel = face.xy * float(size) - 0.5, corner = clamp(floor(texel), vec2(0.0), vec2(max(size - 2, 0)));
+    Patch p;
+    p.part = texel - corner;
+    if (level == 0.0 && size > 1) {
+        vec3 between = direction_from_face(vec3((corner + 1.0) / float(size), face.z));
+        p.distance_m = textureGather(samplerCubeArray(map, nearest_clamp), vec4(between, at.w));
+        return p;
+    }
+    for (int i = 0; i < 4; ++i) {
+        vec2 place = min(corner + vec2(i == 1 || i == 2, i < 2), vec2(size - 1)) + 0.5;
+        vec3 direction = direction_from_face(vec3(place / float(size), face.z));
+        p.distance_m[i] = textureLod(samplerCubeArray(map, nearest_clamp), vec4(direction, at.w), level).x;
+    }
+    return p;
+}
+
+float nearest_of(Patch p) {
+    return p.part.x < 0.5 ? (p.part.y < 0.5 ? p.distance_m.w : p.distance_m.x)
+                          : (p.part.y < 0.5 ? p.distance_m.z : p.distance_m.y);
+}
+float mean_of(Patch p) {
+    return mix(mix(p.distance_m.w, p.distance_m.z, p.part.x), mix(p.distance_m.x, p.distance_m.y, p.part.x), p.part.y);
 }
 
 // Distance of the surface that a cube map sees in a direction; +inf for sky. Interpolation with a sky texel is inf or
 // NaN, and stays out: the nearest texel counts there, so that nothing but finite values or +inf comes back.
+float seen_in(textureCubeArray map, vec4 at, float level) {
+    if (!bilinear) {
+        float texel_m = textureLod(samplerCubeArray(map, nearest_clamp), at, level).x;
+        return texel_m < LARGEST ? texel_m : INFINITE;
+    }
+    Patch texels = patch_of(map, at, level);
+    float nearest_m = nearest_of(texels), smooth_m = mean_of(texels);
+    if (!(nearest_m < LARGEST)) return INFINITE;
+    if (!(abs(smooth_m) < LARGEST)) return nearest_m;
+    return clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
+}
+
 float seen_distance(vec3 from_center, uint place, float level) {
     vec4 at = vec4(from_center, place);
-    float nearest_m = distance_at(at, level, false);
-    if (!(nearest_m < LARGEST)) return INFINITE;
-    if (!bilinear) return nearest_m;
-    float smooth_m = distance_at(at, level, true);
-    if (!(smooth_m < LARGEST)) return nearest_m;
-    return clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
+    if (through_cocoon()) return seen_in(cocoon_distance, at, min(level, float(last_level(cocoon_distance))));
+    if (level > 0.0 && last_level(cubemap_distance_mips) > 0)
+        return seen_in(cubemap_distance_mips, at, min(level, float(last_level(cubemap_distance_mips))));
+    return seen_in(cubemap_distance, at, 0.0);
+}
+
+// Texture fetches that seen_distance() makes.
+uint fetches_of(float level) {
+    bool coarse = level > 0.0 && (through_cocoon() || last_level(cubemap_distance_mips) > 0);
+    return bilinear && coarse ? 4u : 1u;
 }
 
 float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
@@ -104,17 +145,16 @@ float leaves_cocoon(vec3 from_center, vec3 direction, float start_m, uint place,
     for (int i = 0; i <= cocoon_steps; ++i) {
         float part = float(i) / float(cocoon_steps), t = mix(first_m, last_m, part * part);
         vec3 at = from_center + direction * t;
-        ++fetches;
-        if (length(at) <= textureLod(samplerCubeArray(cocoon_distance, linear_clamp), vec4(at, place), level).x) {
+        fetches += 4u;
+        if (length(at) <= mean_of(patch_of(cocoon_distance, vec4(at, place), level))) {
             inside = true;
         } else if (inside) {
             float high_m = t;
             for (int k = 0; k < 8; ++k) {
                 float middle_m = 0.5 * (low_m + high_m);
                 at = from_center + direction * middle_m;
-                ++fetches;
-                bool in_front = length(at) <= textureLod(samplerCubeArray(cocoon_distance, linear_clamp), vec4(at, place), level).x;
-                if (in_front) low_m = middle_m;
+                fetches += 4u;
+                if (length(at) <= mean_of(patch_of(cocoon_distance, vec4(at, place), level))) low_m = middle_m;
                 else high_m = middle_m;
             }
             return 0.5 * (low_m + high_m);
@@ -177,18 +217,23 @@ Result capped(Result result, vec3 from_center, vec3 direction) {
     return result;
 }
 
+// The next sample is where the ray leaves the cube map's inner volume, so that a wall there lies between two samples.
+float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
+    return max(leaves_volume(active_volume, place, origin, direction, t) - step_m, t);
+}
+
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
 // the cube maps' spaces, so that nothing adds up; and the step grows only while no hit is being closed in on.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
     const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0);
     int longest = min(chain, int(frame.flags.z));
-    uint fetches = bilinear ? 2u : 1u;
+    uint fetches = fetches_of(quality.level);
     Result result = Result(start_m, best, END_steps_exhausted, 0u, 0u);
     vec3 from_center = origin - center_of(best);
     precise float step_m = quality.first_m;
     Sample front = NONE, behind = NONE, now = NONE;
     int used = 0, refined = 0;
-    if (skip_volume) now.t = leaves_volume(active_volume, best, origin, direction, now.t);
+    if (skip_volume) now.t = skipped(now.t, step_m, best, origin, direction);
     for (int i = 0; i < quality.steps; ++i) {
         result.steps++;
         result.fetches += fetches;
@@ -222,7 +267,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         from_center = origin - center_of(result.place);
         if (step_back) now.t -= step_m;
         else step_m *= quality.ratio;
-        if (skip_volume) now.t = leaves_volume(active_volume, result.place, origin, direction, now.t);
+        if (skip_volume) now.t = skipped(now.t, step_m, result.place, origin, direction);
         front = NONE; // what the last cube map saw says nothing about this one
         refined = 0;
     }

@@ -47,24 +47,26 @@ uvec3 group_counts(utexture2D groups, uint group) {
 uint tile_count(ivec2 size) { return uint((size.x + 7) / 8 * ((size.y + 7) / 8)); }
 uint workgroup_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
-// First step.
-void count_tile(writeonly uimage2D tiles, uint kind) {
-    uvec3 sum = workgroup_sum(one_of(kind));
-    if (gl_LocalInvocationIndex == 0u) imageStore(tiles, list_texel(workgroup_index()), uvec4(pack_tile(sum)));
-}
+// First step: what the tile's first invocation stores at list_texel(workgroup_index()).
+uint counted_tile(uint kind) { return pack_tile(workgroup_sum(one_of(kind))); }
 
-// Second step, on at least a 64th as many workgroups.
-void sum_tiles(utexture2D tiles, writeonly uimage2D groups, uint tile_total) {
-    uint group = workgroup_index(), tile = 64u * group + gl_LocalInvocationIndex;
-    if (64u * group >= tile_total) return;
+// Second step, on at least a 64th as many workgroups: what the first invocation of group workgroup_index() stores at
+// list_texel(2 · group) and at the next.
+uvec2 summed_tiles(utexture2D tiles, uint tile_total) {
+    uint tile = 64u * workgroup_index() + gl_LocalInvocationIndex;
     uvec3 sum = workgroup_sum(tile < tile_total ? unpack_tile(texelFetch(tiles, list_texel(tile), 0).x) : uvec3(0u));
-    if (gl_LocalInvocationIndex > 0u) return;
-    imageStore(groups, list_texel(2u * group), uvec4(sum.x | sum.y << 16u));
-    imageStore(groups, list_texel(2u * group + 1u), uvec4(sum.z));
+    return uvec2(sum.x | sum.y << 16u, sum.z);
 }
 
-// Third step. Each class begins at a multiple of 64, so that no workgroup of the list's reader holds two.
-void store_items(utexture2D tiles, utexture2D groups, writeonly uimage2D list, uint tile_total, ivec2 pixel, uint kind) {
+// Third step: where an invocation's item goes, and what the first tile has to add. Each class begins at a multiple of 64, so
+// that no workgroup of the list's reader holds two.
+struct Places {
+    uint item;           // if the pixel has a class
+    uvec3 filler, ends;  // each class's next free place, plus the invocation's number, and its end
+    uvec4 header;
+};
+
+Places places_of(utexture2D tiles, utexture2D groups, uint tile_total, uint kind) {
     uint tile = workgroup_index(), group = tile / 64u, lane = gl_LocalInvocationIndex;
     uvec3 before = uvec3(0u), all = uvec3(0u);
     for (uint i = lane; 64u * i < tile_total; i += 64u) {
@@ -75,13 +77,13 @@ void store_items(utexture2D tiles, utexture2D groups, writeonly uimage2D list, u
     if (lane < tile % 64u) before += unpack_tile(texelFetch(tiles, list_texel(64u * group + lane), 0).x);
     all = workgroup_sum(all);
     before = workgroup_sum(before) + workgroup_before(one_of(kind));
-    uvec3 ends = (all + 63u) / 64u * 64u, starts = uvec3(0u, ends.x, ends.x + ends.y);
-    if (kind < CLASSES) imageStore(list, list_texel(starts[kind] + before[kind]), uvec4(item_of(pixel)));
-    if (tile > 0u) return;
-    for (uint k = 0u; k < CLASSES; ++k)
-        if (all[k] + lane < ends[k]) imageStore(list, list_texel(starts[k] + all[k] + lane), uvec4(NO_ITEM));
-    uint total = starts.z + ends.z, across = min(total / 64u, 32768u);
-    uvec4 header = uvec4(across, across > 0u ? (total / 64u + across - 1u) / across : 1u, 1u, total);
-    if (lane < 4u) imageStore(list, ivec2(lane, 0), uvec4(header[lane]));
+    uvec3 lengths = (all + 63u) / 64u * 64u, starts = uvec3(0u, lengths.x, lengths.x + lengths.y);
+    uint total = starts.z + lengths.z, across = min(total / 64u, 32768u);
+    Places places;
+    places.item = kind < CLASSES ? starts[kind] + before[kind] : 0u;
+    places.filler = starts + all + lane;
+    places.ends = starts + lengths;
+    places.header = uvec4(across, across > 0u ? (total / 64u + across - 1u) / across : 1u, 1u, total);
+    return places;
 }
 #endif

@@ -227,6 +227,49 @@ static void cube_maps_alone_with_the_slides_steps(void **state) {
     rays_free(&r);
 }
 
+static void the_exact_tracer_is_exact(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_use(gpu, "cubemap_trace=exact");
+    gpu_set(gpu, "screen_trace.length_m=0");
+    gpu_run(gpu);
+    struct rays r = rays_of(gpu);
+    size_t floor, missed;
+    bool *marked = cubemap_hits(&r, &floor, &missed);
+    struct errors e = near_and_far(&r, marked, "exact");
+    print_message("# of %zu rays %zu found nothing\n", floor, missed);
+    assert_true(floor > 3000 && missed * 1000 < floor);
+    assert_true(e.median <= 0.001); /* what is asked of the reference */
+    assert_true(e.p99 <= 0.01); /* rays into corners, where a texel holds two walls: half a texel is 0.4 % at 45° */
+    free(marked);
+    rays_free(&r);
+}
+
+/* Inside an inner volume nothing is marched, and the walls of this one are the box itself. */
+static void an_inner_volume_is_skipped(void **state) {
+    struct gpu *gpu = *state;
+    size_t steps[2] = {0, 0};
+    for (int i = 0; i < 2; ++i) {
+        load(gpu);
+        gpu_set(gpu, "screen_trace.length_m=0");
+        fine_steps(gpu);
+        if (i == 1) gpu_set(gpu, "cubemap_trace.skip_volume=true");
+        gpu_run(gpu);
+        struct rays r = rays_of(gpu);
+        size_t floor, missed;
+        bool *marked = cubemap_hits(&r, &floor, &missed);
+        uint32_t *taken = gpu_uints(gpu, "cubemap_steps", NULL, NULL);
+        for (uint32_t k = 0; k < r.width * r.height; ++k) steps[i] += marked[k] ? taken[k] : 0;
+        struct errors e = near_and_far(&r, marked, i ? "inner volume skipped" : "inner volume marched");
+        assert_true(e.median <= 0.005 && e.p99 <= 0.03 && missed == 0);
+        free(taken);
+        free(marked);
+        rays_free(&r);
+    }
+    print_message("# %zu steps instead of %zu\n", steps[1], steps[0]);
+    assert_true(2 * steps[1] < steps[0]);
+}
+
 /* Floor rays whose end is seen: the box is convex, so that nothing is hidden inside the picture. */
 static bool *screen_hits(const struct rays *r, size_t *visible, size_t *found, size_t *invented) {
     bool *marked = calloc((size_t)r->width * r->height, 1);
@@ -406,6 +449,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cube_maps_alone_meet_the_closed_form),
         cmocka_unit_test(cube_maps_alone_with_the_slides_steps),
+        cmocka_unit_test(the_exact_tracer_is_exact),
+        cmocka_unit_test(an_inner_volume_is_skipped),
         cmocka_unit_test(the_screen_alone_meets_the_closed_form),
         cmocka_unit_test(rays_that_leave_the_screen_go_on_from_there),
         cmocka_unit_test(the_cube_map_trace_spends_its_length_after_the_screens),

@@ -1,0 +1,140 @@
+/* Lists of pixels by class: their order against one made here, and the bits of what is traced over them. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { LIST_WIDTH = 256, CLASSES = 3 };
+static const uint32_t no_item = 0xFFFFFFFF;
+
+/* Tiles that end inside the picture: half of it is 83 × 47. */
+static void load_street(struct gpu *gpu) {
+    gpu_sample(gpu, "street", "street", &(struct glint_sample_options){.width = 166, .height = 94, .cube_size = 32});
+    gpu_reset(gpu);
+    gpu_use(gpu, "cubemap_select=score");
+}
+
+static void with_lists(struct gpu *gpu) {
+    gpu_use(gpu, "classify=tiles");
+    gpu_use(gpu, "classify_unfinished=tiles");
+}
+
+/* Class of a pixel by its definition; CLASSES: no ray. */
+static int class_of(const float *depth, const float *normal, const uint32_t *finished, uint32_t i) {
+    const float *n = &normal[4 * i];
+    double length2 = (double)(n[0] * n[0]) + (double)(n[1] * n[1]) + (double)(n[2] * n[2]);
+    if (!(depth[i] > 0 && depth[i] < 3e38f && length2 > 0.25 && length2 < 4)) return CLASSES;
+    if (finished && finished[i]) return 2;
+    return n[3] <= 0.1f ? 0 : 1;
+}
+
+/* Walks tile by tile, once for each class, and compares item by item. Returns how many pixels each class has. */
+static void expect_list(struct gpu *gpu, const char *name, bool unfinished, uint32_t counts[CLASSES]) {
+    uint32_t width, height, list_width, list_height;
+    float *depth = gpu_floats(gpu, "depth_half", &width, &height),
+          *normal = gpu_floats(gpu, "normal_jittered", NULL, NULL);
+    uint32_t *finished = gpu_uints(gpu, "screen_finished", NULL, NULL);
+    uint32_t *list = gpu_uints(gpu, name, &list_width, &list_height), place = 0;
+    assert_int_equal(list_width, LIST_WIDTH);
+    for (int class = 0; class < CLASSES; ++class) {
+        counts[class] = 0;
+        for (uint32_t tile_y = 0; tile_y < height; tile_y += 8)
+            for (uint32_t tile_x = 0; tile_x < width; tile_x += 8)
+                for (uint32_t k = 0; k < 64; ++k) {
+                    uint32_t x = tile_x + k % 8, y = tile_y + k / 8;
+                    if (x >= width || y >= height) continue;
+                    if (class_of(depth, normal, unfinished ? finished : NULL, y * width + x) != class) continue;
+                    assert_int_equal(list[LIST_WIDTH + place], y << 16 | x);
+                    ++place;
+                    ++counts[class];
+                }
+        for (; place % 64; ++place) assert_int_equal(list[LIST_WIDTH + place], no_item);
+    }
+    const uint32_t header[4] = {place / 64, 1, 1, place};
+    assert_memory_equal(list, header, sizeof header);
+    assert_true(LIST_WIDTH + place <= list_width * list_height);
+    free(list);
+    free(finished);
+    free(normal);
+    free(depth);
+}
+
+static void lists_hold_each_ray_once_by_class_and_tile(void **state) {
+    struct gpu *gpu = *state;
+    uint32_t screen[CLASSES], cubemaps[CLASSES];
+    load_street(gpu);
+    with_lists(gpu);
+    gpu_run(gpu);
+    expect_list(gpu, "screen_list", false, screen);
+    expect_list(gpu, "cubemap_list", true, cubemaps);
+    print_message("# screen: %u smooth, %u rough; cube maps: %u smooth, %u rough, %u finished\n", screen[0], screen[1],
+                  cubemaps[0], cubemaps[1], cubemaps[2]);
+    assert_true(screen[0] > 100 && screen[1] > 100 && screen[2] == 0);
+    assert_true(cubemaps[0] > 50 && cubemaps[1] > 50 && cubemaps[2] > 50);
+    assert_int_equal(screen[0] + screen[1], cubemaps[0] + cubemaps[1] + cubemaps[2]);
+}
+
+static void one_pixel_makes_one_workgroup(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    uint32_t counts[CLASSES];
+    plain_capture(gpu_path(gpu, "one", path),
+                  &(struct plain){.width = 2, .height = 2, .roughness = 0.5f, .fov_y_degrees = 60});
+    gpu_load(gpu, "one");
+    gpu_reset(gpu);
+    with_lists(gpu);
+    gpu_run(gpu);
+    expect_list(gpu, "screen_list", false, counts);
+    assert_true(counts[0] == 0 && counts[1] == 1);
+}
+
+/* Catches: rays that a list loses, pixels outside it that keep what was in memory, arithmetic that depends on which
+   rays share a workgroup. */
+static void lists_change_no_bit(void **state) {
+    struct gpu *gpu = *state;
+    static const char *const images[] = {"screen_travelled", "screen_finished", "screen_end",    "screen_steps",
+                                         "cubemap_best",     "travelled",       "cubemap_index", "cubemap_end",
+                                         "cubemap_steps",    "cubemap_fetches", "composed"};
+    enum { IMAGES = sizeof images / sizeof images[0] };
+    static const char *const settings[] = {"cubemap_trace.fallback=cocoon", "cubemap_trace.depth=capped",
+                                           "cubemap_trace.rough_level=3"};
+    float *whole[IMAGES];
+    for (int i = 0; i < 2; ++i) {
+        load_street(gpu);
+        gpu_use(gpu, "cocoon=max");
+        gpu_use(gpu, "cubemap_mips=plain");
+        for (size_t k = 0; k < sizeof settings / sizeof settings[0]; ++k) gpu_set(gpu, settings[k]);
+        if (i == 1) with_lists(gpu);
+        gpu_run(gpu);
+        for (size_t k = 0; k < IMAGES; ++k) {
+            uint32_t width, height;
+            bool is_float = k == 0 || k == 5 || k == 10;
+            void *found = is_float ? (void *)gpu_floats(gpu, images[k], &width, &height)
+                                   : (void *)gpu_uints(gpu, images[k], &width, &height);
+            size_t bytes = 4 * (size_t)width * height * (k == 10 ? 4 : 1);
+            if (i == 0) whole[k] = found;
+            else {
+                if (memcmp(found, whole[k], bytes) != 0) fail_msg("%s differs", images[k]);
+                free(found);
+                free(whole[k]);
+            }
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_hold_each_ray_once_by_class_and_tile),
+        cmocka_unit_test(one_pixel_makes_one_workgroup),
+        cmocka_unit_test(lists_change_no_bit),
+    };
+    return cmocka_run_group_tests_name("gpu_classify", tests, gpu_set_up, gpu_tear_down);
+}
