@@ -4,5 +4,5 @@ PASS("Box filter", "000, Pre-filtering cube-maps (regular MIP chain)")
 #line 202
 SELF(textureCubeArray, finer_color, cubemap_color_mips)
 SELF(textureCubeArray, finer_distance, cubemap_distance_mips)
-#include "distances.h"
+#include "shared/join_rows.h"
 DISPATCH_LEVELS(cubemap_color_mips, 0, -1, down)

@@ -5,7 +5,7 @@ PASS("Pre-filtered for cones", "000, Pre-filtering cube-maps")
 WRITE(image2DArray, cubemap_color_box, RGBA16F, "radiance", CUBEMAPS_MIPS, "R G B A", 0, "the chain before the pre-filter")
 SELF(textureCubeArray, finer_color, cubemap_color_box)
 SELF(textureCubeArray, finer_distance, cubemap_distance_mips)
-#include "distances.h"
+#include "shared/join_rows.h"
 #include "shared/prefilter_rows.h"
 DISPATCH_LEVELS(cubemap_color_box, 0, -1, down)
 DISPATCH_LEVELS(cubemap_color_mips, 0, -1, down)
