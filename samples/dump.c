@@ -71,6 +71,12 @@ static void put3(struct part *part, const char *const names[3], struct storage s
 }
 
 static bool part_done(struct part *part, const struct dump *dump, struct glint_error *err) {
+    const struct glint_attribute settings = {
+        .name = "sampleSettings", .type = GLINT_ATTRIBUTE_STRING, .string = dump->settings};
+    if (dump->settings && !part->part.attribute_count) {
+        part->part.attributes = &settings;
+        part->part.attribute_count = 1;
+    }
     part->part.channels = part->channels;
     bool ok = part->failed ? glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", part->part.name)
                            : glint_writer_add_part(dump->writer, &part->part, err);

@@ -5,6 +5,8 @@
 #include "render.h"
 
 struct dump {
+    const char
+        *settings; /* what parts say they were made with, unless they have attributes of their own; NULL: nothing */
     struct glint_writer *writer;
     struct glint_encodings encodings;
     double pre_exposure; /* for pre-exposed colour */

@@ -1,4 +1,4 @@
-/* glTF 2 through Assimp: meshes, material factors, the first camera. */
+/* glTF 2 through Assimp: meshes, the first camera. */
 #include "gltf.h"
 
 #include <assimp/cimport.h>
@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "gltf_check.h"
+#include "gltf_material.h"
+#include "texture.h"
 
 enum { MAX_DEPTH = 64, VERTEX_BUDGET = 300000 };
 
@@ -27,25 +29,20 @@ static vec3 turned_normal(const struct aiMatrix4x4 *m, struct aiVector3D n) {
     return unit(dot(cross(x, y), z) < 0 ? scale(sum, -1) : sum);
 }
 
-static struct material read_material(const struct aiMaterial *from) {
-    struct material material = {
-        .albedo = gray(1), .roughness = 1, .metalness = 1, .specular = 0.5f, .stencil = STENCIL_WORLD};
-    struct aiColor4D color;
-    float number;
-    if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &color) == aiReturn_SUCCESS)
-        material.albedo = v3(clampf(color.r, 0, 1), clampf(color.g, 0, 1), clampf(color.b, 0, 1));
-    if (aiGetMaterialColor(from, AI_MATKEY_COLOR_EMISSIVE, &color) == aiReturn_SUCCESS)
-        material.emission = v3(clampf(color.r, 0, 1e4f), clampf(color.g, 0, 1e4f), clampf(color.b, 0, 1e4f));
-    if (aiGetMaterialFloat(from, AI_MATKEY_METALLIC_FACTOR, &number) == aiReturn_SUCCESS)
-        material.metalness = clampf(number, 0, 1);
-    if (aiGetMaterialFloat(from, AI_MATKEY_ROUGHNESS_FACTOR, &number) == aiReturn_SUCCESS)
-        material.roughness = clampf(number, 0, 1);
-    return material;
-}
-
 struct corner {
     vec3 position, normal;
+    struct skin skin;
 };
+
+static struct skin skin_between(const struct corner c[3], float w, float u, float v) {
+    const struct skin *a = &c[0].skin, *b = &c[1].skin, *d = &c[2].skin;
+    return (struct skin){.u = w * a->u + u * b->u + v * d->u,
+                         .v = w * a->v + u * b->v + v * d->v,
+                         .color = along(along(scale(a->color, w), b->color, u), d->color, v),
+                         .alpha = w * a->alpha + u * b->alpha + v * d->alpha,
+                         .tangent = along(along(scale(a->tangent, w), b->tangent, u), d->tangent, v),
+                         .bitangent = along(along(scale(a->bitangent, w), b->bitangent, u), d->bitangent, v)};
+}
 
 /* One triangle as a grid, so that baked light has vertices to live on. */
 static void add_divided(struct scene *scene, const struct corner c[3], uint32_t n) {
@@ -56,7 +53,9 @@ static void add_divided(struct scene *scene, const struct corner c[3], uint32_t 
             float v = (float)j / (float)n, u = (float)i / (float)n, w = 1 - u - v;
             vec3 p = add(add(scale(c[0].position, w), scale(c[1].position, u)), scale(c[2].position, v));
             vec3 normal = unit(add(add(scale(c[0].normal, w), scale(c[1].normal, u)), scale(c[2].normal, v)));
+            struct skin skin = skin_between(c, w, u, v);
             uint32_t index = scene_vertex(scene, p, normal);
+            scene_skin(scene, &skin);
             if (!i) row = index;
         }
         for (uint32_t i = 0; j && i + j <= n; i++) {
@@ -82,6 +81,8 @@ struct reading {
     size_t vertices; /* that dividing by `cell` would make */
     size_t triangles;
     bool bad;
+    struct glint_error *err;
+    bool failed; /* and said so */
 };
 
 static void visit_triangle(struct reading *r, const struct corner c[3]) {
@@ -98,10 +99,42 @@ static void visit_triangle(struct reading *r, const struct corner c[3]) {
     if (r->scene) add_divided(r->scene, c, (uint32_t)n);
 }
 
+/* Texture coordinates that lead nowhere are 0. */
+static float coordinate(float value) {
+    return fabsf(value) < 1e6f ? value : 0;
+}
+
+static struct skin skin_of(const struct aiMesh *mesh, unsigned i, const struct aiMatrix4x4 *m) {
+    struct skin skin = {.color = gray(1), .alpha = 1};
+    if (mesh->mTextureCoords[0]) {
+        skin.u = coordinate(mesh->mTextureCoords[0][i].x);
+        skin.v = 1 - coordinate(mesh->mTextureCoords[0][i].y); /* Assimp turns the images upside down */
+    }
+    if (mesh->mColors[0]) {
+        const struct aiColor4D *c = &mesh->mColors[0][i];
+        skin.color = v3(clampf(c->r, 0, 1), clampf(c->g, 0, 1), clampf(c->b, 0, 1));
+        skin.alpha = clampf(c->a, 0, 1);
+    }
+    if (mesh->mTangents && mesh->mBitangents) {
+        vec3 t = unit(transformed(m, mesh->mTangents[i], 0)), b = unit(transformed(m, mesh->mBitangents[i], 0));
+        /* none where a triangle has no extent on its image: then the mesh's own normal stays */
+        if (length(t) > 0.5f && length(b) > 0.5f) {
+            skin.tangent = t;
+            skin.bitangent = b;
+        }
+    }
+    return skin;
+}
+
 static void visit_mesh(struct reading *r, const struct aiMesh *mesh, const struct aiMatrix4x4 *m) {
     if (!(mesh->mPrimitiveTypes & aiPrimitiveType_TRIANGLE) || !mesh->mNormals) return;
     if (r->scene) {
-        struct material material = read_material(r->file->mMaterials[mesh->mMaterialIndex]);
+        struct material material;
+        if (r->failed) return;
+        if (!gltf_material(r->file, r->file->mMaterials[mesh->mMaterialIndex], r->path, r->scene, &material, r->err)) {
+            r->failed = true;
+            return;
+        }
         scene_mesh(r->scene, &material, MESH_PLAIN);
     }
     for (unsigned f = 0; f < mesh->mNumFaces; f++) {
@@ -111,6 +144,7 @@ static void visit_mesh(struct reading *r, const struct aiMesh *mesh, const struc
             unsigned index = mesh->mFaces[f].mIndices[i];
             c[i].position = transformed(m, mesh->mVertices[index], 1);
             c[i].normal = turned_normal(m, mesh->mNormals[index]);
+            if (r->scene) c[i].skin = skin_of(mesh, index, m);
         }
         visit_triangle(r, c);
     }
@@ -199,6 +233,7 @@ static bool take_over(struct reading *r, const struct gltf_facts *facts, struct 
     r->scene = scene;
     scene->cell = r->cell;
     visit(r);
+    if (r->failed) return false;
     return !scene->out_of_memory || glint_fail(err, GLINT_ERROR_MEMORY, "%s: no memory for its meshes", r->path);
 }
 
@@ -222,15 +257,16 @@ static bool all_there(const struct aiScene *file, uint64_t promised, const char 
 bool gltf_load(const char *path, struct scene *scene, struct glint_error *err) {
     struct gltf_facts facts;
     if (!gltf_check(path, &facts, err)) return false;
-    const struct aiScene *file = aiImportFile(path, aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                                        aiProcess_SortByPType | aiProcess_ValidateDataStructure);
+    const struct aiScene *file =
+        aiImportFile(path, aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_CalcTangentSpace |
+                               aiProcess_SortByPType | aiProcess_ValidateDataStructure);
     if (!file || !file->mRootNode) {
         const char *reason = aiGetErrorString();
         glint_fail(err, GLINT_ERROR_FORMAT, "%s: %s", path, reason && *reason ? reason : "not a glTF scene");
         if (file) aiReleaseImport(file);
         return false;
     }
-    struct reading reading = {.file = file, .path = path};
+    struct reading reading = {.file = file, .path = path, .err = err};
     bool ok = all_there(file, facts.triangles, path, err) && take_over(&reading, &facts, scene, err);
     aiReleaseImport(file);
     return ok;

@@ -4,8 +4,8 @@
 
 #include "scene.h"
 
-/* Base colour, roughness, metalness, emission (factors; textures are not read), normals, the first camera; a scene
-   without a camera is seen from where all of it fits. */
+/* Base colour, roughness, metalness, emission and normals, as factors, vertex colours and textures (PNG, JPEG; alpha
+   mask, but no blending), the first camera; a scene without a camera is seen from where all of it fits. */
 bool gltf_load(const char *path, struct scene *scene, struct glint_error *err);
 
 #endif

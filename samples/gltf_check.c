@@ -14,7 +14,8 @@ struct check {
     const char *path;
     struct glint_error *err;
     json_t *root;
-    uint64_t chunk_bytes; /* of a .glb's binary chunk */
+    const unsigned char *chunk; /* of a .glb */
+    uint64_t chunk_bytes;
     bool binary;
 };
 
@@ -70,6 +71,7 @@ static bool find_text(struct check *c, const unsigned char *data, size_t bytes, 
     if (at == bytes) return true;
     if (bytes - at < 8 || little_endian(data + at) > bytes - at - 8)
         return glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: its binary chunk is cut short", c->path);
+    c->chunk = data + at + 8;
     c->chunk_bytes = little_endian(data + at);
     return true;
 }
@@ -92,6 +94,21 @@ static bool refers(const struct check *c, const json_t *object, const char *key,
     return number(object, key, 0, &index) && index < json_array_size(json_object_get(c->root, into));
 }
 
+/* A path that leads nowhere but down. */
+static bool stays_inside(const char *uri) {
+    if (!*uri || *uri == '/' || strchr(uri, '\\') || strchr(uri, ':') || strlen(uri) > 1000) return false;
+    for (const char *at = uri; at; at = strchr(at, '/') ? strchr(at, '/') + 1 : NULL)
+        if (!strncmp(at, "..", 2) && (at[2] == '/' || !at[2])) return false;
+    return true;
+}
+
+static FILE *open_beside(const struct check *c, const char *uri) {
+    char path[8192];
+    const char *slash = strrchr(c->path, '/');
+    int n = snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash + 1 - c->path) : 0, c->path, uri);
+    return n > 0 && (size_t)n < sizeof path ? fopen(path, "rb") : NULL;
+}
+
 static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) {
     uint64_t bytes, there = 0;
     const char *uri = json_string_value(json_object_get(buffer, "uri"));
@@ -101,12 +118,8 @@ static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) 
         const char *comma = strchr(uri, ',');
         there = comma ? strlen(comma + 1) / 4 * 3 : 0;
     } else {
-        char path[4096];
-        size_t folder = strrchr(c->path, '/') ? (size_t)(strrchr(c->path, '/') + 1 - c->path) : 0;
-        if (strchr(uri, '/') || strchr(uri, '\\') || strchr(uri, ':'))
-            return bad(c, "buffer", i, "its file must lie beside the glTF file");
-        snprintf(path, sizeof path, "%.*s%s", (int)folder, c->path, uri);
-        FILE *file = fopen(path, "rb");
+        if (!stays_inside(uri)) return bad(c, "buffer", i, "its file must lie in the glTF file's folder or below");
+        FILE *file = open_beside(c, uri);
         long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
         if (file) fclose(file);
         if (end < 0) return bad(c, "buffer", i, "its file is missing");
@@ -143,11 +156,74 @@ static uint64_t element_bytes(const json_t *accessor) {
     return 0;
 }
 
+/* Reads a part of a buffer; of data: URIs nothing. */
+static bool read_buffer(const struct check *c, uint64_t buffer, uint64_t offset, unsigned char *out, size_t bytes) {
+    const json_t *found = json_array_get(json_object_get(c->root, "buffers"), (size_t)buffer);
+    const char *uri = json_string_value(json_object_get(found, "uri"));
+    if (!uri) {
+        if (!c->chunk || buffer || offset + bytes > c->chunk_bytes) return false;
+        memcpy(out, c->chunk + offset, bytes);
+        return true;
+    }
+    FILE *file = strncmp(uri, "data:", 5) ? open_beside(c, uri) : NULL;
+    bool ok = file && !fseek(file, (long)offset, SEEK_SET) && fread(out, 1, bytes, file) == bytes;
+    if (file) fclose(file);
+    return ok;
+}
+
+/* Where a sparse accessor's indices or values begin in their buffer; false unless all of them are there. */
+static bool place_of(const struct check *c, const json_t *what, uint64_t bytes, uint64_t *buffer, uint64_t *at) {
+    uint64_t index, offset, start, room;
+    if (!number(what, "bufferView", UINT64_MAX, &index) || !number(what, "byteOffset", 0, &offset)) return false;
+    const json_t *view = json_array_get(json_object_get(c->root, "bufferViews"), (size_t)index);
+    if (!view || json_object_get(view, "byteStride") || !number(view, "buffer", 0, buffer) ||
+        !number(view, "byteOffset", 0, &start) || !number(view, "byteLength", 0, &room))
+        return false;
+    *at = start + offset;
+    return offset + bytes <= room;
+}
+
+static bool indices_below(const unsigned char *bytes, uint64_t count, uint64_t size, uint64_t limit) {
+    uint64_t last = 0;
+    for (uint64_t k = 0; k < count; k++) {
+        uint64_t index = 0;
+        for (uint64_t b = 0; b < size; b++) index |= (uint64_t)bytes[k * size + b] << 8 * b;
+        if (index >= limit || (k && index <= last)) return false;
+        last = index;
+    }
+    return true;
+}
+
+/* The importer writes wherever the indices say. */
+static bool check_sparse(const struct check *c, size_t i, const json_t *accessor, uint64_t element) {
+    const uint64_t most = (uint64_t)1 << 28;
+    const json_t *sparse = json_object_get(accessor, "sparse"), *indices = json_object_get(sparse, "indices");
+    uint64_t all, count, component, view, stride, buffer, at;
+    if (!number(accessor, "count", 0, &all) || !number(sparse, "count", 0, &count) || !count || count > all ||
+        all * element > most)
+        return bad(c, "accessor", i, "its sparse count is out of range");
+    if (!number(accessor, "bufferView", UINT64_MAX - 1, &view) || !number(indices, "componentType", 0, &component))
+        return bad(c, "accessor", i, "a sparse index is out of range");
+    const json_t *base = json_array_get(json_object_get(c->root, "bufferViews"), (size_t)view);
+    if (!number(base, "byteStride", element, &stride) || stride != element)
+        return bad(c, "accessor", i, "sparse over interleaved elements is not supported");
+    uint64_t size = component == 5121 ? 1 : component == 5123 ? 2 : component == 5125 ? 4 : 0;
+    if (!size || !place_of(c, json_object_get(sparse, "values"), count * element, &buffer, &at) ||
+        !place_of(c, indices, count * size, &buffer, &at))
+        return bad(c, "accessor", i, "its sparse indices or values are not there");
+    unsigned char *bytes = malloc((size_t)(count * size));
+    bool ok =
+        bytes && read_buffer(c, buffer, at, bytes, (size_t)(count * size)) && indices_below(bytes, count, size, all);
+    free(bytes);
+    return ok || bad(c, "accessor", i, "its sparse indices do not rise below its count (or are in a data: URI)");
+}
+
 static bool check_accessor(const struct check *c, size_t i, const json_t *accessor) {
     uint64_t view, offset, count, stride, room, size = element_bytes(accessor);
     const json_t *views = json_object_get(c->root, "bufferViews");
     if (!size) return bad(c, "accessor", i, "unknown type or componentType");
-    if (json_object_get(accessor, "sparse")) return bad(c, "accessor", i, "sparse accessors are not supported");
+    if (json_object_get(accessor, "sparse") && !check_sparse(c, i, accessor, size)) return false;
+    if (json_object_get(accessor, "sparse") && !json_object_get(accessor, "bufferView")) return true;
     if (!number(accessor, "bufferView", UINT64_MAX, &view) || view >= json_array_size(views))
         return bad(c, "accessor", i, "no such bufferView");
     const json_t *found = json_array_get(views, (size_t)view);
@@ -181,6 +257,30 @@ static bool attributes_match(const struct check *c, const json_t *attributes, ui
         if (!accessor || !number(accessor, "count", 0, &count) || count != vertices) return false;
         if ((!strcmp(key, "NORMAL") || !strcmp(key, "POSITION")) && !is_type(accessor, "VEC3")) return false;
     }
+    return true;
+}
+
+static bool check_image(const struct check *c, size_t i, const json_t *image) {
+    const char *uri = json_string_value(json_object_get(image, "uri"));
+    if (!uri && !json_object_get(image, "bufferView")) return bad(c, "image", i, "has neither uri nor bufferView");
+    if (!refers(c, image, "bufferView", "bufferViews")) return bad(c, "image", i, "no such bufferView");
+    if (uri && strncmp(uri, "data:", 5) && !stays_inside(uri))
+        return bad(c, "image", i, "its file must lie in the glTF file's folder or below");
+    return true;
+}
+
+static bool check_texture(const struct check *c, size_t i, const json_t *texture) {
+    return (refers(c, texture, "source", "images") && refers(c, texture, "sampler", "samplers")) ||
+           bad(c, "texture", i, "no such image or sampler");
+}
+
+static bool check_material(const struct check *c, size_t i, const json_t *material) {
+    const json_t *pbr = json_object_get(material, "pbrMetallicRoughness");
+    const json_t *uses[] = {json_object_get(pbr, "baseColorTexture"), json_object_get(pbr, "metallicRoughnessTexture"),
+                            json_object_get(material, "normalTexture"), json_object_get(material, "emissiveTexture"),
+                            json_object_get(material, "occlusionTexture")};
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
+        if (uses[k] && !refers(c, uses[k], "index", "textures")) return bad(c, "material", i, "no such texture");
     return true;
 }
 
@@ -273,6 +373,7 @@ static bool check_all(const struct check *c) {
         const char *array;
         bool (*check)(const struct check *, size_t, const json_t *);
     } parts[] = {{"buffers", check_buffer}, {"bufferViews", check_view}, {"accessors", check_accessor},
+                 {"images", check_image},   {"textures", check_texture}, {"materials", check_material},
                  {"meshes", check_mesh},    {"nodes", check_node},       {"scenes", check_scenes}};
     const char *version = json_string_value(json_object_get(json_object_get(c->root, "asset"), "version"));
     if (!version || version[0] != '2')

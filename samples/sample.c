@@ -8,6 +8,7 @@
 #include "gltf.h"
 #include "probes.h"
 #include "scenes.h"
+#include "settings.h"
 
 static const struct glint_sample samples[] = {
 #define ROW(name, summary) {#name, summary},
@@ -44,6 +45,7 @@ struct session {
     struct truth *truth;
     uint32_t light_samples;
     char cubemaps_path[4096];
+    char settings[72]; /* of the scene and options; in a shot, the cube maps' hash is appended */
 };
 
 static bool check_encodings(const struct glint_encodings *e, struct glint_error *err) {
@@ -213,7 +215,8 @@ static bool write_frame(struct session *s, const char *path, uint32_t number, bo
     for (uint32_t i = 0; i < 3; i++)
         views[i] = view_at(&s->scene, o, o->width, o->height, (int64_t)number - (int64_t)i);
     struct glint_frame frame = frame_of_views(s, &views[0], &views[1], number);
-    struct dump dump = {.encodings = o->encodings, .pre_exposure = frame.pre_exposure, .view = &views[0]};
+    struct dump dump = {
+        .encodings = o->encodings, .pre_exposure = frame.pre_exposure, .view = &views[0], .settings = s->settings};
     if (!make_worlds(s, (double)number - 1, err) || !render_views(s, views, rendered, err)) return false;
     dump.writer = glint_writer_create(
         path, &(struct glint_writer_options){.compression = o->compression, .threads = o->threads}, err);
@@ -225,7 +228,7 @@ static bool write_frame(struct session *s, const char *path, uint32_t number, bo
 }
 
 static bool write_shared_cubemaps(struct session *s, struct glint_error *err) {
-    struct dump dump = {.encodings = s->options.encodings, .pre_exposure = 1};
+    struct dump dump = {.encodings = s->options.encodings, .pre_exposure = 1, .settings = s->settings};
     if (dump.encodings.color == GLINT_COLOR_PRE_EXPOSED) dump.pre_exposure = PRE_EXPOSURE;
     dump.writer = glint_writer_create(
         s->cubemaps_path,
@@ -244,21 +247,6 @@ static bool name_file(char *path, size_t room, const char *out, const char *infi
     return n >= 0 && (size_t)n < room ? true : glint_fail(err, GLINT_ERROR_USAGE, "%.200s: the path is too long", out);
 }
 
-static bool write_files(struct session *s, struct glint_error *err) {
-    uint32_t first = s->options.first_frame, frames = s->options.frames;
-    if (frames == 1) return write_frame(s, s->out, first, false, false, err);
-    if (!name_file(s->cubemaps_path, sizeof s->cubemaps_path, s->out, ".cubemaps", err) ||
-        !write_shared_cubemaps(s, err))
-        return false;
-    for (uint32_t i = 0; i < frames; i++) {
-        char path[4096], infix[32];
-        snprintf(infix, sizeof infix, ".%04u", first + i);
-        if (!name_file(path, sizeof path, s->out, infix, err) || !write_frame(s, path, first + i, i > 0, true, err))
-            return false;
-    }
-    return true;
-}
-
 /* ---- From options to a session ---- */
 
 static void set_defaults(struct session *s) {
@@ -272,6 +260,9 @@ static void set_defaults(struct session *s) {
     if (!o->first_frame) o->first_frame = 1;
     if (!o->probes_given) o->probes = s->scene.probes;
     s->light_samples = o->light_samples ? o->light_samples : s->scene.light_samples;
+    struct view first = view_at(&s->scene, o, o->width, o->height, 1);
+    s->scene.seen_from = view_eye(&first);
+    s->scene.pixel_rad = first.pixel_rad;
 }
 
 static double total_work(const struct session *s) {
@@ -296,6 +287,61 @@ static bool prepare(struct session *s, struct glint_error *err) {
     return s->probes != NULL;
 }
 
+/* ---- All files; a shot that was interrupted is completed ---- */
+
+/* Frames name the cube maps by what they are, so that frames made with others are not taken for complete. */
+static bool append_cubemaps_hash(struct session *s) {
+    char hex[33];
+    bool ok = settings_file_hash(s->cubemaps_path, hex);
+    if (ok) snprintf(s->settings + 32, sizeof s->settings - 32, "-%s", hex);
+    return ok;
+}
+
+static bool name_frame(const struct session *s, uint32_t number, char *path, size_t room, struct glint_error *err) {
+    char infix[32];
+    snprintf(infix, sizeof infix, ".%04u", number);
+    return name_file(path, room, s->out, infix, err);
+}
+
+/* The number of frames that are there already, complete and with these settings. */
+static bool count_kept(const struct session *s, uint32_t *kept, struct glint_error *err) {
+    char path[4096];
+    *kept = 0;
+    for (uint32_t i = 0; i < s->options.frames; i++) {
+        if (!name_frame(s, s->options.first_frame + i, path, sizeof path, err)) return false;
+        *kept += settings_kept(path, "gbuffer", s->settings);
+    }
+    return true;
+}
+
+static bool write_shot(struct session *s, struct glint_error *err) {
+    uint32_t kept = 0, first = s->options.first_frame;
+    bool rendered = false;
+    char path[4096];
+    if (!name_file(s->cubemaps_path, sizeof s->cubemaps_path, s->out, ".cubemaps", err)) return false;
+    if (append_cubemaps_hash(s) && !count_kept(s, &kept, err)) return false;
+    if (kept == s->options.frames) return true;
+    if (!prepare(s, err)) return false;
+    /* no frame vouches for the cube maps that may be there */
+    if (!kept) s->settings[32] = 0;
+    if (!kept && !write_shared_cubemaps(s, err)) return false;
+    if (!kept && !append_cubemaps_hash(s))
+        return glint_fail(err, GLINT_ERROR_IO, "%.400s: cannot be read again", s->cubemaps_path);
+    for (uint32_t i = 0; i < s->options.frames; i++) {
+        if (!name_frame(s, first + i, path, sizeof path, err)) return false;
+        bool there = settings_kept(path, "gbuffer", s->settings);
+        if (!there && !write_frame(s, path, first + i, rendered, true, err)) return false;
+        rendered = !there;
+    }
+    return true;
+}
+
+static bool write_files(struct session *s, struct glint_error *err) {
+    if (!settings_hash(&s->scene, &s->options, s->settings, err)) return false;
+    if (s->options.frames > 1) return write_shot(s, err);
+    return prepare(s, err) && write_frame(s, s->out, s->options.first_frame, false, false, err);
+}
+
 bool glint_sample_write(const char *scene, const char *out, const struct glint_sample_options *options,
                         glint_progress progress, void *user, struct glint_error *err) {
     struct session s = {.out = out, .options = options ? *options : (struct glint_sample_options){0}};
@@ -303,7 +349,7 @@ bool glint_sample_write(const char *scene, const char *out, const struct glint_s
     bool ok = check_options(&s.options, err) && build_scene(scene, &s, err);
     if (ok) {
         set_defaults(&s);
-        ok = prepare(&s, err) && write_files(&s, err);
+        ok = write_files(&s, err);
     }
     world_destroy(&s.now);
     world_destroy(&s.before);

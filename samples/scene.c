@@ -1,6 +1,8 @@
 /* Scenes: memory, and what is added one at a time. */
 #include "scene.h"
 
+#include "texture.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,9 +22,18 @@ void scene_finish(struct scene *scene) {
         struct mesh *mesh = &scene->meshes[i];
         free(mesh->positions);
         free(mesh->normals);
+        free(mesh->skins);
         free(mesh->light);
         free(mesh->triangles);
     }
+    for (uint32_t i = 0; i < scene->look_count; i++) free(scene->looks[i]);
+    for (uint32_t i = 0; i < scene->texture_count; i++) {
+        free(scene->textures[i]->name);
+        free(scene->textures[i]->texels);
+        free(scene->textures[i]);
+    }
+    free(scene->looks);
+    free(scene->textures);
     free(scene->meshes);
     *scene = (struct scene){0};
 }
@@ -71,6 +82,36 @@ uint32_t scene_vertex(struct scene *scene, vec3 position, vec3 normal) {
     mesh->positions[mesh->vertex_count] = add(turned(scene, position), scene->place);
     mesh->normals[mesh->vertex_count] = turned(scene, normal);
     return mesh->vertex_count++;
+}
+
+void scene_skin(struct scene *scene, const struct skin *skin) {
+    if (scene->out_of_memory || !scene->mesh_count) return;
+    struct mesh *mesh = &scene->meshes[scene->mesh_count - 1];
+    if (grow(&mesh->skins, &mesh->skin_room, mesh->skin_count + 1, sizeof *skin))
+        mesh->skins[mesh->skin_count++] = *skin;
+    else scene->out_of_memory = true;
+}
+
+struct look *scene_look(struct scene *scene, const struct look *look) {
+    struct look *kept = malloc(sizeof *kept);
+    if (!kept || !grow(&scene->looks, &scene->look_room, scene->look_count + 1, sizeof kept)) {
+        free(kept);
+        scene->out_of_memory = true;
+        return NULL;
+    }
+    *kept = *look;
+    return scene->looks[scene->look_count++] = kept;
+}
+
+struct texture *scene_texture(struct scene *scene, const struct texture *texture) {
+    struct texture *kept = malloc(sizeof *kept);
+    if (!kept || !grow(&scene->textures, &scene->texture_room, scene->texture_count + 1, sizeof kept)) {
+        free(kept);
+        scene->out_of_memory = true;
+        return NULL;
+    }
+    *kept = *texture;
+    return scene->textures[scene->texture_count++] = kept;
 }
 
 void scene_triangle(struct scene *scene, uint32_t a, uint32_t b, uint32_t c) {

@@ -16,10 +16,15 @@ struct surface {
     uint32_t stencil;
 };
 
+struct look;
+struct skin;
+struct texture;
+
 struct material {
     vec3 albedo, emission; /* averages, when there is a paint: baked light uses them */
     float roughness, metalness, specular;
     uint32_t stencil;
+    const struct look *look; /* of a glTF material; NULL: the values above hold everywhere. Needs the mesh's skins */
     void (*paint)(struct surface *surface); /* detail by code; colours must depend on position and normal alone */
 };
 
@@ -35,10 +40,11 @@ struct mesh {
     uint32_t flags;
     vec3 step;
     vec3 *positions, *normals;
-    vec3 *light; /* baked irradiance at each vertex, sky and all bounces */
+    struct skin *skins; /* as many as vertices, or NULL */
+    vec3 *light;        /* baked irradiance at each vertex, sky and all bounces */
     uint32_t *triangles;
     uint32_t vertex_count, triangle_count;
-    uint32_t vertex_room, triangle_room;
+    uint32_t vertex_room, triangle_room, skin_count, skin_room;
 };
 
 struct light {
@@ -61,6 +67,9 @@ struct contact {
 struct scene {
     struct mesh *meshes;
     uint32_t mesh_count, mesh_room;
+    struct look **looks; /* the materials' own; freed with the scene */
+    struct texture **textures;
+    uint32_t look_count, look_room, texture_count, texture_room;
     bool out_of_memory; /* sticky: building goes on as a no-op */
 
     /* Where shapes are put: rotated about +Y, then moved. */
@@ -78,6 +87,10 @@ struct scene {
     float gain;                         /* of every source of light, so that the picture needs no exposure */
     bool unlit;                         /* radiance is emission alone */
     uint32_t light_samples, bounces;    /* of baked light, by default */
+
+    /* Texture detail is chosen for a camera that stays here, so that a point looks the same from everywhere. */
+    vec3 seen_from;
+    float pixel_rad;
 
     vec3 eye, target;           /* at frame 1 */
     vec3 eye_step, target_step; /* each frame */
@@ -103,6 +116,11 @@ void scene_mesh(struct scene *scene, const struct material *material, uint32_t f
 /* Shapes that follow are put at `place`, turned about +Y. */
 void scene_place(struct scene *scene, vec3 place, float turn_rad);
 uint32_t scene_vertex(struct scene *scene, vec3 position, vec3 normal);
+/* Call it once after each scene_vertex of a mesh whose material has a look. */
+void scene_skin(struct scene *scene, const struct skin *skin);
+/* Copies that the scene frees; NULL, and out of memory, when there is none. */
+struct look *scene_look(struct scene *scene, const struct look *look);
+struct texture *scene_texture(struct scene *scene, const struct texture *texture);
 void scene_triangle(struct scene *scene, uint32_t a, uint32_t b, uint32_t c);
 
 /* Parallelogram seen from where u × v points to. */

@@ -4,6 +4,8 @@
 #include <embree3/rtcore.h>
 #include <stdlib.h>
 
+#include "texture.h"
+
 struct world {
     const struct scene *scene;
     enum world_kind kind;
@@ -26,6 +28,12 @@ static bool part_of(const struct mesh *mesh, enum world_kind kind) {
     return !(mesh->flags & left_out[kind]);
 }
 
+/* Rays are traced one at a time. */
+static void pass_holes(const struct RTCFilterFunctionNArguments *found) {
+    const struct RTCHit *hit = (const struct RTCHit *)(const void *)found->hit;
+    if (look_hole(found->geometryUserPtr, hit->primID, hit->u, hit->v)) found->valid[0] = 0;
+}
+
 static bool attach(struct world *world, const struct mesh *mesh, struct glint_error *err) {
     RTCGeometry geometry = rtcNewGeometry(world->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     vec3 *positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
@@ -38,6 +46,11 @@ static bool attach(struct world *world, const struct mesh *mesh, struct glint_er
     for (uint32_t i = 0; i < mesh->vertex_count; i++) positions[i] = add(mesh->positions[i], moved);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->triangles, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
+    if (mesh->material.look && mesh->material.look->cutoff > 0) {
+        rtcSetGeometryUserData(geometry, (void *)(uintptr_t)mesh);
+        rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(world->tree, geometry, world->mesh_count);
     rtcReleaseGeometry(geometry);
@@ -103,6 +116,8 @@ static void fill_hit(const struct world *world, const struct RTCRayHit *found, v
                      : gray(0);
     hit->mesh = mesh;
     hit->triangle = found->hit.primID;
+    hit->u = u;
+    hit->v = v;
 }
 
 struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min) {
@@ -163,6 +178,7 @@ struct surface world_surface(const struct world *world, const struct hit *hit, f
                               .metalness = material->metalness,
                               .specular = material->specular,
                               .stencil = material->stencil};
+    if (material->look) look_apply(hit->mesh, hit->triangle, hit->u, hit->v, &surface);
     if (material->paint) material->paint(&surface);
     surface.emission = scale(surface.emission, world->scene->gain);
     if (world->kind == WORLD_SIMPLIFIED) surface.metalness = 0;
@@ -208,11 +224,19 @@ static float contact_shade(const struct world *world, vec3 position) {
     return shade;
 }
 
+/* The footprint of the scene's own camera, which does not depend on who looks. */
+static float seen_footprint(const struct world *world, const struct hit *hit) {
+    vec3 way = sub(world->scene->seen_from, hit->position);
+    float distance = length(way), cosine = fabsf(dot(way, hit->geometric)) / fmaxf(distance, 1e-6f);
+    return distance * world->scene->pixel_rad / fmaxf(cosine, 0.05f);
+}
+
 vec3 world_radiance(const struct world *world, const struct hit *hit) {
-    struct surface surface = world_surface(world, hit, 0);
+    const struct look *look = hit->mesh->material.look;
+    struct surface surface = world_surface(world, hit, look ? seen_footprint(world, hit) : 0);
     if (world->scene->unlit) return surface.emission;
     float shade = hit->mesh->flags & MESH_MOVING ? 1 : contact_shade(world, hit->position);
-    vec3 irradiance = along(world_direct(world, hit->position, hit->normal), hit->light, shade);
+    vec3 irradiance = along(world_direct(world, hit->position, look ? surface.normal : hit->normal), hit->light, shade);
     vec3 albedo = scale(surface.albedo, (1 - surface.metalness) / PI_F);
     return add(surface.emission, times(albedo, irradiance));
 }

@@ -18,6 +18,7 @@ struct hit {
     vec3 light;     /* baked irradiance */
     const struct mesh *mesh;
     uint32_t triangle;
+    float u, v;       /* barycentric */
     bool from_behind; /* of the triangle */
 };
 

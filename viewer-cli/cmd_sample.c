@@ -290,7 +290,9 @@ const struct command cmd_sample = {
     .description =
         "Renders a built-in scene or a glTF file and dumps it as an engine would: G-buffer, lit colour, cube "
         "maps, sky, camera, and on request the path traced truth. The same options give the same bytes. Of a glTF "
-        "file's materials the factors are used (base colour, roughness, metalness, emission), not the textures.",
+        "file's materials the factors, vertex colours and textures (PNG, JPEG) are used; masked alpha cuts out, "
+        "blended alpha is opaque. A shot that was interrupted is completed: frames already there with the same "
+        "settings are kept.",
     .options = options,
     .parse = parse,
     .examples = examples,

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* A square of 4 x 4 m around the origin, facing +Y, in its own space: four positions, then six 16-bit indices. */
 static void write_bin(const char *path) {
@@ -186,6 +187,74 @@ static void test_files_that_lie_are_refused(void **state) {
     }
 }
 
+/* The square with its corner 2 moved by a sparse accessor, from a file in a folder below. */
+static void write_sparse(void **state, const char *path, uint16_t index, const char *from, const char *to) {
+    static const float moved[3] = {2, 0, 5};
+    static char sparse[4096];
+    const char *at = strstr(text, "\"min\""), *views = strstr(text, "12}],"),
+               *uri = strstr(text, "60,\"uri\":\"square");
+    mkdir(in_folder(state, "data"), 0700);
+    write_bin(in_folder(state, "data/square.bin"));
+    FILE *file = fopen(in_folder(state, "data/square.bin"), "ab");
+    assert_non_null(file);
+    assert_int_equal(fwrite(moved, sizeof moved, 1, file), 1);
+    assert_int_equal(fwrite(&index, sizeof index, 1, file), 1);
+    fclose(file);
+    snprintf(sparse, sizeof sparse,
+             "%.*s\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":2,\"componentType\":5123},"
+             "\"values\":{\"bufferView\":3}},%.*s12},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":2},"
+             "{\"buffer\":0,\"byteOffset\":60,\"byteLength\":12}],%.*s74,\"uri\":\"data/%s",
+             (int)(at - text), text, (int)(views - at), at, (int)(uri - views - 5), views + 5, uri + 10);
+    const char *mark = from ? strstr(sparse, from) : sparse;
+    assert_non_null(mark);
+    file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "%.*s%s%s", (int)(mark - sparse), sparse, from ? to : "", from ? mark + strlen(from) : mark);
+    fclose(file);
+}
+
+static void test_sparse_values_arrive(void **state) {
+    struct glint_sample_options o = options();
+    o.camera_given = true;
+    o.eye[1] = 30;
+    o.eye[2] = 1;
+    const char *path = in_folder(state, "sparse.gltf");
+    write_sparse(state, path, 2, NULL, NULL);
+    write_sample(path, in_folder(state, "sparse.exr"), &o);
+    struct glint_capture *capture = open_capture(in_folder(state, "sparse.exr"));
+    float *depth = read_part(capture, "gbuffer", "depth.Z", NULL, NULL);
+    /* near the corner (2, 0, 5), which was (2, 0, 2): the matrix makes (2x, -1.8z, 2.4z) of it */
+    const double points[2][2] = {{1.8, 4.2}, {-1.8, 4.2}};
+    for (int i = 0; i < 2; i++) {
+        double at[3] = {2 * points[i][0], -1.8 * points[i][1], 2.4 * points[i][1]}, uv[2];
+        camera_project(&glint_capture_frame(capture)->camera, at, uv);
+        assert_true(uv[0] > 0 && uv[0] < 1 && uv[1] > 0 && uv[1] < 1);
+        assert_int_equal(isinf(depth[(size_t)(uv[1] * H) * W + (size_t)(uv[0] * W)]) != 0, i);
+    }
+    free(depth);
+    glint_capture_close(&capture);
+}
+
+static void test_sparse_lies_are_refused(void **state) {
+    static const char *const lies[][2] = {
+        {"\"sparse\":{\"count\":1", "\"sparse\":{\"count\":5"},
+        {"\"sparse\":{\"count\":1", "\"sparse\":{\"count\":2"},
+        {"\"bufferView\":2,\"componentType\":5123", "\"bufferView\":2,\"componentType\":5125"},
+        {"\"bufferView\":2,\"componentType\":5123", "\"bufferView\":9,\"componentType\":5123"},
+        {"\"values\":{\"bufferView\":3", "\"values\":{\"bufferView\":2"},
+        {"\"values\":{\"bufferView\":3", "\"values\":{\"bufferView\":3,\"byteOffset\":4"},
+        {"data/square", "data/../data/square"},
+    };
+    char path[512];
+    snprintf(path, sizeof path, "%s", in_folder(state, "sparse.gltf"));
+    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
+        write_sparse(state, path, 2, lies[i][0], lies[i][1]);
+        refuse(state, path, GLINT_ERROR_FORMAT);
+    }
+    write_sparse(state, path, 60000, NULL, NULL); /* the importer would write there */
+    refuse(state, path, GLINT_ERROR_FORMAT);
+}
+
 static void test_indices_behind_the_vertices_are_refused(void **state) {
     static const float positions[12] = {-2, 0, -2, 2, 0, -2, 2, 0, 2, -2, 0, 2};
     static const uint16_t indices[6] = {0, 2, 60000, 0, 3, 2};
@@ -238,6 +307,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_without_camera_all_of_it_is_seen, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_given_camera_wins, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_files_that_lie_are_refused, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_sparse_values_arrive, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_sparse_lies_are_refused, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_indices_behind_the_vertices_are_refused, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_truncated_binary_files_are_refused, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_other_files_are_no_scenes, folder_make, folder_remove),

@@ -41,7 +41,7 @@ struct glint_sample {
 const struct glint_sample *glint_samples(size_t *count);
 
 /* Renders a built-in scene or a glTF file and writes `out` (a shot: out with .NNNN before the suffix). The same options
-   give the same bytes. */
+   give the same bytes. Frames of a shot that are there already, made with the same settings, are kept. */
 bool glint_sample_write(const char *scene, const char *out, const struct glint_sample_options *options,
                         glint_progress progress, void *user, struct glint_error *err);
 
