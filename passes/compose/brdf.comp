@@ -23,6 +23,13 @@ vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
     return environment_reflectance(f0, roughness, cosine);
 }
 
+// The last of the reflection images that the pipeline makes.
+vec3 reflected_color(ivec2 pixel) {
+    if (texelFetch(reflection_stable, ivec2(0), 0).a >= 0.0) return texelFetch(reflection_stable, pixel, 0).rgb;
+    if (texelFetch(reflection_sharp, ivec2(0), 0).a >= 0.0) return texelFetch(reflection_sharp, pixel, 0).rgb;
+    return texelFetch(reflection, pixel, 0).rgb;
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(composed)))) return;
@@ -30,6 +37,6 @@ void main() {
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
     if (reflects(depth_m, surface.xyz))
-        color += intensity * weight(pixel, depth_m, surface) * texelFetch(reflection, pixel, 0).rgb;
+        color += intensity * weight(pixel, depth_m, surface) * reflected_color(pixel);
     imageStore(composed, pixel, vec4(color, 1.0));
 }

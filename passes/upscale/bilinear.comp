@@ -7,6 +7,7 @@
 #include "bilinear.pass.h"
 };
 #include "shared/camera.glsl"
+#include "upscale/source.glsl"
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -22,7 +23,7 @@ void main() {
             vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
             float weight = side.x * side.y;
             if (weight == 0.0 || skip_empty && !(texelFetch(depth_half, texel, 0).x < LARGEST)) continue;
-            sum += weight * texelFetch(reflection_half, texel, 0);
+            sum += weight * half_color(texel);
             total += weight;
         }
         sum = total > 0.0 ? sum / total : vec4(0.0);

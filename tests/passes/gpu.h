@@ -15,11 +15,11 @@ struct gpu {
     char folder[64];
 };
 
-/* Group set-up and tear-down for cmocka: *state becomes a struct gpu with the mafia3 preset. The tear-down fails when the
+/* Group set-up and tear-down for cmocka: *state becomes a struct gpu with the pipeline of plain.json. The tear-down fails when the
    validation layer said anything. */
 int gpu_set_up(void **state);
 int gpu_tear_down(void **state);
-/* A fresh mafia3 pipeline. */
+/* A fresh pipeline of plain.json. */
 void gpu_reset(struct gpu *gpu);
 void gpu_set(struct gpu *gpu, const char *assignment);
 void gpu_use(struct gpu *gpu, const char *assignment);

@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "plus.pass.h"
+#include "shared/push_begin.glsl"
+#include "plus.pass.h"
+};
+#include "shared/neighbour.glsl"
+#include "shared/plus.glsl"
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(reflection_blurred)))) return;
+    vec4 color = texelFetch(reflection_half, pixel, 0);
+    Surface center = surface_at(pixel);
+    float total = 1.0;
+    if (!finite(color)) color = vec4(total = 0.0);
+    if (reflects(center.depth_m, center.normal.xyz)) {
+        for (int i = 0; i < 4; ++i) {
+            ivec2 texel = pixel + PLUS_NEIGHBOURS[i];
+            float weight = neighbour_weight(center, texel);
+            if (weight == 0.0) continue;
+            vec4 other = texelFetch(reflection_half, texel, 0);
+            if (!finite(other)) continue;
+            color += weight * other;
+            total += weight;
+        }
+    }
+    imageStore(reflection_blurred, pixel, total > 0.0 ? color / total : vec4(0.0));
+}

@@ -1,0 +1,93 @@
+// Colour at the end of a ray (000, Color resolve shaders), as wide as the cone that the ray stands for. Next include of a
+// pass with the rows of resolve/sources.h.
+#include "shared/camera.glsl"
+#include "shared/cone.glsl"
+#include "shared/fog.glsl"
+
+// A ray that has ended. `end`: camera-relative world, a unit direction when the ray went on for ever.
+struct Ray {
+    vec3 position, direction, end;
+    float travelled_m, cone;
+    bool endless;
+};
+
+Ray ended_ray(vec3 position, vec3 normal, float travelled_m, float cone) {
+    Ray ray;
+    ray.position = position;
+    ray.direction = mirror_direction(position, normal);
+    ray.travelled_m = travelled_m;
+    ray.cone = cone;
+    ray.endless = !(travelled_m < LARGEST);
+    ray.end = ray.endless ? ray.direction : position + ray.direction * travelled_m;
+    return ray;
+}
+
+// The stand-in for a chain that the pipeline does not make has one level.
+bool has_levels(int levels, bool wanted) { return wanted && levels > 1; }
+
+vec3 sky_color(Ray ray) {
+    if (ray.cone > 0.0 && has_levels(textureQueryLevels(samplerCube(sky_mips, linear_clamp)), cone_cubemap)) {
+        float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
+        return textureLod(samplerCube(sky_mips, linear_clamp), ray.direction, level).rgb;
+    }
+    return textureLod(samplerCube(sky, linear_clamp), ray.direction, 0.0).rgb;
+}
+
+vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
+    int levels = textureQueryLevels(sampler2D(lit_mips, linear_clamp));
+    if (ray.cone > 0.0 && has_levels(levels, cone_screen)) {
+        float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
+        float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
+                                        float(levels - 1));
+        if (level > 0.0) return textureLod(sampler2D(lit_mips, linear_clamp), uv, level).rgb;
+    }
+    return filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb : texelFetch(lit, pixel, 0).rgb;
+}
+
+vec4 screen_color(Ray ray) {
+    vec3 end = mat3(frame.view_from_world) * ray.end;
+    float depth_m = end.z * frame.depth_range.z;
+    if (!(depth_m > 0.0)) return vec4(0.0);
+    vec2 uv = clamp(project(end, frame.uv_from_view, frame.depth_range.z), 0.0, 1.0);
+    ivec2 pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
+    if (check_depth && !ray.endless) {
+        float seen_m = texelFetch(depth_full, pixel, 0).x;
+        if (!(abs(seen_m - depth_m) <= depth_tolerance * depth_m)) return vec4(0.0);
+    }
+    return vec4(picture(uv, pixel, ray, depth_m), 1.0);
+}
+
+vec4 cubemap_texel(Ray ray, vec4 at) {
+    if (ray.cone > 0.0 && has_levels(textureQueryLevels(samplerCubeArray(cubemap_color_mips, linear_clamp)), cone_cubemap)) {
+        float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
+        if (level > 0.0) return textureLod(samplerCubeArray(cubemap_color_mips, linear_clamp), at, level);
+    }
+    return filter_color ? textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0)
+                        : textureLod(samplerCubeArray(cubemap_color, nearest_clamp), at, 0.0);
+}
+
+vec4 cubemap_lookup(Ray ray, uint place) {
+    vec3 center = texelFetch(active_center, ivec2(place, 0), 0).xyz;
+    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
+    if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
+    return vec4(color.rgb, 1.0);
+}
+
+vec3 through_fog(vec3 color, Ray ray) {
+    float height = frame.fog_height.x + dot(ray.position, frame.up.xyz);
+    float depth = fog_optical_depth(frame.fog_color.w, height, dot(ray.direction, frame.up.xyz), frame.fog_height.y,
+                                    ray.travelled_m);
+    vec3 target = fog_target == fog_target_sky && frame.counts.w > 0u ? sky_color(ray) : frame.fog_color.rgb;
+    return mix(color, target, fog_factor(depth));
+}
+
+// finished: on screen; place: of the cube map where it ended otherwise, or none. a: 0 where no source was found.
+vec4 color_at_end(Ray ray, bool finished, uint place) {
+    vec4 color;
+    if (finished) color = screen_color(ray);
+    else if (place < frame.counts.x) color = cubemap_lookup(ray, place);
+    else if (ray.endless) color = vec4(sky_color(ray), 1.0);
+    else return vec4(0.0);
+    if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
+    return color;
+}

@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "hit.pass.h"
+#include "shared/push_begin.glsl"
+#include "hit.pass.h"
+};
+#include "resolve/color.glsl"
+#include "shared/reuse.glsl"
+#include "shared/sampling.glsl"
+
+// The texel whose ray is taken: upscale's choice, else the pixel's own.
+ivec2 ray_texel(ivec2 pixel) {
+    ivec2 own = pixel / int(reduction(frame.size));
+    uint source = texelFetch(sharp_source, min(pixel, textureSize(sharp_source, 0) - 1), 0).x;
+    return source >= 1u && source <= 9u ? own + ivec2((source - 1u) % 3u, (source - 1u) / 3u) - 1 : own;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(reflection_sharp)))) return;
+    vec4 color = texelFetch(reflection, pixel, 0), surface = texelFetch(normal_full, pixel, 0);
+    float depth_m = texelFetch(depth_full, pixel, 0).x;
+    float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
+    ivec2 texel = ray_texel(pixel);
+    if (roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && texelFetch(depth_half, texel, 0).x < LARGEST) {
+        vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
+        vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        float cone = min(cone_factor * blinn_phong_cone(roughness, 0.0, threshold), WIDEST_CONE);
+        Ray ray = ended_ray(mat3(frame.world_from_view) * view, surface.xyz, texelFetch(travelled, texel, 0).x, cone);
+        vec4 sharp =
+            color_at_end(ray, texelFetch(screen_finished, texel, 0).x != 0u, texelFetch(cubemap_index, texel, 0).x);
+        if (sharp.a > 0.0) color = mix(sharp, color, blend > 0.0 ? fade(roughness, sharp_roughness - blend, sharp_roughness) : 0.0);
+    }
+    imageStore(reflection_sharp, pixel, finite(color) ? color : vec4(0.0));
+}

@@ -1,0 +1,10 @@
+/* Mirror rays of the full-resolution normals, as long as the half-resolution ray that matches best. */
+PASS("Colour at the hit", "000, Color resolve passes")
+#include "slot.h"
+OPTIONAL_READ(utexture2D, sharp_source, R8UI, FULL, 255)
+#include "resolve/sources.h"
+#line 302
+PUSH(float, sharp_roughness, 0.1,   0.0, 1.0,  "1", "000, Color resolve passes", "largest roughness that is resolved anew; 0: mirrors alone")
+PUSH(float, blend,          0.02,  0.0, 1.0,  "1", "glint", "over this much of roughness below that, what was upscaled takes over; 0: at once")
+PUSH(float, threshold,      0.1,  0.001, 0.999, "1", "000, Combining importance sampling with pre-filtering", "lobe value at the rim of the cone, which stands for the whole lobe here")
+PUSH(float, cone_factor,    1.0,   0.0, 8.0,  "1", "chosen by error", "times that cone; 0: rays without a cone")

@@ -1,0 +1,10 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Colour at full resolution where surfaces are smooth")
+READ(texture2D, reflection)
+READ(texture2D, depth_half)
+READ(texture2D, normal_full)
+WRITE(image2D, reflection_sharp, RGBA16F, "radiance", FULL, "R G B A", -1, "reflection, smooth surfaces resolved anew")
+DISPATCH(reflection_sharp)
+NEEDS(reflecting)
+NEEDS(smooth)

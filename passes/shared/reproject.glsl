@@ -1,0 +1,34 @@
+// Where a pixel was in the previous frame. Next include of a pass that reads motion_full and has reproject_rows.h.
+#include "shared/camera.glsl"
+
+struct Reprojection {
+    vec2 uv;       // NaN or outside [0, 1] when it was not in the picture
+    vec3 expected; // where the surface then lay, in the previous camera's view space
+    float turned;  // how far the view vector to it has turned, in radians
+};
+
+// position: of the surface, camera-relative world; full_pixel: where motion_full has it.
+Reprojection reproject(vec2 uv, vec3 position, ivec2 full_pixel, float travelled_m) {
+    Reprojection r;
+    float front = frame.depth_range.w;
+    r.expected = (frame.previous_view_from_world * vec4(position, 1.0)).xyz;
+    // Both views in the axes of now; below 1e-6 the matrices' own rounding.
+    vec3 then = transpose(mat3(frame.previous_view_from_world)) * normalize(r.expected);
+    r.turned = max(distance(then, normalize(position)) - 1e-6, 0.0);
+    vec4 seen = vec4(position, 1.0);
+    if (reprojection == reprojection_reflection) {
+        bool endless = !(travelled_m < LARGEST);
+        seen = vec4(endless ? position : position + normalize(position) * travelled_m, endless ? 0.0 : 1.0);
+        r.turned = 0.0;
+    }
+    vec3 view = (frame.previous_view_from_world * seen).xyz;
+    r.uv = view.z * front > 0.0 ? project(view, frame.previous_uv_from_view, front) : vec2(-1.0);
+    if (motion && reprojection == reprojection_surface && textureSize(motion_full, 0) == ivec2(frame.size.xy)) {
+        vec2 moved = texelFetch(motion_full, full_pixel, 0).xy;
+        // A moving surface keeps its depth here, for its own motion along the view is not in the vectors.
+        vec4 from_view = frame.previous_uv_from_view;
+        r.uv = uv + moved;
+        r.expected.xy = (r.uv - from_view.zw) / from_view.xy * r.expected.z * front;
+    }
+    return r;
+}

@@ -1,0 +1,4 @@
+/* How a pixel finds its place in the previous frame; of every pass that has a history. */
+#line 302
+CHOICE2(reprojection, surface, surface, reflection, "000, Temporal filter; reflection depth is its future work", "where the surface was (by motion vectors, without them by the camera), or where its reflection was seen, as far behind the surface as the ray went")
+SPEC(bool, motion, true, 0, 1, "1", "000, Temporal filter", "use motion vectors where the capture has them; off: the camera's alone")

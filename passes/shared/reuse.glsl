@@ -1,0 +1,27 @@
+// What a surface may take of a neighbour's reflection.
+#ifndef GLINT_REUSE
+#define GLINT_REUSE
+#include "shared/constants.glsl"
+#include "shared/stable.glsl"
+
+// How far the lobes of two surfaces agree (000, Neighbor sample reuse): the lobe's value cosⁿ at the other one's unjittered
+// normal, 1 for equal normals and 0 where roughness differs by more than `difference`. Both: unit normal, w: roughness.
+// n = 2/r⁴ - 2; 1 - cos is half the squared difference of the normals, which does not cancel.
+float lobe_agreement(vec4 surface, vec4 other, float difference) {
+    if (!(abs(surface.w - other.w) <= difference)) return 0.0;
+    vec3 apart = surface.xyz - other.xyz;
+    float away = min(0.5 * dot(apart, apart), 1.0);
+    if (away == 0.0) return 1.0;
+    float r2 = surface.w * surface.w, r4 = r2 * r2;
+    if (r4 == 0.0 || away == 1.0) return 0.0;
+    return exp(log1p(-away) * 2.0 * (1.0 - r4) / r4);
+}
+
+// Whether a point lies in a surface's tangent plane, within a part of its depth. NaN and infinity do not.
+bool in_plane(vec3 offset, vec3 normal, float depth_m, float part) { return abs(dot(offset, normal)) <= part * depth_m; }
+
+// 0 at `from`, 1 at `to`.
+float fade(float x, float from, float to) { return to > from ? clamp((x - from) / (to - from), 0.0, 1.0) : float(x >= to); }
+
+bool finite(vec4 color) { return all(lessThan(abs(color), vec4(LARGEST))); }
+#endif

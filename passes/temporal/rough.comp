@@ -1,0 +1,101 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "rough.pass.h"
+#include "shared/push_begin.glsl"
+#include "rough.pass.h"
+};
+#include "shared/neighbour.glsl"
+#include "shared/plus.glsl"
+#include "shared/reproject.glsl"
+#include "shared/sampling.glsl"
+
+const float LOBE_THRESHOLD = 0.1; // the slides' definition of a lobe's angle
+
+vec4 current_color(ivec2 texel) {
+    bool blurred = texelFetch(reflection_blurred, ivec2(0), 0).a >= 0.0;
+    return blurred ? texelFetch(reflection_blurred, texel, 0) : texelFetch(reflection_half, texel, 0);
+}
+
+struct Past {
+    vec4 color;
+    float age; // 0: none
+};
+
+// The four texels around the place, without those that showed something else.
+Past past_at(vec2 place, Surface center, Reprojection where) {
+    Past past = Past(vec4(0.0), 0.0);
+    float total = 0.0, front = frame.depth_range.w;
+    vec3 normal = mat3(frame.previous_view_from_world) * center.normal.xyz;
+    ivec2 corner = ivec2(floor(place - 0.5));
+    vec2 part = place - 0.5 - vec2(corner);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = corner + ivec2(i & 1, i >> 1);
+        vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
+        float weight = side.x * side.y;
+        // What is left of a place on the very texel centre by rounding would only bring in neighbours that are not wanted.
+        if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;
+        float depth_m = texelFetch(previous_depth_half, texel, 0).x;
+        vec4 surface = texelFetch(previous_normal_half, texel, 0);
+        if (!reflects(depth_m, surface.xyz) || dot(surface.xyz, center.normal.xyz) < history_normal) continue;
+        vec2 uv = picked_uv(texel, texelFetch(previous_pick, texel, 0).x, frame.size);
+        vec3 seen = vec3((uv - frame.previous_uv_from_view.zw) / frame.previous_uv_from_view.xy, front) * depth_m;
+        if (!in_plane(seen - where.expected, normal, depth_m, history_depth)) continue;
+        vec4 color = texelFetch(previous_reflection, texel, 0);
+        if (!finite(color) || color.a < 0.0) continue;
+        past.color += weight * color;
+        past.age += weight * texelFetch(previous_age, texel, 0).x;
+        total += weight;
+    }
+    return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(0.0), 0.0);
+}
+
+// The mean with the samples at the centres of the pluses around, and how many samples that are.
+vec4 with_extra(ivec2 pixel, Surface center, vec4 color, inout float samples) {
+    vec4 sum = samples * color;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = pixel + PLUS_CENTRES[i];
+        float weight = neighbour_weight(center, texel);
+        if (weight == 0.0) continue;
+        vec4 other = current_color(texel);
+        if (!finite(other)) continue;
+        sum += weight * other;
+        samples += weight;
+    }
+    return samples > 0.0 ? sum / samples : vec4(0.0);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(reflection_temporal)))) return;
+    vec4 color = current_color(pixel);
+    Surface center = surface_at(pixel);
+    float age = finite(color) ? 1.0 : 0.0;
+    if (age == 0.0) color = vec4(0.0);
+    if (reflects(center.depth_m, center.normal.xyz)) {
+        uint chosen = texelFetch(pick, pixel, 0).x;
+        vec2 uv = picked_uv(pixel, chosen, frame.size);
+        vec3 position = mat3(frame.world_from_view) * center.position;
+        Past past = Past(vec4(0.0), 0.0);
+        float allowed = history;
+        if (frame.flags.x != 0u && frame.flags.y == 0u && history > 0.0) {
+            ivec2 full_pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
+            Reprojection where = reproject(uv, position, full_pixel, texelFetch(travelled, pixel, 0).x);
+            // The whole block moves as its picked pixel does: a still picture has its history on its own texel.
+            vec2 place = vec2(pixel) + 0.5 + (where.uv - uv) * vec2(frame.size.xy) / reduction(frame.size);
+            if (all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))
+                past = past_at(place, center, where);
+            // A ray turns by as much as the view does, the lobe reaches twice the angle of its normals.
+            float lobe = 2.0 * lobe_angle(center.normal.w, LOBE_THRESHOLD);
+            if (where.turned > 0.0 && divergence < 1e6) allowed = min(allowed, divergence * lobe / where.turned);
+        }
+        past.age = allowed < 1.0 ? 0.0 : min(past.age, allowed);
+        if (past.age == 0.0 && extra) color = with_extra(pixel, center, color, age);
+        float total = past.age + age;
+        if (total > 0.0) color = (past.age * past.color + age * color) / total;
+        age = total;
+    }
+    imageStore(reflection_temporal, pixel, color);
+    imageStore(temporal_age, pixel, vec4(age));
+}

@@ -1,0 +1,61 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "clamped.pass.h"
+#include "shared/push_begin.glsl"
+#include "clamped.pass.h"
+};
+#include "shared/reproject.glsl"
+#include "shared/reuse.glsl"
+
+vec4 current_color(ivec2 pixel) {
+    bool sharp = texelFetch(reflection_sharp, ivec2(0), 0).a >= 0.0;
+    return sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
+}
+
+// M. Salvi, An Excursion in Temporal Supersampling, GDC 2016: mean and deviation of the 3 x 3 neighbours. The window opens as
+// 1/(1 - roughness/limit).
+vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
+    vec4 sum = vec4(0.0), squares = vec4(0.0);
+    float count = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), imageSize(reflection_stable) - 1);
+        vec4 color = current_color(at);
+        if (!finite(color)) continue;
+        sum += color;
+        squares += color * color;
+        count += 1.0;
+    }
+    if (count == 0.0) return past;
+    vec4 mean = sum / count, deviation = sqrt(max(squares / count - mean * mean, 0.0));
+    float open = 1.0 - roughness / sharp_roughness;
+    if (!(open > 0.0)) return past;
+    return clamp(past, mean - window / open * deviation, mean + window / open * deviation);
+}
+
+vec4 past_color(ivec2 pixel, float depth_m) {
+    vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
+    vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    float travelled_m = texelFetch(travelled, pixel / int(reduction(frame.size)), 0).x;
+    Reprojection where = reproject(uv, mat3(frame.world_from_view) * view, pixel, travelled_m);
+    if (!(all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))) return vec4(-1.0);
+    return textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(reflection_stable)))) return;
+    vec4 color = current_color(pixel), surface = texelFetch(normal_full, pixel, 0);
+    float depth_m = texelFetch(depth_full, pixel, 0).x;
+    float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
+    bool remembers = frame.flags.x != 0u && frame.flags.y == 0u && history > 0.0;
+    if (remembers && roughness <= sharp_roughness && reflects(depth_m, surface.xyz)) {
+        vec4 past = past_color(pixel, depth_m);
+        if (finite(past) && past.a >= 0.0) {
+            if (clamp_history) past = clamped(past, pixel, roughness);
+            color = finite(color) ? mix(past, color, 1.0 / (history + 1.0)) : past;
+        }
+    }
+    imageStore(reflection_stable, pixel, finite(color) ? color : vec4(0.0));
+}

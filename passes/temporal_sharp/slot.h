@@ -1,0 +1,13 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Full-resolution reflections of several frames")
+READ(texture2D, reflection)
+OPTIONAL_READ(texture2D, reflection_sharp, RGBA16F, FULL, -1)
+READ(texture2D, depth_full)
+READ(texture2D, normal_full)
+READ(texture2D, motion_full)
+READ(texture2D, travelled)
+WRITE(image2D, reflection_stable, RGBA16F, "radiance", FULL, "R G B A", -1, "reflection_sharp with what earlier frames had of smooth surfaces")
+DISPATCH(reflection_stable)
+NEEDS(reflecting)
+NEEDS(smooth)
