@@ -151,7 +151,7 @@ static bool setup(struct fixture *fixture, bool with_device) {
     snprintf(fixture->capture_path, sizeof fixture->capture_path, "%s/capture.exr", fixture->folder);
     bool ok = fixture_write_capture(fixture->capture_path, NULL, &err) &&
               (fixture->capture = glint_capture_open(fixture->capture_path, NULL, &err)) &&
-              (fixture->pipeline = glint_pipeline_create("mafia3", &err));
+              (fixture->pipeline = glint_pipeline_create(GLINT_TEST_PRESET, &err));
     if (ok && with_device) {
         fixture->device = glint_device_create(&(struct glint_device_options){.validation = true}, &err);
         if (!fixture->device) print_message("no device: %s\n", err.message);

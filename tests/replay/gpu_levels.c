@@ -88,7 +88,7 @@ static void each_level_comes_from_the_one_before(void **state) {
 static void cube_maps_are_written_by_layer_and_read_by_direction(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
-    struct glint_pipeline *real = glint_pipeline_create("mafia3", &err);
+    struct glint_pipeline *real = glint_pipeline_create(GLINT_TEST_PRESET, &err);
     const struct glint_pass *active = NULL;
     for (size_t i = 0; i < glint_pipeline_pass_count(real); i++)
         if (strcmp(glint_pipeline_pass(real, i)->slot, "cubemap_active") == 0) active = glint_pipeline_pass(real, i);

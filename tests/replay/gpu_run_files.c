@@ -218,7 +218,7 @@ static void a_users_shader_replaces_the_pass(void **state) {
     fixture_run(fixture, &(struct glint_replay_options){.no_cache = true});
     snapshot_take(&built_in, fixture->replay);
     write_text(path, glint_pass_text("resolve/hit.comp"));
-    struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", &err);
+    struct glint_pipeline *pipeline = glint_pipeline_create(GLINT_TEST_PRESET, &err);
     assert_true(glint_pipeline_shader(pipeline, assignment, &err));
     const struct glint_replay_options options = {.no_cache = true};
     if (!glint_replay_run(fixture->replay, pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
@@ -250,7 +250,7 @@ static void a_users_shader_with_foreign_bindings_is_refused(void **state) {
     snprintf(assignment, sizeof assignment, "resolve=%s", path);
     write_text(path, "#version 460\nlayout(local_size_x = 8, local_size_y = 8) in;\n"
                      "layout(set = 0, binding = 3) buffer B { uint x[]; } b;\nvoid main() { b.x[0] = 1; }\n");
-    struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", &err);
+    struct glint_pipeline *pipeline = glint_pipeline_create(GLINT_TEST_PRESET, &err);
     assert_true(glint_pipeline_shader(pipeline, assignment, &err));
     assert_false(glint_replay_run(fixture->replay, pipeline, NULL, NULL, NULL, &err));
     fixture_says(&err, "foreign.comp");

@@ -14,7 +14,7 @@
 
 static struct glint_pipeline *preset(void) {
     struct glint_error err = {0};
-    struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", &err);
+    struct glint_pipeline *pipeline = glint_pipeline_create(GLINT_TEST_PRESET, &err);
     if (!pipeline) fail_msg("%s", err.message);
     return pipeline;
 }
@@ -37,7 +37,7 @@ static void assert_says(const struct glint_error *err, const char *part) {
 static void the_preset_holds_every_slot_with_its_defaults(void **state) {
     (void)state;
     struct glint_pipeline *pipeline = preset();
-    assert_string_equal(glint_pipeline_name(pipeline), "mafia3");
+    assert_string_equal(glint_pipeline_name(pipeline), "plain");
     assert_int_equal(glint_pipeline_pass_count(pipeline), 8);
     assert_true(value_of(pipeline, "downsample", "share") == 1.0);
     assert_true(value_of(pipeline, "cubemap_active", "count") == 8);

@@ -71,7 +71,7 @@ static void every_pass_compiles_to_what_is_built_in(void **state) {
         uint32_t *mine = malloc(spirv.bytes), *built_in = malloc(passes[i].spirv_bytes);
         const size_t words = without_source(spirv.words, spirv.bytes, mine);
         assert_int_equal(words, without_source(passes[i].spirv, passes[i].spirv_bytes, built_in));
-        assert_memory_equal(mine, built_in, words * sizeof *mine);
+        if (memcmp(mine, built_in, words * sizeof *mine) != 0) fail_msg("%s: differs", name);
         free(mine), free(built_in);
         spirv_finish(&spirv);
     }
