@@ -26,8 +26,11 @@ RAYS = ("mirror rays that end elsewhere, %", lambda a: 100 * (1 - surface(a["dis
 MEDIAN = ("median error of mirror rays' distance, %",
           lambda a: 100 * surface(a["distances"], "mirror-like")["median_error"])
 
+COST = ("texture fetches a ray", lambda a: surface(a["distances"], "all")["fetches"])
+TIME = ("ms of all passes", lambda a: a["ms"])
 MIRROR = ["set downsample.jitter=false"]
 MANY = ["set pipeline.rays=16"]
+COCOON = ["use cubemap_mips=prefilter", "use cocoon=max"]
 HALF = ["use cubemap_mips=prefilter", "set downsample.ndf=blinn_phong", "set downsample.share=0.5"]
 CUBES = MIRROR + ["set screen_trace.length_m=0"]
 SCORE = CUBES + ["use cubemap_select=score"]
@@ -45,9 +48,11 @@ ROWS = [
     ("down-sampling", "shuffled each frame", "shot:room", HISTORY, "set downsample.shuffle=false", ROUGH),
     ("down-sampling", "another pixel each frame", "shot:room", HISTORY, "set downsample.alternate=false", PICTURE),
     ("pre-filtering", "cone of what the cut leaves", "room", HALF, "set downsample.cone_factor=0", ROUGH),
-    ("pre-filtering", "29 taps", "room", HALF, "set cubemap_mips.taps=1", ROUGH),
-    ("pre-filtering", "cube-map MIPs", "room", HALF, "use cubemap_mips=none", ROUGH),
-    ("pre-filtering", "screen MIPs", "room", HALF, "use lit_mips=none", ROUGH),
+    ("pre-filtering", "29 taps", "room", HALF, "set cubemap_mips.reach=0", ROUGH),
+    ("pre-filtering", "29 taps instead of 1009", "room", [*HALF, "set cubemap_mips.reach=18"], "set cubemap_mips.reach=3", ROUGH),
+    ("pre-filtering", "colour filtered for cones", "room", HALF, "use cubemap_mips=plain", ROUGH),
+    ("pre-filtering", "screen MIPs", "room", [*HALF, "use lit_mips=cone"], "use lit_mips=none", ROUGH),
+    ("pre-filtering", "sky MIPs", "street", [*HALF, "use sky_mips=prefilter"], "use sky_mips=none", ROUGH),
     ("screen trace", "dither", "street", MANY, "set screen_trace.dither=false", PICTURE),
     ("screen trace", "1/z between texels", "room", MIRROR, "set screen_trace.interpolate=false", RAYS),
     ("screen trace", "refinement", "room", MIRROR, "set screen_trace.refine=false", RAYS),
@@ -71,11 +76,20 @@ ROWS = [
     ("cube-map trace", "distance between texels", "room", CUBES, "set cubemap_trace.bilinear=false", MEDIAN),
     ("cube-map trace", "each ray its own step scale", "room", MANY, "set cubemap_trace.random_scale=false", PICTURE),
     ("cube-map trace", "step back after a switch", "room", CUBES, "set cubemap_trace.step_back=false", RAYS),
-    ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.inner=false", RAYS),
-    ("cube-map trace", "distance MIPs for rough surfaces", "room", MANY, "set cubemap_trace.mips=false", ROUGH),
-    ("cube-map trace", "HQ/LQ split", "room", MANY,
+    ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", RAYS),
+    ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", COST),
+    ("cube-map trace", "distance MIPs by roughness", "room", ["use cubemap_mips=prefilter", "set cubemap_trace.rough_level=3"],
+     "set cubemap_trace.rough_level=0", ROUGH),
+    ("cube-map trace", "HQ/LQ split", "room", [],
      "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300", ROUGH),
-    ("cube-map trace", "lists of unfinished pixels", "room", MIRROR, "use classify=none", PICTURE),
+    ("cube-map trace", "HQ/LQ split", "room", [],
+     "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300", COST),
+    ("cube-map trace", "cocoon caps the sky", "street",
+     [*CUBES, *COCOON, "set cubemap_trace.depth=capped"], "set cubemap_trace.depth=captured", COST),
+    ("cube-map trace", "cocoon caps the sky", "street",
+     [*CUBES, *COCOON, "set cubemap_trace.depth=capped"], "set cubemap_trace.depth=captured", SMOOTH),
+    ("classification", "lists of pixels with a ray", "street", ["use classify=tiles"], "use classify=none", TIME),
+    ("classification", "lists of unfinished pixels", "room", ["use classify_unfinished=tiles"], "use classify_unfinished=none", TIME),
     ("resolve", "bilinear colour", "room", MIRROR, "set resolve.filter_color=false", SMOOTH),
     ("blur", "five-sample blur", "room", [], "use blur=none", ROUGH),
     ("blur", "BRDF weights", "room", [], "set blur.brdf=false", ROUGH),
@@ -90,7 +104,7 @@ ROWS = [
 SHARES = [1, 0.75, 0.5, 0.25]
 RAY_COUNTS = [1, 8, 32, 128]
 FALLBACKS = ["black", "lookup", "cocoon"]
-FELL_BACK = ("shadow_region", "fallback", "steps_exhausted")  # reasons in cube maps
+FELL_BACK = ("shadow_region", "fallback", "no_cubemap")  # reasons in cube maps
 
 
 class Unknown(Exception):
@@ -148,7 +162,7 @@ class Bench:
             captures = self.scene(scene)
             timing = ["--repeat", repeat] if len(captures) == 1 else []
             runs = json.loads(self.run("replay", *captures, "--against=truth", "--json", *options, *timing))["runs"]
-            self.known[key] = [dict(r["against_truth"], ms=sum(p["time_ns"]["median"] for p in r["passes"]) * 1e-6)
+            self.known[key] = [dict(r["against_truth"], ms=sum(p["time_ns"]["median"] for p in r["passes"] if not p.get("cached_work")) * 1e-6)
                                for r in runs]
         return self.known[key]
 
@@ -232,7 +246,7 @@ def fallbacks(bench):
     """Over the pixels whose ray no cube map could follow: which they are does not depend on the fallback."""
     rows = []
     for fallback in FALLBACKS:
-        against = bench.replay("room", [*MIRROR, f"set cubemap_trace.fallback={fallback}"])[0]
+        against = bench.replay("room", [*MIRROR, *COCOON, f"set cubemap_trace.fallback={fallback}"])[0]
         fell = [r for r in against["rays"] if r["tracer"] == "cube map" and r["reason"] in FELL_BACK]
         count = sum(r["rays"] for r in fell)
         error = sum(r["rays"] * r["radiance_error"] for r in fell) / max(count, 1)

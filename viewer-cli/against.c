@@ -32,8 +32,7 @@ void against_finish(struct against *against) {
 }
 
 /* The reference's reflection of this capture. */
-static bool reference_pixels(struct against *against, struct glint_capture *capture,
-                             const struct glint_replay_options *options, struct glint_pixels *pixels,
+static bool reference_pixels(struct against *against, struct glint_capture *capture, struct glint_pixels *pixels,
                              struct glint_error *err) {
     if (against->run) {
         struct glint_run *run = glint_run_open(against->run, err);
@@ -42,21 +41,20 @@ static bool reference_pixels(struct against *against, struct glint_capture *capt
         return ok;
     }
     /* Its images are floats: what it is off by should not be how it is stored. */
-    const struct glint_replay_options own = {.all = options->all, .float_precision = true};
+    const struct glint_replay_options own = {.all = against->all, .float_precision = true};
     return glint_replay_load(against->replay, capture, err) &&
-           glint_replay_run(against->replay, against->pipeline, &own, NULL, NULL, err) &&
+           glint_replay_run(against->replay, against->pipeline, &own, against->progress, against->user, err) &&
            glint_study_reflection(against->replay, pixels, err) && glint_replay_load(against->replay, NULL, err);
 }
 
 static bool compare_images(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
-                           const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
-                           struct comparison *c, struct glint_error *err) {
+                           const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
     struct glint_pixels found = {0}, answer = {0};
     uint8_t *surfaces = NULL;
     float *error = NULL;
     bool ok = glint_study_reflection(replay, &found, err) &&
               (against->truth ? glint_study_truth(capture, pipeline, &answer, &error, err)
-                              : reference_pixels(against, capture, options, &answer, err)) &&
+                              : reference_pixels(against, capture, &answer, err)) &&
               (surfaces = glint_study_surfaces(capture, err)) != NULL &&
               glint_study_image(&found, &answer, 3, surfaces, error, &c->image, err);
     free(surfaces);
@@ -77,13 +75,12 @@ static bool draws_normals(const struct glint_pipeline *pipeline) {
 }
 
 bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
-                     const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
-                     struct comparison *c, struct glint_error *err) {
+                     const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
     struct glint_error image = {0};
     *c = (struct comparison){.name = against->truth ? "truth" : "reference", .jittered = draws_normals(pipeline)};
     if (against->truth && !glint_study_trace(replay, capture, GLINT_MIRROR_ROUGHNESS, &c->rays, err)) return false;
     c->has_rays = against->truth;
-    c->has_image = compare_images(against, replay, capture, pipeline, options, c, &image);
+    c->has_image = compare_images(against, replay, capture, pipeline, c, &image);
     if (c->has_image) return true;
     /* Rays can be compared without a picture, as of --passes screen_trace. */
     if (against->reference || (image.code != GLINT_ERROR_USAGE && image.code != GLINT_ERROR_FORMAT)) {
@@ -122,12 +119,12 @@ static void print_rays(const struct comparison *c) {
     table_destroy(&table);
 }
 
-static void print_distances(const struct glint_distance_errors *errors) {
-    static const char *const titles[] = {
-        "<surfaces", ">rays", ">within 5 % of truth", ">median error %", ">95th error %", ">invalid", NULL};
+static void print_distances(const struct glint_trace_table *rays) {
+    static const char *const titles[] = {"<surfaces",     ">rays",    ">within 5 % of truth", ">median error %",
+                                         ">95th error %", ">invalid", ">fetches a ray",       NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_distance_error *e = &errors->of[k];
+        const struct glint_distance_error *e = &rays->surfaces.of[k];
         if (e->rays == 0) continue;
         table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
         table_cell(table, "%llu", (unsigned long long)e->rays);
@@ -135,6 +132,7 @@ static void print_distances(const struct glint_distance_errors *errors) {
         percent(table, e->median);
         percent(table, e->p95);
         table_cell(table, "%llu", (unsigned long long)e->invalid);
+        table_cell(table, "%.1f", rays->fetches[k]);
     }
     printf("\ntravelled distance of all rays:\n");
     table_print(table, stdout);
@@ -168,7 +166,7 @@ static void print_image(const struct comparison *c) {
 void against_print(const struct comparison *c) {
     if (c->has_rays) {
         print_rays(c);
-        print_distances(&c->rays.surfaces);
+        print_distances(&c->rays);
         if (c->jittered) puts("normals are jittered; --set downsample.jitter=false compares mirror rays");
     }
     if (c->has_image) print_image(c);
@@ -188,16 +186,16 @@ static json_t *rays_json(const struct glint_trace_table *table) {
     return rows;
 }
 
-static json_t *distances_json(const struct glint_distance_errors *errors) {
+static json_t *distances_json(const struct glint_trace_table *rays) {
     json_t *rows = json_array();
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_distance_error *e = &errors->of[k];
+        const struct glint_distance_error *e = &rays->surfaces.of[k];
         if (e->rays == 0) continue;
-        json_array_append_new(rows,
-                              json_pack("{s:s, s:I, s:I, s:o, s:o, s:o}", "surfaces",
-                                        glint_surface_name((enum glint_surface)k), "rays", (json_int_t)e->rays,
-                                        "invalid", (json_int_t)e->invalid, "right", json_number(e->right),
-                                        "median_error", json_number(e->median), "p95_error", json_number(e->p95)));
+        json_array_append_new(rows, json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:f}", "surfaces",
+                                              glint_surface_name((enum glint_surface)k), "rays", (json_int_t)e->rays,
+                                              "invalid", (json_int_t)e->invalid, "right", json_number(e->right),
+                                              "median_error", json_number(e->median), "p95_error", json_number(e->p95),
+                                              "fetches", rays->fetches[k]));
     }
     return rows;
 }
@@ -225,7 +223,7 @@ json_t *against_json(const struct comparison *c) {
         json_object_set_new(json, "max_roughness", json_real(GLINT_MIRROR_ROUGHNESS));
         json_object_set_new(json, "jittered", json_boolean(c->jittered));
         json_object_set_new(json, "rays", rays_json(&c->rays));
-        json_object_set_new(json, "distances", distances_json(&c->rays.surfaces));
+        json_object_set_new(json, "distances", distances_json(&c->rays));
     }
     if (c->has_image) json_object_set_new(json, "image", image_json(c));
     return json;

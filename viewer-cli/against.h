@@ -9,6 +9,9 @@
 
 struct against {
     bool truth, reference;
+    bool all;                /* the reference runs every pass too */
+    glint_progress progress; /* of the reference's replay */
+    void *user;
     const char *run; /* the reference's run folder; NULL: it is replayed */
     struct glint_pipeline *pipeline;
     struct glint_replay *replay; /* its own, so that the history of the run it is compared with stays */
@@ -28,10 +31,9 @@ struct comparison {
     struct glint_image_errors image;
     char no_image[1024]; /* why, when there is none */
 };
-/* After a run. *invalid receives how many pixels of the reflection are NaN or infinite. */
+/* After a run. */
 bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
-                     const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
-                     struct comparison *comparison, struct glint_error *err);
+                     const struct glint_pipeline *pipeline, struct comparison *comparison, struct glint_error *err);
 void against_print(const struct comparison *comparison);
 json_t *against_json(const struct comparison *comparison);
 

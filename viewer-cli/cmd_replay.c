@@ -216,8 +216,11 @@ static char **run_folders(const struct arguments *a, struct glint_error *err) {
     return NULL;
 }
 
-static bool replay_one(const struct job *job, const char *path, const char *folder, struct glint_error *err) {
+/* `history`: a run of the frame before; NULL: what was run last, if it is the frame before. */
+static bool replay_one(const struct job *job, const char *path, const char *folder, const char *history,
+                       struct glint_error *err) {
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
+    options.history = history;
     struct progress progress;
     struct pipe pipe;
     struct comparison comparison, *compared = job->against->truth || job->against->reference ? &comparison : NULL;
@@ -228,11 +231,13 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
         return false;
     }
     progress_begin(&progress);
-    bool ok =
-        glint_replay_load(job->replay, capture, err) &&
-        glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
-        (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err)) &&
-        (!compared || against_compare(job->against, job->replay, capture, job->pipeline, &options, compared, err));
+    job->against->progress = progress_report;
+    job->against->user = &progress;
+    job->against->all = options.all;
+    bool ok = glint_replay_load(job->replay, capture, err) &&
+              glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
+              (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err)) &&
+              (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err));
     progress_end(&progress);
     if (ok && job->runs)
         json_array_append_new(job->runs,
@@ -281,7 +286,9 @@ static enum status replay_all(const struct job *job) {
     for (size_t i = 0; i < kept; i++) report_kept(job, captures->items[i], folders[i]);
     for (size_t i = kept; i < captures->count && status != STATUS_INTERRUPTED; i++) {
         err = (struct glint_error){0};
-        bool ok = replay_one(job, captures->items[i], folders ? folders[i] : NULL, &err);
+        const char *history = i == 0 ? job->a->pipeline.replay.history : NULL;
+        if (i == kept && i > 0 && shot_follows(folders[i - 1], captures->items[i])) history = folders[i - 1];
+        bool ok = replay_one(job, captures->items[i], folders ? folders[i] : NULL, history, &err);
         if (!ok) {
             enum status failed = command_fail(&cmd_replay, &err);
             if (failed > status) status = failed;

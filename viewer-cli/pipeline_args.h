@@ -12,7 +12,18 @@ struct pipeline_args {
     struct glint_replay_options replay; /* its lists are filled by pipeline_args_options */
 };
 
-enum { KEY_USE = 512, KEY_SET, KEY_SHADER, KEY_PASSES, KEY_INPUTS, KEY_HISTORY, KEY_OUTPUTS, KEY_SKIP, KEY_FORCE, KEY_ALL };
+enum {
+    KEY_USE = 512,
+    KEY_SET,
+    KEY_SHADER,
+    KEY_PASSES,
+    KEY_INPUTS,
+    KEY_HISTORY,
+    KEY_OUTPUTS,
+    KEY_SKIP,
+    KEY_FORCE,
+    KEY_ALL
+};
 
 /* clang-format off */
 #define PIPELINE_OPTIONS \

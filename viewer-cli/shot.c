@@ -45,11 +45,11 @@ static json_t *shaders_json(const struct list *shaders) {
 
 json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device) {
     const struct glint_replay_options *o = &args->replay;
-    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:s?, s:b, s:b, s:b}", "tool", GLINT_VERSION, "device",
-                     device, "pipeline", passes_json(pipeline), "shaders", shaders_json(&args->shader), "passes",
-                     names_json(&args->passes), "outputs", names_json(&args->outputs), "skip", names_json(&args->skip),
-                     "force", names_json(&args->force), "inputs", o->inputs, "all", o->all, "diagnostics",
-                     o->diagnostics, "float", o->float_precision);
+    return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:s?, s:s?, s:b, s:b, s:b}", "tool", GLINT_VERSION,
+                     "device", device, "pipeline", passes_json(pipeline), "shaders", shaders_json(&args->shader),
+                     "passes", names_json(&args->passes), "outputs", names_json(&args->outputs), "skip",
+                     names_json(&args->skip), "force", names_json(&args->force), "inputs", o->inputs, "history",
+                     o->history, "all", o->all, "diagnostics", o->diagnostics, "float", o->float_precision);
 }
 
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
@@ -110,4 +110,16 @@ bool shot_has(const char *run, const char *capture) {
     json_decref(record);
     glint_run_close(&opened);
     return has;
+}
+
+bool shot_follows(const char *run, const char *capture) {
+    struct glint_run *before = glint_run_open(run, NULL);
+    struct glint_capture *now = glint_capture_open(capture, NULL, NULL);
+    json_t *record = before ? json_loads(glint_run_json(before), 0, NULL) : NULL;
+    const json_t *frame = json_object_get(record, "frame");
+    bool follows = now && json_is_integer(frame) && json_integer_value(frame) + 1 == glint_capture_frame(now)->number;
+    json_decref(record);
+    glint_capture_close(&now);
+    glint_run_close(&before);
+    return follows;
 }

@@ -12,5 +12,7 @@ json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeli
 bool shot_begin(const char *folder, const json_t *settings, char *const *runs, size_t count, struct glint_error *err);
 /* Whether a frame's run is complete and of this capture. */
 bool shot_has(const char *run, const char *capture);
+/* Whether the capture is the frame after the run's. */
+bool shot_follows(const char *run, const char *capture);
 
 #endif

@@ -106,7 +106,8 @@ static void fill(struct sample *samples, size_t count, struct glint_trace_table 
 
 /* What is compared: images of the run at its resolution, the truth at the capture's. */
 struct inputs {
-    struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, reflection;
+    struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, screen_fetches, cubemap_fetches,
+        reflection;
     float *distance, *radiance;
     uint32_t width, height; /* of the truth */
 };
@@ -128,12 +129,15 @@ static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct g
            get(replay, "screen_finished", GLINT_U32, false, &in->finished, err) &&
            get(replay, "screen_end", GLINT_U32, false, &in->screen_end, err) &&
            get(replay, "cubemap_end", GLINT_U32, false, &in->cubemap_end, err) &&
+           get(replay, "screen_fetches", GLINT_U32, false, &in->screen_fetches, err) &&
+           get(replay, "cubemap_fetches", GLINT_U32, false, &in->cubemap_fetches, err) &&
            get(replay, "reflection_half", GLINT_F32, false, &in->reflection, err);
 }
 
 static void free_inputs(struct inputs *in) {
-    struct pixels *images[] = {&in->normal,     &in->pick,        &in->travelled, &in->finished,
-                               &in->screen_end, &in->cubemap_end, &in->reflection};
+    struct pixels *images[] = {&in->normal,     &in->pick,           &in->travelled,
+                               &in->finished,   &in->screen_end,     &in->cubemap_end,
+                               &in->reflection, &in->screen_fetches, &in->cubemap_fetches};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; ++i) free(images[i]->data.any);
     free(in->distance);
     free(in->radiance);
@@ -161,8 +165,13 @@ struct rays {
     uint8_t *surfaces;
     struct sample *samples; /* of surfaces up to max_roughness */
     size_t count, sample_count;
+    double fetches[GLINT_SURFACE_COUNT]; /* sums */
     double max_roughness;
 };
+
+static double fetches_at(const struct pixels *image, size_t i) {
+    return image->data.u ? (double)image->data.u[i] : 0;
+}
 
 /* One texel of the run, unless it has no ray to compare. */
 static void compare(const struct inputs *in, size_t i, struct rays *rays) {
@@ -178,7 +187,9 @@ static void compare(const struct inputs *in, size_t i, struct rays *rays) {
     if (reason == 0 || !(distance > 0)) return;
     rays->found[rays->count] = travelled;
     rays->truth[rays->count] = distance;
-    rays->surfaces[rays->count++] = (uint8_t)glint_surface_of((double)roughness);
+    enum glint_surface surface = glint_surface_of((double)roughness);
+    rays->surfaces[rays->count++] = (uint8_t)surface;
+    rays->fetches[surface] += fetches_at(&in->screen_fetches, i) + fetches_at(&in->cubemap_fetches, i);
     if (!(roughness <= (float)rays->max_roughness)) return;
     rays->samples[rays->sample_count++] =
         (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),
@@ -205,6 +216,11 @@ bool glint_study_trace(struct glint_replay *replay, struct glint_capture *captur
     for (size_t i = 0; ok && i < texels; ++i) compare(&in, i, &rays);
     if (ok && rays.sample_count > 0) fill(rays.samples, rays.sample_count, table);
     if (ok) ok = glint_study_distances(rays.found, rays.truth, rays.surfaces, rays.count, &table->surfaces, err);
+    for (size_t k = 1; ok && k < GLINT_SURFACE_COUNT; ++k) {
+        uint64_t all = table->surfaces.of[0].rays, here = table->surfaces.of[k].rays;
+        table->fetches[k] = here ? rays.fetches[k] / (double)here : 0;
+        table->fetches[0] += all ? rays.fetches[k] / (double)all : 0;
+    }
     free(rays.found);
     free(rays.truth);
     free(rays.surfaces);

@@ -107,6 +107,7 @@ struct glint_trace_table {
     struct glint_trace_row rows[32]; /* those with rays, tracer by tracer; the last one is all of them */
     size_t count;
     struct glint_distance_errors surfaces; /* all rays, those of rougher surfaces too */
+    double fetches[GLINT_SURFACE_COUNT];   /* mean of both tracers' texture fetches for a ray, what no device changes */
 };
 
 /* After a run with diagnostics that wrote depth_half, normal_half, pick, travelled and the tracers' end reasons (those of
