@@ -264,6 +264,13 @@ static bool check_image(const struct check *c, size_t i, const json_t *image) {
     const char *uri = json_string_value(json_object_get(image, "uri"));
     if (!uri && !json_object_get(image, "bufferView")) return bad(c, "image", i, "has neither uri nor bufferView");
     if (!refers(c, image, "bufferView", "bufferViews")) return bad(c, "image", i, "no such bufferView");
+    /* the importer reads what follows the slash */
+    const char *kind = json_string_value(json_object_get(image, "mimeType"));
+    if (kind && strcmp(kind, "image/png") && strcmp(kind, "image/jpeg"))
+        return bad(c, "image", i, "mimeType is neither image/png nor image/jpeg");
+    if (uri && !strncmp(uri, "data:", 5) && strncmp(uri, "data:image/png;base64,", 22) &&
+        strncmp(uri, "data:image/jpeg;base64,", 23))
+        return bad(c, "image", i, "its data: URI is neither image/png nor image/jpeg in base64");
     if (uri && strncmp(uri, "data:", 5) && !stays_inside(uri))
         return bad(c, "image", i, "its file must lie in the glTF file's folder or below");
     return true;

@@ -329,6 +329,10 @@ static void test_what_cannot_be_read_is_said(void **state) {
     refuse(state, &f, GLINT_ERROR_FORMAT);
     f.uri = "/color.png";
     refuse(state, &f, GLINT_ERROR_FORMAT);
+    f.uri = "data:imagepng;base64,AAAA";
+    refuse(state, &f, GLINT_ERROR_FORMAT);
+    f.uri = "color.png\",\"mimeType\":\"image9png";
+    refuse(state, &f, GLINT_ERROR_FORMAT);
     f.uri = "missing.png";
     refuse(state, &f, GLINT_ERROR_IO);
     f.material = "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"texCoord\":1}}}";
