@@ -1,5 +1,6 @@
 // Where a pixel was in the previous frame. Next include of a pass that reads motion_full and has reproject_rows.h.
 #include "shared/camera.glsl"
+#include "shared/sampling.glsl"
 
 struct Reprojection {
     vec2 uv;       // NaN or outside [0, 1] when it was not in the picture
@@ -31,4 +32,12 @@ Reprojection reproject(vec2 uv, vec3 position, ivec2 full_pixel, float travelled
         r.expected.xy = (r.uv - from_view.zw) / from_view.xy * r.expected.z * front;
     }
     return r;
+}
+
+// The longest history of a surface over which the view turns no farther than its lobe allows: a ray turns by as much as the
+// view does, and the lobe reaches twice the angle of its normals. 0.1 is the slides' threshold for that angle. A mirror has no
+// history as soon as the view turns.
+float history_limit(float longest, float roughness, float turned) {
+    if (!(turned > 0.0) || divergence == 1e6) return longest;
+    return min(longest, divergence * 2.0 * lobe_angle(roughness, 0.1) / turned);
 }

@@ -9,9 +9,6 @@
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
 #include "shared/reproject.glsl"
-#include "shared/sampling.glsl"
-
-const float LOBE_THRESHOLD = 0.1; // the slides' definition of a lobe's angle
 
 vec4 current_color(ivec2 texel) {
     bool blurred = texelFetch(reflection_blurred, ivec2(0), 0).a >= 0.0;
@@ -86,9 +83,7 @@ void main() {
             vec2 place = vec2(pixel) + 0.5 + (where.uv - uv) * vec2(frame.size.xy) / reduction(frame.size);
             if (all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))
                 past = past_at(place, center, where);
-            // A ray turns by as much as the view does, the lobe reaches twice the angle of its normals.
-            float lobe = 2.0 * lobe_angle(center.normal.w, LOBE_THRESHOLD);
-            if (where.turned > 0.0 && divergence < 1e6) allowed = min(allowed, divergence * lobe / where.turned);
+            allowed = history_limit(history, center.normal.w, where.turned);
         }
         past.age = allowed < 1.0 ? 0.0 : min(past.age, allowed);
         if (past.age == 0.0 && extra) color = with_extra(pixel, center, color, age);

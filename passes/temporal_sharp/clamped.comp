@@ -34,15 +34,6 @@ vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
     return clamp(past, mean - window / open * deviation, mean + window / open * deviation);
 }
 
-vec4 past_color(ivec2 pixel, float depth_m) {
-    vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
-    vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-    float travelled_m = texelFetch(travelled, pixel / int(reduction(frame.size)), 0).x;
-    Reprojection where = reproject(uv, mat3(frame.world_from_view) * view, pixel, travelled_m);
-    if (!(all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))) return vec4(-1.0);
-    return textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0);
-}
-
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(reflection_stable)))) return;
@@ -51,10 +42,16 @@ void main() {
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     bool remembers = frame.flags.x != 0u && frame.flags.y == 0u && history > 0.0;
     if (remembers && roughness <= sharp_roughness && reflects(depth_m, surface.xyz)) {
-        vec4 past = past_color(pixel, depth_m);
-        if (finite(past) && past.a >= 0.0) {
+        vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
+        vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        float travelled_m = texelFetch(travelled, pixel / int(reduction(frame.size)), 0).x;
+        Reprojection where = reproject(uv, mat3(frame.world_from_view) * view, pixel, travelled_m);
+        float longest = history_limit(history, roughness, where.turned);
+        bool inside = all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0)));
+        vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(-1.0);
+        if (longest >= 1.0 && finite(past) && past.a >= 0.0) {
             if (clamp_history) past = clamped(past, pixel, roughness);
-            color = finite(color) ? mix(past, color, 1.0 / (history + 1.0)) : past;
+            color = finite(color) ? mix(past, color, 1.0 / (longest + 1.0)) : past;
         }
     }
     imageStore(reflection_stable, pixel, finite(color) ? color : vec4(0.0));
