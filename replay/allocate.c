@@ -77,7 +77,7 @@ static bool share_memory(struct run *run, struct glint_error *err) {
     return ok;
 }
 
-static bool own_memory(struct image *image, struct glint_device *device, struct glint_error *err) {
+bool image_own_memory(struct image *image, struct glint_device *device, struct glint_error *err) {
     const VkMemoryRequirements need = image_requirements(device, image);
     struct block *block = block_create(device, &need, image->name, err);
     return block && image_bind(image, device, block, err);
@@ -112,7 +112,8 @@ bool run_allocate(struct run *run, struct glint_error *err) {
     replay_drop_images(replay, true); /* before memory is taken for new ones */
     replay->images = kept;
     for (size_t i = 0; i < run->graph.image_count; i++)
-        if (!run->images[i]->block && !run->images[i]->transient && !own_memory(run->images[i], replay->device, err))
+        if (!run->images[i]->block && !run->images[i]->transient &&
+            !image_own_memory(run->images[i], replay->device, err))
             return false;
     return share_memory(run, err);
 fail:

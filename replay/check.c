@@ -4,26 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What declarations may say and the executor cannot do yet. */
-static void check_support(const struct glint_pass *pass, struct faults *faults) {
-    for (size_t r = 0; r < pass->row_count; r++) {
-        const char *what = NULL;
-        switch (pass->rows[r].kind) {
-        case GLINT_ROW_PER_RAY:
-            what = "PER_RAY";
-            break;
-        case GLINT_ROW_ACCUMULATE:
-            what = "ACCUMULATE";
-            break;
-        default:
-            break;
-        }
-        if (what)
-            faults_add(faults, GLINT_ERROR_UNSUPPORTED, "%s/%s declares %s, which cannot be run yet", pass->slot,
-                       pass->variant, what);
-    }
-}
-
 static bool is_uint(const struct glint_row *row) {
     return row->format == GLINT_FORMAT_R8UI || row->format == GLINT_FORMAT_R32UI;
 }
@@ -42,23 +22,16 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
                    row_is_output(binding) ? "writes" : "reads", row_image(binding), kind, is);
 }
 
-static bool reads(const struct glint_pass *pass, const char *image) {
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (pass->rows[r].kind == GLINT_ROW_READ && strcmp(pass->rows[r].name, image) == 0) return true;
-    return false;
-}
-
 /* Rows that speak of another row of the same pass. */
 static void check_rows(const struct glint_pass *pass, struct faults *faults) {
     const struct glint_row *dispatch = NULL; /* the last one */
-    check_support(pass, faults);
     for (size_t r = 0; r < pass->row_count; r++) {
-        const struct glint_row *row = &pass->rows[r], *own = pass_output(pass, row_image(row));
+        const struct glint_row *row = &pass->rows[r], *own = row->name ? pass_output(pass, row_image(row)) : NULL;
         if ((row_is_output(row) || row->optional) && row->size == GLINT_SIZE_LIST &&
             (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
                        pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH_LIST && (!reads(pass, row->name) || !dispatch))
+        if (row->kind == GLINT_ROW_DISPATCH_LIST && (!pass_row(pass, GLINT_ROW_READ, row->name) || !dispatch))
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: DISPATCH_LIST %s: expected an image that the pass reads, and a DISPATCH before it",
                        pass->slot, pass->variant, row->name);
@@ -69,6 +42,11 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: SELF %s: expected an image that the pass writes", pass->slot,
                        pass->variant, row->image);
         else if (row->kind == GLINT_ROW_SELF) graph_check_kind(pass, row, own, faults);
+        const bool sums = own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) && !is_uint(own);
+        if (row->kind == GLINT_ROW_ACCUMULATE && (!sums || !pass_row(pass, GLINT_ROW_PER_RAY, NULL)))
+            faults_add(faults, GLINT_ERROR_USAGE,
+                       "%s/%s: ACCUMULATE %s: expected a plain float image that the pass writes, and PER_RAY",
+                       pass->slot, pass->variant, row->name);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && (!own || !size_has_levels(own->size)))
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: DISPATCH_LEVELS %s: expected an image with levels that the pass writes", pass->slot,

@@ -1,4 +1,4 @@
-/* Links passes by image name, orders them, and finds each image's source. */
+/* Links passes by image name, and finds each image's source. */
 #include "graph.h"
 
 #include <stdio.h>
@@ -50,6 +50,13 @@ struct graph_image *graph_bound(const struct graph *graph, const struct glint_ro
     return binding->kind == GLINT_ROW_HISTORY ? NULL : graph_find(graph, row_image(binding));
 }
 
+const struct glint_row *pass_row(const struct glint_pass *pass, enum glint_row_kind kind, const char *image) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == kind && (!image || strcmp(row_image(&pass->rows[r]), image) == 0))
+            return &pass->rows[r];
+    return NULL;
+}
+
 const struct glint_row *pass_output(const struct glint_pass *pass, const char *image) {
     for (size_t i = 0; i < pass->row_count; i++)
         if (row_is_output(&pass->rows[i]) && strcmp(pass->rows[i].name, image) == 0) return &pass->rows[i];
@@ -68,62 +75,6 @@ size_t graph_maker(const struct graph *graph, const char *image) {
     size_t i = 0;
     while (i < graph->pass_count && !pass_output(graph->passes[i].pass, image)) i++;
     return i;
-}
-
-/* Cube-map arrays hold the active cube maps in the order of this table, so whoever reads one depends on it. */
-static const char *implied_read(const struct glint_row *read) {
-    const struct glint_row *row = capture_row(read->name);
-    return row && size_is_array(row->size) ? "active_index" : NULL;
-}
-
-/* The images a row reads: its own, and what that implies. */
-static size_t reads_of(const struct glint_row *row, const char *names[2]) {
-    if (row->kind != GLINT_ROW_READ) return 0;
-    names[0] = row->name;
-    names[1] = implied_read(row);
-    return names[1] ? 2 : 1;
-}
-
-bool pass_depends(const struct glint_pass *later, const struct glint_pass *earlier) {
-    for (size_t r = 0; r < later->row_count; r++) {
-        const char *names[2];
-        for (size_t n = reads_of(&later->rows[r], names); n-- > 0;)
-            if (pass_output(earlier, names[n])) return true;
-    }
-    return false;
-}
-
-bool pass_remembers(const struct glint_pass *later, const struct glint_pass *earlier) {
-    for (size_t r = 0; r < later->row_count; r++)
-        if (later->rows[r].kind == GLINT_ROW_HISTORY && pass_output(earlier, row_image(&later->rows[r]))) return true;
-    return false;
-}
-
-/* Topological order, ties by slot name; the passes come ordered by slot. What remains is in cycles or behind one. */
-static void sort(struct graph *graph, struct faults *faults) {
-    for (size_t done = 0; done < graph->pass_count; done++) {
-        size_t next = done;
-        for (; next < graph->pass_count; next++) {
-            bool ready = true;
-            for (size_t j = done; j < graph->pass_count && ready; j++)
-                ready = !pass_depends(graph->passes[next].pass, graph->passes[j].pass);
-            if (ready) break;
-        }
-        if (next == graph->pass_count) {
-            char members[400] = "";
-            for (size_t i = done; i < graph->pass_count; i++) {
-                bool feeds = false; /* one that nobody left reads only hangs behind the cycle */
-                for (size_t j = done; j < graph->pass_count; j++)
-                    feeds |= pass_depends(graph->passes[j].pass, graph->passes[i].pass);
-                if (feeds) text_list(members, sizeof members, graph->passes[i].pass->slot);
-            }
-            faults_add(faults, GLINT_ERROR_USAGE, "passes read one another in a cycle: %s", members);
-            return;
-        }
-        struct graph_pass chosen = graph->passes[next]; /* the others keep their order by name */
-        memmove(&graph->passes[done + 1], &graph->passes[done], (next - done) * sizeof chosen);
-        graph->passes[done] = chosen;
-    }
 }
 
 static bool capture_has(struct glint_capture *capture, const struct glint_row *row) {
@@ -195,6 +146,13 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
     else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
     else complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);
+    const bool given = fresh.source == SOURCE_RUN || fresh.source == SOURCE_ENGINE;
+    if (given && pipeline_rays(inputs->pipeline) > 1 && graph->passes[reader].rank == RANK_RAY &&
+        pass_row(fresh.pass, GLINT_ROW_PER_RAY, NULL))
+        faults_add(faults, GLINT_ERROR_USAGE,
+                   "%s/%s reads %s, which %s makes anew for each of %u rays: it must be among the passes too",
+                   graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, name, fresh.pass->slot,
+                   pipeline_rays(inputs->pipeline));
     if (fresh.row) graph->images[graph->image_count++] = fresh;
 }
 
@@ -269,27 +227,6 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                 link_history(graph, i, &graph->passes[i].pass->rows[r], inputs, faults);
 }
 
-/* Cube maps and the tables about them stay from frame to frame, and so does what is made from them alone. */
-static bool stays(const struct graph *graph, const struct graph_image *image) {
-    if (image->source == SOURCE_MADE && !image->pass->host) return graph->passes[image->maker].cached_work;
-    return image->source == SOURCE_NOTHING || size_is_cube(image->row->size) || image->row->size == GLINT_SIZE_ACTIVE ||
-           image->row->size == GLINT_SIZE_CHAIN;
-}
-
-static void find_cached_work(struct graph *graph) {
-    for (size_t i = 0; i < graph->pass_count; i++) {
-        struct graph_pass *pass = &graph->passes[i];
-        bool still = pass->runs && !pass->pass->host, cubes = false;
-        for (size_t r = 0; still && r < pass->pass->row_count; r++) {
-            const struct glint_row *row = &pass->pass->rows[r];
-            const struct graph_image *image = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
-            if (row->kind == GLINT_ROW_HISTORY || (image && !stays(graph, image))) still = false;
-            cubes |= image && size_is_cube(image->row->size);
-        }
-        pass->cached_work = still && cubes;
-    }
-}
-
 static bool allocate(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err) {
     size_t images = 0;
     for (size_t i = 0; i < pipeline->count; i++) images += 3 * pipeline->passes[i].pass->row_count;
@@ -307,10 +244,11 @@ bool graph_init(struct graph *graph, const struct graph_inputs *inputs, struct g
     *graph = (struct graph){0};
     if (!allocate(graph, inputs->pipeline, err)) goto fail;
     graph_check(graph, &faults);
-    sort(graph, &faults);
+    graph_sort(graph, &faults);
     if (!graph_decide(graph, inputs, &faults, err)) goto fail;
     link_images(graph, inputs, &faults);
-    if (faults.count == 0) find_cached_work(graph);
+    if (faults.count == 0) graph_find_cached_work(graph);
+    graph_find_loop(graph, pipeline_rays(inputs->pipeline));
     if (faults_none(&faults, inputs->pipeline->name, err)) return true;
 fail:
     graph_finish(graph);

@@ -27,9 +27,13 @@ struct graph_image {
     char history_name[80];
 };
 
+/* Passes that run for each ray of a frame stand together, after those that they need and before those that need them. */
+enum rank { RANK_BEFORE, RANK_RAY, RANK_AFTER };
+
 struct graph_pass {
     const struct pipeline_pass *entry;
     const struct glint_pass *pass;
+    enum rank rank;
     bool runs;
     bool cached_work; /* it reads cube maps and nothing that changes with every frame */
     char reason[192];
@@ -38,7 +42,8 @@ struct graph_pass {
 struct graph {
     struct graph_pass *passes; /* in order of execution, also those that do not run */
     size_t pass_count;
-    struct graph_image *images; /* all that passes which run read or write */
+    size_t loop_first, loop_end; /* passes that run for each ray; none when there is one ray */
+    struct graph_image *images;  /* all that passes which run read or write */
     size_t image_count;
 };
 
@@ -87,10 +92,19 @@ bool size_is_cube(enum glint_size_class size);  /* one cube map or an array of t
 bool size_is_array(enum glint_size_class size); /* of cube maps */
 bool size_has_levels(enum glint_size_class size);
 
+/* order.c */
+/* The images a row reads: its own, and what that implies. */
+size_t reads_of(const struct glint_row *row, const char *names[2]);
+void graph_sort(struct graph *graph, struct faults *faults);
+void graph_find_loop(struct graph *graph, uint32_t rays);
+void graph_find_cached_work(struct graph *graph);
+
 /* check.c: declarations that contradict themselves or one another. */
 void graph_check(const struct graph *graph, struct faults *faults);
 void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
                       struct faults *faults);
+/* The row of this kind about the image (NULL: any), or NULL. */
+const struct glint_row *pass_row(const struct glint_pass *pass, enum glint_row_kind kind, const char *image);
 const struct glint_row *capture_row(const char *image);
 
 #endif

@@ -100,7 +100,7 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
             const struct graph_image *image = graph_bound(&run->graph, &pass->rows[r]);
             key = mix_number(mix_text(key, image->name), run->keys[image - run->graph.images]);
         }
-    step->key = key;
+    step->key = step->pass->rank == RANK_RAY ? mix_number(key, pipeline_rays(run->pipeline)) : key;
     return true;
 }
 
@@ -115,6 +115,9 @@ static void decide(struct run *run, struct step *step, size_t place) {
             (outdated(run, i) || run->options->no_cache))
             step->execute = true;
     }
+    /* What a pass of the loop reads from another one is there for one ray at a time. */
+    for (size_t later = place + 1; later < run->graph.loop_end && place >= run->graph.loop_first; later++)
+        step->execute |= run->steps[later].execute && pass_depends(run->steps[later].pass->pass, step->pass->pass);
     for (size_t i = 0; step->execute && i < step->pass->pass->row_count; i++)
         if (row_is_image(&step->pass->pass->rows[i]))
             run->needed[graph_bound(&run->graph, &step->pass->pass->rows[i]) - run->graph.images] = true;

@@ -146,9 +146,28 @@ static bool set_number(struct glint_pipeline *pipeline, const char *slot, const 
     return true;
 }
 
+uint32_t pipeline_rays(const struct glint_pipeline *pipeline) {
+    return pipeline->rays ? pipeline->rays : 1;
+}
+
+/* pipeline.rays is the pipeline's own. */
+static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, const char *text,
+                     struct glint_error *err) {
+    char *end;
+    if (strcmp(parameter, "rays") != 0)
+        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline has no parameter '%s'; known: rays", parameter);
+    const double value = strtod(text, &end);
+    if (end == text || *end || !(value >= 1 && value <= RAYS_MAX) || value != floor(value))
+        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline.rays: expected a whole number from 1 to %d, found '%s'",
+                          RAYS_MAX, text);
+    pipeline->rays = (uint32_t)value;
+    return true;
+}
+
 static bool set_text(struct glint_pipeline *pipeline, const char *slot, const char *parameter, const char *text,
                      struct glint_error *err) {
     size_t i;
+    if (strcmp(slot, "pipeline") == 0) return set_rays(pipeline, parameter, text, err);
     struct pipeline_pass *entry = locate(pipeline, slot, parameter, &i, err);
     if (!entry) return false;
     const struct glint_row *row = &entry->pass->rows[i];

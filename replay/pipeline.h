@@ -16,8 +16,11 @@ struct glint_pipeline {
     char *name;
     struct pipeline_pass *passes; /* ordered by slot */
     size_t count;
+    uint32_t rays; /* a frame; 0: 1 */
 };
 
+enum { RAYS_MAX = 1024 };
+uint32_t pipeline_rays(const struct glint_pipeline *pipeline);
 const struct pipeline_pass *pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
 bool row_is_parameter(const struct glint_row *row);
 

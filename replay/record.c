@@ -11,6 +11,10 @@ static json_t *parameter(const struct glint_row *row, double value) {
     return row->type == GLINT_VALUE_FLOAT ? json_real(value) : json_integer((json_int_t)value);
 }
 
+static size_t pass_rays(const struct run *run, size_t p) {
+    return run->graph.passes[p].rank == RANK_RAY ? pipeline_rays(run->pipeline) : 1;
+}
+
 static json_t *pass_record(const struct run *run, size_t p) {
     const struct graph_pass *pass = &run->graph.passes[p];
     const struct glint_pass_result *result = &run->replay->results[p];
@@ -26,7 +30,8 @@ static json_t *pass_record(const struct run *run, size_t p) {
     json_object_set_new(object, "cached", json_boolean(result->cached));
     if (pass->cached_work) json_object_set_new(object, "cached_work", json_true());
     if (!pass->pass->host)
-        json_object_set_new(object, "dispatches", json_integer((json_int_t)run->steps[p].dispatch_count));
+        json_object_set_new(object, "dispatches",
+                            json_integer((json_int_t)(run->steps[p].dispatch_count * pass_rays(run, p))));
     if (pass->pass->host) json_object_set_new(object, "host", json_true());
     if (pass->entry->shader) json_object_set_new(object, "shader", json_string(pass->entry->shader));
     json_object_set_new(object, "parameters", parameters);
@@ -89,6 +94,7 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "tool", json_pack("{ssss}", "name", "glint", "version", GLINT_VERSION));
     json_object_set_new(root, "device", device_record(glint_device_get_info(run->replay->device)));
     json_object_set_new(root, "frame", json_integer((json_int_t)glint_capture_frame(run->replay->capture)->number));
+    json_object_set_new(root, "rays", json_integer((json_int_t)pipeline_rays(run->pipeline)));
     json_object_set_new(root, "preset", json_string(run->pipeline->name));
     json_object_set_new(root, "resolution",
                         json_pack("{s[ii]s[ii]}", "full", (int)run->sizes.full[0], (int)run->sizes.full[1], "half",

@@ -54,7 +54,9 @@ struct step {
     size_t list_count; /* how many of them run over lists */
     uint64_t key;
     bool execute;
-    uint64_t *ns; /* one for each timed round */
+    bool recorded;     /* in the commands under way */
+    uint64_t round_ns; /* so far */
+    uint64_t *ns;      /* one for each timed round */
     size_t timed;
 };
 
@@ -77,6 +79,7 @@ struct run {
     VkDescriptorPool pool;
     VkDescriptorSet frame_set;
     VkQueryPool queries;
+    struct rays *rays; /* NULL: one a frame */
     glint_progress progress;
     void *user;
     bool touched; /* images may have changed */
@@ -101,6 +104,7 @@ const struct glint_run_image *run_given(const struct run *run, const struct grap
 
 /* allocate.c: images and their memory. */
 bool run_allocate(struct run *run, struct glint_error *err);
+bool image_own_memory(struct image *image, struct glint_device *device, struct glint_error *err);
 void replay_drop_images(struct glint_replay *replay, bool all);
 
 /* memo.c: keys of images and steps, and which steps have to execute. */
@@ -115,7 +119,12 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
 bool step_describe(const struct run *run, struct step *step, struct glint_error *err);
 void step_record(const struct run *run, struct step *step);
 
-/* execute.c */
+/* rays.c: sums and means over the rays of a frame. */
+bool rays_prepare(struct run *run, struct glint_error *err);
+void rays_record(const struct run *run, uint32_t ray);
+void rays_release(struct run *run);
+
+/* prepare.c, execute.c */
 bool run_prepare(struct run *run, struct glint_error *err);
 bool run_execute(struct run *run, struct glint_error *err);
 void run_release(struct run *run);

@@ -33,6 +33,18 @@
 #define PASS_ID memory
 #include "made/memory.pass.h"
 #undef PASS_ID
+#define PASS_ID base
+#include "made/base.pass.h"
+#undef PASS_ID
+#define PASS_ID cast
+#include "made/cast.pass.h"
+#undef PASS_ID
+#define PASS_ID catch
+#include "made/catch.pass.h"
+#undef PASS_ID
+#define PASS_ID tally
+#include "made/tally.pass.h"
+#undef PASS_ID
 
 #include "rows.h"
 static const struct glint_row chain_rows[] = {
@@ -70,6 +82,26 @@ static const struct glint_row memory_rows[] = {
 #include "made/memory.pass.h"
 #undef PASS_ID
 };
+static const struct glint_row base_rows[] = {
+#define PASS_ID base
+#include "made/base.pass.h"
+#undef PASS_ID
+};
+static const struct glint_row cast_rows[] = {
+#define PASS_ID cast
+#include "made/cast.pass.h"
+#undef PASS_ID
+};
+static const struct glint_row catch_rows[] = {
+#define PASS_ID catch
+#include "made/catch.pass.h"
+#undef PASS_ID
+};
+static const struct glint_row tally_rows[] = {
+#define PASS_ID tally
+#include "made/tally.pass.h"
+#undef PASS_ID
+};
 
 #define DEFINE(name)                                                                                                   \
     const struct glint_pass made_##name = {.slot = #name,                                                              \
@@ -85,6 +117,10 @@ DEFINE(sieve);
 DEFINE(worker);
 DEFINE(forger);
 DEFINE(memory);
+DEFINE(tally);
+DEFINE(catch);
+DEFINE(cast);
+DEFINE(base);
 
 void made_init(struct made *made, const struct glint_pass *const *passes) {
     *made = (struct made){.pipeline = {.name = (char *)"made"}};

@@ -5,7 +5,8 @@
 #include "fixture.h"
 #include "pipeline.h"
 
-extern const struct glint_pass made_chain, made_cubes, made_reader, made_sieve, made_worker, made_forger, made_memory;
+extern const struct glint_pass made_chain, made_cubes, made_reader, made_sieve, made_worker, made_forger, made_memory,
+    made_base, made_cast, made_catch, made_tally;
 
 enum { MADE_MAX = 8 };
 struct made {

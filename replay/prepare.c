@@ -1,0 +1,106 @@
+/* What a run needs before its passes can be recorded: programs, descriptors, queries. */
+#include "state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static VkResult create_pool(struct run *run, uint32_t sets, uint32_t sampled, uint32_t storage) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, sampled + 1},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, storage + 1},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
+    const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                             .maxSets = sets + 1,
+                                             .poolSizeCount = 4,
+                                             .pPoolSizes = sizes};
+    return vkCreateDescriptorPool(run->replay->device->device, &info, NULL, &run->pool);
+}
+
+static bool prepare_frame_set(struct run *run, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                              .descriptorPool = run->pool,
+                                              .descriptorSetCount = 1,
+                                              .pSetLayouts = &replay->programs.frame};
+    VkResult result = vkAllocateDescriptorSets(replay->device->device, &info, &run->frame_set);
+    if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
+    device_set_name(replay->device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)run->frame_set, "frame");
+    memcpy(replay->frame.map, &run->block, sizeof run->block);
+    const VkDescriptorBufferInfo buffer = {replay->frame.buffer, 0, sizeof run->block};
+    const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                        .dstSet = run->frame_set,
+                                        .dstBinding = 0,
+                                        .descriptorCount = 1,
+                                        .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                        .pBufferInfo = &buffer};
+    vkUpdateDescriptorSets(replay->device->device, 1, &write, 0, NULL);
+    return true;
+}
+
+static bool prepare_queries(struct run *run, struct glint_error *err) {
+    if (!run->replay->device->timestamp_mask || !run->graph.pass_count) return true;
+    const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                        .queryCount = 2 * (uint32_t)run->graph.pass_count};
+    VkResult result = vkCreateQueryPool(run->replay->device->device, &info, NULL, &run->queries);
+    return result == VK_SUCCESS || vk_fail(err, "creating timestamp queries", result);
+}
+
+bool run_prepare(struct run *run, struct glint_error *err) {
+    struct glint_replay *replay = run->replay;
+    uint32_t sets = 0, sampled = 0, storage = 0;
+    VkDeviceSize groups = 0;
+    for (size_t p = 0; p < run->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        if (!step->pass->runs || step->pass->pass->host) continue;
+        if (!step_plan(run, step, err)) return false;
+        if (!step->execute) continue;
+        for (size_t d = 0; d < step->dispatch_count; d++)
+            if (step->dispatches[d].list) step->dispatches[d].at = groups, groups += 4 * sizeof(uint32_t);
+        const struct glint_pass *pass = step->pass->pass;
+        step->program = programs_get(&replay->programs, replay->device, pass, &step->spirv, &step->constants, err);
+        if (!step->program) return false;
+        const uint32_t dispatches = (uint32_t)step->dispatch_count;
+        sets += dispatches;
+        for (size_t r = 0; r < pass->row_count; r++) {
+            sampled += dispatches * row_is_sampled(&pass->rows[r]);
+            storage += dispatches * row_is_output(&pass->rows[r]);
+        }
+    }
+    if (groups > replay->indirect.size) {
+        host_buffer_finish(&replay->indirect, replay->device);
+        if (!host_buffer_init(&replay->indirect, replay->device, HOST_BUFFER_INDIRECT, groups, "groups of lists", err))
+            return false;
+    }
+    VkResult result = create_pool(run, sets, sampled, storage);
+    if (result != VK_SUCCESS) return vk_fail(err, "creating the descriptor pool", result);
+    for (size_t p = 0; p < run->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        if (step->execute && !step_describe(run, step, err)) return false;
+    }
+    return prepare_frame_set(run, err) && prepare_queries(run, err) && rays_prepare(run, err);
+}
+
+void run_release(struct run *run) {
+    VkDevice device = run->replay->device->device;
+    rays_release(run);
+    vkDestroyQueryPool(device, run->queries, NULL);
+    vkDestroyDescriptorPool(device, run->pool, NULL);
+    for (size_t p = 0; run->steps && p < run->graph.pass_count; p++) {
+        spirv_finish(&run->steps[p].spirv);
+        free(run->steps[p].ns);
+        free(run->steps[p].dispatches);
+    }
+    free(run->steps);
+    free(run->images);
+    free(run->keys);
+    for (size_t i = 0; run->given && i < run->graph.image_count; i++) free(run->given[i]);
+    free(run->given);
+    free(run->needed);
+    free(run->active);
+    free(run->host_seconds);
+    tables_finish(&run->tables);
+    graph_finish(&run->graph);
+    glint_run_close(&run->inputs);
+    glint_run_close(&run->history);
+}
