@@ -133,7 +133,9 @@ static void near_by_bits(const struct plain *plain, float *values) {
 static void the_minority_of_an_edge_is_discarded(void **state) {
     struct gpu *gpu = *state;
     char path[256];
-    plain_capture(gpu_path(gpu, "bits", path), &(struct plain){32, 8, 0.3f, 60, false, near_by_bits});
+    plain_capture(
+        gpu_path(gpu, "bits", path),
+        &(struct plain){.width = 32, .height = 8, .roughness = 0.3f, .fov_y_degrees = 60, .spoil = near_by_bits});
     gpu_load(gpu, "bits");
     for (int edges = 1; edges >= 0; --edges) {
         gpu_reset(gpu);
@@ -157,7 +159,8 @@ static void the_minority_of_an_edge_is_discarded(void **state) {
 static void odd_sizes_pick_inside(void **state) {
     struct gpu *gpu = *state;
     char path[256];
-    plain_capture(gpu_path(gpu, "odd", path), &(struct plain){7, 3, 0.3f, 60, false, NULL});
+    plain_capture(gpu_path(gpu, "odd", path),
+                  &(struct plain){.width = 7, .height = 3, .roughness = 0.3f, .fov_y_degrees = 60});
     gpu_load(gpu, "odd");
     gpu_reset(gpu);
     gpu_run(gpu);

@@ -49,8 +49,12 @@ static bool near_a_bad_one(uint32_t x, uint32_t y) {
 static float *composed(struct gpu *gpu, bool spoiled, float roughness) {
     char path[256];
     const char *name = spoiled ? "spoiled" : "clean";
-    plain_capture(gpu_path(gpu, name, path),
-                  &(struct plain){WIDTH, HEIGHT, roughness, 60, true, spoiled ? spoil : NULL});
+    plain_capture(gpu_path(gpu, name, path), &(struct plain){.width = WIDTH,
+                                                             .height = HEIGHT,
+                                                             .roughness = roughness,
+                                                             .fov_y_degrees = 60,
+                                                             .floor = true,
+                                                             .spoil = spoiled ? spoil : NULL});
     gpu_load(gpu, name);
     gpu_reset(gpu);
     gpu->float_precision = true;

@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include <cmocka.h>
@@ -53,6 +54,48 @@ static void add_part(struct glint_writer *writer, const char *name, const struct
     check(glint_writer_add_part(writer, &part, &err), &err);
 }
 
+void plain_direction(uint32_t face, double x, double y, uint32_t size, double out[3]) {
+    /* Vulkan, Cube Map Face Selection, read backwards: where s and t point on each face. */
+    static const int s[6][3] = {{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}};
+    static const int t[6][3] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};
+    const double u = 2 * (x + 0.5) / size - 1, v = 2 * (y + 0.5) / size - 1, length = sqrt(1 + u * u + v * v);
+    for (uint32_t k = 0; k < 3; ++k) {
+        double axis = k == face / 2 ? (face % 2 ? -1 : 1) : 0;
+        out[k] = (axis + u * s[face][k] + v * t[face][k]) / length;
+    }
+}
+
+/* Cube map `number`, or the sky for the number cube_count. */
+static void add_cube(struct glint_writer *writer, const struct plain *plain, uint32_t number) {
+    static const char *const names[5] = {"R", "G", "B", "A", "distance.Z"};
+    struct glint_error err = {0};
+    struct glint_channel channels[5] = {{0}};
+    const uint32_t size = plain->cube_size;
+    bool is_sky = number == plain->cube_count;
+    float *values = calloc((size_t)size * size * 6 * 5, sizeof *values);
+    assert_non_null(values);
+    for (uint32_t i = 0; i < 6 * size * size; ++i) {
+        double direction[3];
+        plain_direction(i / (size * size), i % size, i / size % size, size, direction);
+        if (is_sky) plain->sky(direction, &values[5 * i]);
+        else plain->cube(number, direction, &values[5 * i]);
+    }
+    for (size_t k = 0; k < 5; ++k)
+        channels[k] = (struct glint_channel){
+            .name = names[k], .type = GLINT_F32, .data = &values[k], .x_stride_bytes = 5 * sizeof *values};
+    char name[32];
+    snprintf(name, sizeof name, is_sky ? "sky" : "cubemap.%03u", number);
+    const struct glint_part part = {.name = name,
+                                    .width = size,
+                                    .height = 6 * size,
+                                    .channels = channels,
+                                    .channel_count = is_sky ? 3 : 5,
+                                    .cubemap = is_sky ? NULL : &plain->cubes[number]};
+    check(glint_writer_add_part(writer, &part, &err), &err);
+    /* The writer has copied them. */
+    free(values);
+}
+
 void plain_capture(const char *path, const struct plain *plain) {
     static const char *const names[PLAIN_CHANNELS] = {"depth.Z",
                                                       "normal.X",
@@ -88,6 +131,8 @@ void plain_capture(const char *path, const struct plain *plain) {
     add_part(writer, "gbuffer", plain, names, values, PLAIN_LIT_R);
     add_part(writer, "lit", plain, names + PLAIN_LIT_R, values + (size_t)PLAIN_LIT_R * plain->width * plain->height,
              PLAIN_CHANNELS - PLAIN_LIT_R);
+    for (uint32_t i = 0; plain->cube && i < plain->cube_count; ++i) add_cube(writer, plain, i);
+    if (plain->sky) add_cube(writer, plain, plain->cube_count);
     check(glint_writer_finish(writer, &err), &err);
     glint_writer_destroy(&writer);
     free(values);

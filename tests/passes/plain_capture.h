@@ -1,9 +1,11 @@
-/* Small captures by closed form, without cube maps. */
+/* Small captures by closed form. */
 #ifndef GLINT_TESTS_PASSES_PLAIN_CAPTURE_H
 #define GLINT_TESTS_PASSES_PLAIN_CAPTURE_H
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#include "glint/capture.h"
 
 /* Planes of values, in this order. */
 enum plain_channel {
@@ -34,7 +36,15 @@ struct plain {
     bool floor;
     /* Changes the values before they are written; NULL: not. values[channel · pixels + y · width + x]. */
     void (*spoil)(const struct plain *plain, float *values);
+    /* Cube maps, cube_size wide: R G B A and distance in a unit direction. NULL: none. */
+    uint32_t cube_size, cube_count;
+    struct glint_cubemap cubes[4];
+    void (*cube)(uint32_t number, const double direction[3], float out[5]);
+    void (*sky)(const double direction[3], float out[3]); /* as wide as the cube maps; NULL: none */
 };
 void plain_capture(const char *path, const struct plain *plain);
+
+/* Unit direction of a texel of a face (+X -X +Y -Y +Z -Z) in Vulkan's orientation; x and y may be any place on it. */
+void plain_direction(uint32_t face, double x, double y, uint32_t size, double out[3]);
 
 #endif
