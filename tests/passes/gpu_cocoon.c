@@ -1,0 +1,256 @@
+/* The cocoon against maxima made here, level by level, and the fallback trace through it against a sphere. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+static float *level_of(struct gpu *gpu, uint32_t level, uint32_t *width) {
+    char name[64];
+    uint32_t height;
+    snprintf(name, sizeof name, level ? "cocoon_distance.level%u" : "cocoon_distance", level);
+    return gpu_floats(gpu, name, width, &height);
+}
+
+static void start(struct gpu *gpu, const char *name, uint32_t size, uint32_t count,
+                  void (*cube)(uint32_t, const double *, float *)) {
+    char path[256];
+    struct plain plain = {
+        .width = 40, .height = 24, .fov_y_degrees = 60, .cube_size = size, .cube_count = count, .cube = cube};
+    for (uint32_t i = 0; i < count; ++i) plain.cubes[i].center[2] = -2 - (double)i;
+    plain_capture(gpu_path(gpu, name, path), &plain);
+    gpu_load(gpu, name);
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "cocoon=max");
+}
+
+/* Cube map 0: a lumpy space with poles and a window to the sky; 1: all sky but for one direction; 2: all sky. */
+static void lumpy(uint32_t number, const double d[3], float out[5]) {
+    bool sky = number == 0 ? d[1] > 0.6 || (d[0] > 0.8 && fabs(d[1]) < 0.4) : number == 1 ? d[2] < 0.99 : true;
+    bool pole = fabs(d[0] * 7 - floor(d[0] * 7) - 0.5) < 0.06;
+    out[0] = out[1] = out[2] = out[3] = sky ? 0 : 1;
+    out[4] = sky ? INFINITY : (float)(pole ? 1 : 3 + d[0] + 0.5 * sin(9 * d[1]));
+}
+
+/* What a bilinear lookup of a cube map may give: texels beyond a border are the neighbouring face's, which a direction
+   that is continued over the border meets. Where three faces meet, devices differ: low and high then bound it. */
+struct bounds {
+    double low, high;
+};
+static double nearest_texel(const float *cube, uint32_t size, const double d[3]) {
+    double best = -2;
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < 6 * size * size; ++i) { /* brute force: the texel whose direction is nearest on its face */
+        double t[3];
+        plain_direction(i / (size * size), i % size, i / size % size, size, t);
+        uint32_t face = i / (size * size), axis = face / 2;
+        double sign = face % 2 ? -1 : 1, major = sign * d[axis];
+        if (major < fabs(d[(axis + 1) % 3]) - 1e-12 || major < fabs(d[(axis + 2) % 3]) - 1e-12) continue;
+        double worst = 0; /* on the face, where both have a major axis of 1 */
+        for (uint32_t k = 0; k < 3; ++k) worst = fmax(worst, fabs(d[k] / major - t[k] / (sign * t[axis])));
+        if (-worst > best) best = -worst, at = i;
+    }
+    return (double)cube[at];
+}
+
+static struct bounds lookup(const float *cube, uint32_t size, const double d[3]) {
+    uint32_t axis = fabs(d[0]) >= fabs(d[1]) && fabs(d[0]) >= fabs(d[2]) ? 0 : fabs(d[1]) >= fabs(d[2]) ? 1 : 2;
+    uint32_t face = 2 * axis + (d[axis] < 0);
+    /* Place on the face by the two directions that span it. */
+    double origin[3], right[3], down[3], u = 0, v = 0;
+    plain_direction(face, -0.5 + size / 2.0, -0.5 + size / 2.0, size, origin);
+    plain_direction(face, size - 0.5, -0.5 + size / 2.0, size, right);
+    plain_direction(face, -0.5 + size / 2.0, size - 0.5, size, down);
+    for (uint32_t k = 0; k < 3; ++k) {
+        u += d[k] / fabs(d[axis]) * (right[k] * sqrt(2) - origin[k]);
+        v += d[k] / fabs(d[axis]) * (down[k] * sqrt(2) - origin[k]);
+    }
+    double x = (0.5 + 0.5 * u) * size - 0.5, y = (0.5 + 0.5 * v) * size - 0.5, sum = 0, low = INFINITY, high = 0;
+    bool corner = false;
+    for (int k = 0; k < 4; ++k) {
+        double cx = floor(x) + k % 2, cy = floor(y) + k / 2, t[3];
+        corner |= (cx < 0 || cx > size - 1.0) && (cy < 0 || cy > size - 1.0);
+        plain_direction(face, cx, cy, size, t);
+        double texel = nearest_texel(cube, size, t);
+        low = fmin(low, texel);
+        high = fmax(high, texel);
+        sum += (1 - fabs(x - cx)) * (1 - fabs(y - cy)) * texel;
+    }
+    return corner ? (struct bounds){low, high} : (struct bounds){sum, sum};
+}
+
+/* Slides, Weighted MAX, over 29 taps of a disc of 3.5 texels of the coarser level, whose rim weighs a tenth. */
+static struct bounds weighted_max(const float *coarser, uint32_t size, const double axis[3]) {
+    struct bounds out = {0, 0}, pivot = lookup(coarser, size, axis);
+    double rim = 3.5 / (size / 2.0), power = log(0.1) / log(cos(atan(rim)));
+    /* Any frame: taps lie on a lattice, so the device's own is needed (Duff et al. 2017). */
+    double side = axis[2] >= 0 ? 1 : -1, a = -1 / (side + axis[2]), b = axis[0] * axis[1] * a;
+    const double t[3] = {1 + side * axis[0] * axis[0] * a, side * b, -side * axis[0]};
+    const double s[3] = {b, side + axis[1] * axis[1] * a, -axis[1]};
+    for (int y = -3; y <= 3; ++y)
+        for (int x = -3; x <= 3; ++x) {
+            if (x * x + y * y > 9) continue;
+            double tap[3], length = 0;
+            for (int k = 0; k < 3; ++k) {
+                tap[k] = axis[k] + (x * t[k] + y * s[k]) * rim / 3.5;
+                length += tap[k] * tap[k];
+            }
+            double weight = pow(1 / sqrt(length), power);
+            struct bounds seen = lookup(coarser, size, tap);
+            out.low = fmax(out.low, pivot.low + (seen.low - pivot.low) * weight);
+            out.high = fmax(out.high, pivot.high + (seen.high - pivot.high) * weight);
+        }
+    return out;
+}
+
+enum { SIZE = 32, COCOON = 2 /* the level that is 8 wide */, COARSEST = 5 };
+
+/* Top-down by its definition: a texel is the farthest of all base texels under it that are not sky. */
+static double farthest(const float *base, uint32_t level, uint32_t face, uint32_t x, uint32_t y) {
+    double most = -1;
+    for (uint32_t i = 0; i < SIZE * SIZE; ++i) {
+        float distance = base[face * SIZE * SIZE + i];
+        if (i % SIZE >> level == x && i / SIZE >> level == y && isfinite(distance)) most = fmax(most, (double)distance);
+    }
+    return most < 0 ? INFINITY : most;
+}
+
+static void check_map(struct gpu *gpu, const float *base, uint32_t number, size_t counts[4]) {
+    const float *cubes[COARSEST + 1];
+    float *owned[COARSEST + 1];
+    for (uint32_t level = 0; level <= COARSEST; ++level) {
+        uint32_t width;
+        owned[level] = level_of(gpu, level, &width);
+        assert_int_equal(width, SIZE >> level);
+        cubes[level] = owned[level] + (size_t)number * 6 * width * width;
+    }
+    for (uint32_t level = 0; level <= COARSEST; ++level) {
+        uint32_t width = SIZE >> level;
+        for (uint32_t i = 0; i < 6 * width * width; ++i) {
+            uint32_t face = i / (width * width), x = i % width, y = i / width % width;
+            double found = (double)cubes[level][i], down = farthest(base, level, face, x, y), axis[3];
+            plain_direction(face, x, y, width, axis);
+            struct bounds expected = {down, down};
+            if (level == COARSEST && isinf(down))
+                for (uint32_t f = 0; f < 6; ++f) {
+                    double other = farthest(base, level, f, 0, 0);
+                    if (f == 0 || isinf(expected.low) || (isfinite(other) && other > expected.low))
+                        expected = (struct bounds){other, other};
+                }
+            else if (level < COARSEST && (level == COCOON || (level > COCOON && isinf(down))))
+                expected = weighted_max(cubes[level + 1], width / 2, axis);
+            else if (level < COCOON && isinf(down)) expected = lookup(cubes[COCOON], SIZE >> COCOON, axis);
+            /* The sampler's weights have 8 bits, of differences below 4 m. */
+            if (!(found >= expected.low - 0.02 && found <= expected.high + 0.02))
+                fail_msg("map %u, level %u, face %u, %u,%u: %g, expected %g to %g", number, level, face, x, y, found,
+                         expected.low, expected.high);
+            counts[level < COCOON ? 0 : level == COCOON ? 1 : 2] += isinf(down) || level == COCOON;
+            counts[3] += expected.low == expected.high;
+        }
+    }
+    for (uint32_t level = 0; level <= COARSEST; ++level) free(owned[level]);
+}
+
+static void each_level_is_the_slides_maximum(void **state) {
+    struct gpu *gpu = *state;
+    start(gpu, "lumpy", SIZE, 2, lumpy);
+    gpu_set(gpu, "cocoon.size=8");
+    gpu_run(gpu);
+    size_t counts[4] = {0};
+    for (uint32_t number = 0; number < 2; ++number) {
+        float base[6 * SIZE * SIZE], out[5];
+        for (uint32_t i = 0; i < 6 * SIZE * SIZE; ++i) {
+            double d[3];
+            plain_direction(i / (SIZE * SIZE), i % SIZE, i / SIZE % SIZE, SIZE, d);
+            lumpy(number, d, out);
+            base[i] = out[4];
+        }
+        check_map(gpu, base, number, counts);
+    }
+    print_message("# %zu texels of sky capped, %zu of the cocoon, %zu coarser ones filled; %zu texels exactly known\n",
+                  counts[0], counts[1], counts[2], counts[3]);
+    assert_true(counts[0] > 1000 && counts[1] == 2 * 6 * 64 && counts[2] > 20 && counts[3] > 10000);
+}
+
+static void all_sky_stays_sky_and_one_texel_works(void **state) {
+    struct gpu *gpu = *state;
+    const uint32_t sizes[] = {1, 8};
+    for (int s = 0; s < 2; ++s) {
+        start(gpu, "sky", sizes[s], 3, lumpy);
+        gpu_run(gpu);
+        uint32_t width;
+        float *found = level_of(gpu, 0, &width);
+        for (uint32_t i = 0; i < 18 * width * width; ++i) {
+            uint32_t number = i / (6 * width * width);
+            if (number == 2) assert_true(isinf(found[i]));
+            else if (number == 0) assert_true(isfinite(found[i]));
+        }
+        free(found);
+    }
+}
+
+static const double radius = 3.2;
+static void sphere(uint32_t number, const double d[3], float out[5]) {
+    (void)number;
+    (void)d;
+    out[0] = out[1] = out[2] = out[3] = 1;
+    out[4] = (float)radius;
+}
+
+/* No crossing counts as a hit, so that every ray that ends falls back; mirror rays off the wall z = -5 m. */
+static void the_fallback_ends_where_the_ray_leaves_the_cocoon(void **state) {
+    struct gpu *gpu = *state;
+    start(gpu, "sphere", 32, 1, sphere);
+    const char *const settings[] = {"downsample.jitter=false", "screen_trace.length_m=0",
+                                    "cubemap_trace.fallback=cocoon", "cubemap_trace.mass_m=0",
+                                    "cubemap_trace.mass_step=0"};
+    for (size_t k = 0; k < sizeof settings / sizeof settings[0]; ++k) gpu_set(gpu, settings[k]);
+    gpu_run(gpu);
+    uint32_t width, height, *end = gpu_uints(gpu, "cubemap_end", &width, &height);
+    uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), *place = gpu_uints(gpu, "cubemap_index", NULL, NULL);
+    float *travelled = gpu_floats(gpu, "travelled", NULL, NULL);
+    size_t inside = 0, enters = 0, misses = 0;
+    for (uint32_t i = 0; i < width * height; ++i) {
+        /* 40 × 24 pixels, 60° high: the point on the wall and its ray, from the camera at the origin. */
+        double scale = 5 * tan(3.14159265358979323846 / 6) / 12;
+        double px = scale * (2 * (i % width) + (pick[i] & 1) + 0.5 - 20),
+               py = -scale * (2 * (i / width) + (pick[i] >> 1) + 0.5 - 12);
+        double length = sqrt(px * px + py * py + 25), d[3] = {px / length, py / length, 5 / length};
+        double half_b = px * d[0] + py * d[1] - 3 * d[2], c = px * px + py * py + 9 - radius * radius;
+        double root = half_b * half_b - c;
+        assert_int_equal(place[i], 0);
+        if (root < 0) {
+            misses += isinf(travelled[i]) != 0;
+            assert_true(isinf(travelled[i]));
+        } else if (fabs(root) > 1e-3) {
+            double expected = sqrt(root) - half_b;
+            c < 0 ? ++inside : ++enters;
+            /* The last of 16 growing steps, halved eight times. */
+            if (!(fabs((double)travelled[i] - expected) < 2 * radius * 0.13 / 256))
+                fail_msg("pixel %u: %g, expected %g (reason %u)", i, (double)travelled[i], expected, end[i]);
+        }
+    }
+    print_message("# rays that start inside %zu, come in %zu, miss %zu\n", inside, enters, misses);
+    assert_true(inside > 10 && enters > 20 && misses > 20);
+    free(travelled);
+    free(place);
+    free(pick);
+    free(end);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_level_is_the_slides_maximum),
+        cmocka_unit_test(all_sky_stays_sky_and_one_texel_works),
+        cmocka_unit_test(the_fallback_ends_where_the_ray_leaves_the_cocoon),
+    };
+    return cmocka_run_group_tests_name("gpu_cocoon", tests, gpu_set_up, gpu_tear_down);
+}
