@@ -65,7 +65,7 @@
     {.kind = GLINT_ROW_DISPATCH_LEVELS, .id = __LINE__, .name = #image_, .first = first_, .last = last_,      \
      .order = GLINT_ORDER_##order_},
 #define DISPATCH_LIST(list) {.kind = GLINT_ROW_DISPATCH_LIST, .id = __LINE__, .name = #list},
-#define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__},
+#define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__, .name = ""},
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},
 #define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},

@@ -26,7 +26,7 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
 static void check_rows(const struct glint_pass *pass, struct faults *faults) {
     const struct glint_row *dispatch = NULL; /* the last one */
     for (size_t r = 0; r < pass->row_count; r++) {
-        const struct glint_row *row = &pass->rows[r], *own = row->name ? pass_output(pass, row_image(row)) : NULL;
+        const struct glint_row *row = &pass->rows[r], *own = pass_output(pass, row_image(row));
         if ((row_is_output(row) || row->optional) && row->size == GLINT_SIZE_LIST &&
             (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",

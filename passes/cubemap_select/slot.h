@@ -11,3 +11,4 @@ WRITE(uimage2D, cubemap_best, R8UI, "place", HALF, "place", 255, "place among th
 DISPATCH(cubemap_best)
 NEEDS(reflecting)
 NEEDS(cubemaps)
+PER_RAY

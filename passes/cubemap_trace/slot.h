@@ -17,3 +17,4 @@ DIAGNOSTIC(uimage2D, cubemap_steps, R32UI, "steps", HALF, "steps", 0, "steps tak
 DIAGNOSTIC(uimage2D, cubemap_fetches, R32UI, "fetches", HALF, "fetches", 0, "texture fetches made")
 DISPATCH(travelled)
 NEEDS(reflecting)
+PER_RAY

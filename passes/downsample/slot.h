@@ -10,3 +10,4 @@ WRITE(image2D, cone_half, R16F, "rad", HALF, "angle", 0, "half-angle of the cone
 WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was taken: x + 2y; 4: the block's centre")
 DISPATCH(depth_half)
 NEEDS(reflecting)
+PER_RAY

@@ -7,3 +7,5 @@ READ(utexture2D, pick)
 WRITE(image2D, reflection_half, RGBA16F, "radiance", HALF, "R G B A", 0, "rgb: radiance that arrives along the ray; a: 1 where a source was found")
 DISPATCH(reflection_half)
 NEEDS(reflecting)
+PER_RAY
+ACCUMULATE(reflection_half)

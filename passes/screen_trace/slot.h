@@ -11,3 +11,4 @@ DIAGNOSTIC(uimage2D, screen_steps, R32UI, "steps", HALF, "steps", 0, "steps take
 DIAGNOSTIC(uimage2D, screen_fetches, R32UI, "fetches", HALF, "fetches", 0, "texture fetches made")
 DISPATCH(screen_travelled)
 NEEDS(reflecting)
+PER_RAY
