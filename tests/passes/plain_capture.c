@@ -120,7 +120,7 @@ void plain_capture(const char *path, const struct plain *plain) {
     struct glint_writer *writer = glint_writer_create(path, NULL, &err);
     check(writer != NULL, &err);
     double near = 0.1, far = 1000;
-    struct glint_frame frame = {.number = 1};
+    struct glint_frame frame = {.number = plain->frame ? plain->frame : 1, .cut = plain->cut};
     for (int i = 0; i < 4; ++i) frame.camera.world_to_view[5 * i] = 1;
     frame.camera.view_to_clip[0] = focal(plain) * plain->height / plain->width;
     frame.camera.view_to_clip[5] = focal(plain);

@@ -36,6 +36,8 @@ struct plain {
     bool floor;
     /* Changes the values before they are written; NULL: not. values[channel · pixels + y · width + x]. */
     void (*spoil)(const struct plain *plain, float *values);
+    uint32_t frame; /* number; 0: 1 */
+    bool cut;
     /* Cube maps, cube_size wide: R G B A and distance in a unit direction. NULL: none. */
     uint32_t cube_size, cube_count;
     struct glint_cubemap cubes[4];

@@ -1,0 +1,149 @@
+/* Which neighbours' reflections are shared, and with what weight: blur/plus, and temporal/rough where it has no history. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { SIZE = 96, HALF = SIZE / 2 };
+
+/* A wall in relief: normals that lean, roughness in patches, steps of depth and some sky. Blocks of 2 x 2 are alike, so that it
+   does not matter which pixel is picked but for its place. */
+static void relief(const struct plain *plain, float *values) {
+    uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        uint32_t x = i % plain->width / 2, y = i / plain->width / 2;
+        double lean = 0.3 * sin(0.7 * x) * cos(0.5 * y), length = sqrt(1 + lean * lean);
+        values[PLAIN_NORMAL_X * pixels + i] = (float)(lean / length);
+        values[PLAIN_NORMAL_Z * pixels + i] = (float)(1 / length);
+        values[PLAIN_ROUGHNESS * pixels + i] = (float)(0.05 + 0.9 * ((x / 5 * 7 + y / 4 * 3) % 11) / 10);
+        values[i] = (x / 9 + y / 7) % 3 == 0 ? 4.5f : 5;
+        if (x % 17 == 3 && y % 13 == 4) values[i] = INFINITY;
+    }
+}
+
+struct images {
+    float *depth, *normal, *color;
+    uint32_t *pick;
+};
+
+static void position(const struct images *in, int x, int y, double out[3]) {
+    int i = y * HALF + x;
+    double d = (double)in->depth[i], u = (2 * x + (int)(in->pick[i] & 1) + 0.5) / SIZE,
+           v = (2 * y + (int)(in->pick[i] >> 1) + 0.5) / SIZE;
+    const double focal = 1 / tan(30 * 3.14159265358979323846 / 180); /* 60 degrees, square */
+    out[0] = (2 * u - 1) / focal * d, out[1] = (1 - 2 * v) / focal * d, out[2] = -d;
+}
+
+/* From the slides' rules and the parameters' meaning; defaults. */
+static double weight(const struct images *in, int x, int y, int ox, int oy) {
+    if (ox < 0 || oy < 0 || ox >= HALF || oy >= HALF) return 0;
+    int i = y * HALF + x, o = oy * HALF + ox;
+    if (!isfinite(in->depth[o])) return 0;
+    double from[3], to[3], off = 0, cosine = 0, lengths[2] = {0, 0};
+    position(in, x, y, from);
+    position(in, ox, oy, to);
+    for (int k = 0; k < 3; ++k) {
+        double a = (double)in->normal[4 * i + k], b = (double)in->normal[4 * o + k];
+        off += a * (to[k] - from[k]);
+        cosine += a * b;
+        lengths[0] += a * a, lengths[1] += b * b;
+    }
+    double rough = (double)in->normal[4 * i + 3], other = (double)in->normal[4 * o + 3];
+    if (fabs(off) > 0.01 * (double)in->depth[i] || fabs(rough - other) > 0.1) return 0;
+    double fade = fmin(fmax((rough - 0.05) / 0.1, 0), 1);
+    return fade * pow(fmin(cosine / sqrt(lengths[0] * lengths[1]), 1), 2 / pow(rough, 4) - 2);
+}
+
+static void load(struct gpu *gpu) {
+    char path[256];
+    plain_capture(
+        gpu_path(gpu, "relief", path),
+        &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.5f, .fov_y_degrees = 60, .spoil = relief});
+    gpu_load(gpu, "relief");
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_shader(gpu, "resolve", "stand_in.comp");
+    gpu_set(gpu, "resolve.texel_scale=1");
+}
+
+/* The weighted mean over a cross of offsets, by which image. */
+static void expect_mean(struct gpu *gpu, const char *before, const char *after, const int offsets[4][2]) {
+    struct images in = {gpu_floats(gpu, "depth_half", NULL, NULL), gpu_floats(gpu, "normal_half", NULL, NULL),
+                        gpu_floats(gpu, before, NULL, NULL), gpu_uints(gpu, "pick", NULL, NULL)};
+    float *found = gpu_floats(gpu, after, NULL, NULL);
+    double worst = 0;
+    int shared = 0, refused = 0;
+    for (int y = 0; y < HALF; ++y)
+        for (int x = 0; x < HALF; ++x) {
+            int i = y * HALF + x;
+            double total = 1, sum = (double)in.color[4 * i];
+            for (int k = 0; k < 4 && isfinite(in.depth[i]); ++k) {
+                int ox = x + offsets[k][0], oy = y + offsets[k][1];
+                double w = weight(&in, x, y, ox, oy);
+                shared += w > 0.5, refused += w == 0;
+                if (w > 0) sum += w * (double)in.color[4 * (oy * HALF + ox)], total += w;
+            }
+            worst = fmax(worst, fabs((double)found[4 * i] - sum / total));
+        }
+    print_message("# %s: %d weights above 0.5, %d are 0, worst error %.3g\n", after, shared, refused, worst);
+    assert_true(shared > 500 && refused > 500);
+    /* The images are floats, and steep lobes have no weight: their neighbours differ by more than the rounding of 6e-8. */
+    assert_true(worst < 1e-5);
+    free(in.depth), free(in.normal), free(in.color), free(in.pick), free(found);
+}
+
+static const int plus[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+static const int centres[4][2] = {{1, 2}, {2, -1}, {-1, -2}, {-2, 1}};
+
+static void a_plus_is_weighted_by_the_lobe(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_use(gpu, "blur=plus");
+    gpu_run(gpu);
+    expect_mean(gpu, "reflection_half", "reflection_blurred", plus);
+}
+
+static void without_history_the_centres_around_are_shared_too(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_use(gpu, "blur=plus");
+    gpu_use(gpu, "temporal=rough");
+    gpu_run(gpu);
+    expect_mean(gpu, "reflection_blurred", "reflection_temporal", centres);
+}
+
+static void bad_colours_are_left_out(void **state) {
+    struct gpu *gpu = *state;
+    for (int mips = 0; mips < 2; ++mips) {
+        load(gpu);
+        gpu_set(gpu, "resolve.texel_scale=2");
+        gpu_use(gpu, mips ? "blur=mips" : "blur=plus");
+        if (!mips) gpu_use(gpu, "temporal=rough");
+        gpu_run(gpu);
+        float *before = gpu_floats(gpu, "reflection_half", NULL, NULL),
+              *after = gpu_floats(gpu, mips ? "reflection_blurred" : "reflection_temporal", NULL, NULL);
+        int bad = 0;
+        for (int i = 0; i < HALF * HALF; ++i) {
+            bad += !isfinite(before[4 * i]);
+            assert_true(isfinite(after[4 * i]));
+        }
+        assert_true(bad > 5);
+        free(before), free(after);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_plus_is_weighted_by_the_lobe),
+        cmocka_unit_test(without_history_the_centres_around_are_shared_too),
+        cmocka_unit_test(bad_colours_are_left_out),
+    };
+    return cmocka_run_group_tests_name("gpu_blur_plus", tests, gpu_set_up, gpu_tear_down);
+}

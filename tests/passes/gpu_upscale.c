@@ -1,0 +1,107 @@
+/* upscale/best_match: which sample a pixel takes; resolve_sharp: what smooth pixels show instead. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { SIZE = 128 };
+
+/* Left half: stippled, a nearer surface in every other pixel. Right half: upright bars of the same, five pixels wide. */
+static float depth_at(uint32_t x, uint32_t y) {
+    return (x < SIZE / 2 ? (x + y) % 2 : x / 5 % 2) ? 2 : 5;
+}
+static void two_surfaces(const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < plain->width * plain->height; ++i)
+        values[i] = depth_at(i % plain->width, i / plain->width);
+}
+
+static void load(struct gpu *gpu, float roughness, bool floor) {
+    char path[256];
+    plain_capture(gpu_path(gpu, "surfaces", path), &(struct plain){.width = SIZE,
+                                                                   .height = SIZE,
+                                                                   .roughness = roughness,
+                                                                   .fov_y_degrees = 60,
+                                                                   .floor = floor,
+                                                                   .spoil = floor ? NULL : two_surfaces});
+    gpu_load(gpu, "surfaces");
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "upscale=best_match");
+}
+
+/* Pixels whose reflection came from the other surface. */
+static int mistaken(struct gpu *gpu) {
+    gpu_run(gpu);
+    float *color = gpu_floats(gpu, "reflection", NULL, NULL);
+    int wrong = 0;
+    for (uint32_t i = 0; i < SIZE * SIZE; ++i) wrong += color[4 * i] != depth_at(i % SIZE, i / SIZE);
+    free(color);
+    return wrong;
+}
+
+static void every_pixel_takes_a_sample_of_its_own_surface(void **state) {
+    static const char *const worse[] = {"upscale.depth_weight=0", "downsample.tie=near", NULL};
+    struct gpu *gpu = *state;
+    for (int i = 0; i < 4; ++i) {
+        load(gpu, 0.5f, false);
+        gpu_shader(gpu, "resolve", "stand_in.comp");
+        gpu_set(gpu, "resolve.texel_scale=3");
+        if (i == 3) gpu_use(gpu, "upscale=bilinear");
+        else if (worse[(i + 2) % 3]) gpu_set(gpu, worse[(i + 2) % 3]);
+        int wrong = mistaken(gpu);
+        print_message("# %s: %d of %d pixels from the other surface\n",
+                      i == 3               ? "bilinear"
+                      : worse[(i + 2) % 3] ? worse[(i + 2) % 3]
+                                           : "defaults",
+                      wrong, SIZE * SIZE);
+        assert_true(i == 0 ? wrong == 0 : wrong > SIZE * SIZE / 10);
+    }
+}
+
+/* Rays of every pixel, resolved twice: the same colours. */
+static void smooth_pixels_are_resolved_by_their_own_normals(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, 0, true);
+    gpu_use(gpu, "downsample=none");
+    gpu_use(gpu, "resolve_sharp=hit");
+    gpu_run(gpu);
+    float *upscaled = gpu_floats(gpu, "reflection", NULL, NULL),
+          *sharp = gpu_floats(gpu, "reflection_sharp", NULL, NULL);
+    uint32_t *source = gpu_uints(gpu, "sharp_source", NULL, NULL);
+    int lit = 0;
+    for (int i = 0; i < SIZE * SIZE; ++i) {
+        for (int k = 0; k < 3; ++k) assert_true(fabs((double)(upscaled[4 * i + k] - sharp[4 * i + k])) < 1e-5);
+        lit += upscaled[4 * i] > 0;
+        assert_int_equal(source[i], 5);
+    }
+    assert_true(lit > SIZE);
+    free(upscaled), free(sharp), free(source);
+}
+
+/* Rough pixels are no smooth ones, and a frame of them has nothing to resolve anew. */
+static void rough_pixels_keep_what_was_upscaled(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, 0.3f, true);
+    gpu_use(gpu, "resolve_sharp=hit");
+    gpu_run(gpu);
+    uint32_t *source = gpu_uints(gpu, "sharp_source", NULL, NULL);
+    for (int i = 0; i < SIZE * SIZE; ++i) assert_int_equal(source[i], 0);
+    assert_null(glint_replay_find_image(gpu->replay, "reflection_sharp"));
+    free(source);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pixel_takes_a_sample_of_its_own_surface),
+        cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),
+        cmocka_unit_test(rough_pixels_keep_what_was_upscaled),
+    };
+    return cmocka_run_group_tests_name("gpu_upscale", tests, gpu_set_up, gpu_tear_down);
+}
