@@ -127,15 +127,6 @@ bool survey_fact(const struct glint_survey *survey, const char *fact, char *reas
         snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels are sky", survey->sky, survey->pixels);
         return survey->sky > 0;
     }
-    if (strcmp(fact, "smooth") == 0) { /* 0.1 itself is in the second bin */
-        uint64_t smooth = survey->roughness[0] + survey->roughness[1];
-        snprintf(reason, size, "%" PRIu64 " pixels reflect with a roughness below 0.2", smooth);
-        return smooth > 0;
-    }
-    if (strcmp(fact, "rough") == 0) {
-        snprintf(reason, size, "roughness is up to %.3g", (double)survey->roughness_range[1]);
-        return survey->roughness_range[1] > 0;
-    }
     *known = false;
     return false;
 }
