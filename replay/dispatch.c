@@ -135,10 +135,11 @@ static void access_images(const struct run *run, const struct glint_pass *pass, 
     }
 }
 
-/* Over a list a pass does not reach every pixel. */
-static void clear_outputs(const struct run *run, const struct glint_pass *pass) {
+/* Over a list a pass does not reach every pixel, and a list does not fill its image. */
+static void clear_outputs(const struct run *run, const struct glint_pass *pass, bool all) {
     for (size_t r = 0; r < pass->row_count; r++)
-        if (row_is_output(&pass->rows[r]) && graph_find(&run->graph, pass->rows[r].name)->source == SOURCE_MADE)
+        if (row_is_output(&pass->rows[r]) && (all || pass->rows[r].size == GLINT_SIZE_LIST) &&
+            graph_find(&run->graph, pass->rows[r].name)->source == SOURCE_MADE)
             image_record_clear(run_image(run, pass->rows[r].name), run->replay->device, pass->rows[r].nothing);
 }
 
@@ -146,7 +147,7 @@ void step_record(const struct run *run, struct step *step) {
     struct glint_device *device = run->replay->device;
     VkCommandBuffer commands = device->commands;
     VkPipelineLayout layout = step->program->layout;
-    if (step->list_count) clear_outputs(run, step->pass->pass);
+    clear_outputs(run, step->pass->pass, step->list_count > 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
     vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
                        step->constants.push);

@@ -52,23 +52,51 @@ static bool read_given(const struct run *run, size_t i, uint64_t *key, struct gl
     return true;
 }
 
-/* Cube maps in a file beside the capture are told apart by what the file holds, so that a shot makes them once.
-   Everything else is another with every load. */
-static uint64_t capture_key(const struct run *run, const struct graph_image *image, uint64_t key) {
+/* Cube maps in a file beside the capture: told apart by what the file holds. False when some are in the capture. */
+static bool sibling_key(const struct run *run, uint64_t *key) {
     const struct glint_frame *frame = glint_capture_frame(run->replay->capture);
+    const double scale[] = {frame->pre_exposure, frame->metres_per_unit};
     const struct glint_part_info **parts = NULL;
     size_t count = 0;
-    bool siblings = size_is_array(image->row->size) && image->source == SOURCE_CAPTURE &&
-                    cubemap_parts(run->replay->capture, &parts, &count, NULL);
+    uint64_t own = mix(*key, scale, sizeof scale);
+    bool siblings = cubemap_parts(run->replay->capture, &parts, &count, NULL);
     for (uint32_t i = 0; siblings && i < run->sizes.active; i++) {
         const struct glint_part_info *part = parts[run->active[i]];
         siblings = part->sibling_hash[0] != 0;
-        key = mix_text(mix_text(key, part->name), part->sibling_hash);
+        own = mix_text(mix_text(own, part->name), part->sibling_hash);
     }
     free(parts);
-    if (!siblings) return mix_number(key, run->replay->serial);
-    const double scale[] = {frame->pre_exposure, frame->metres_per_unit};
-    return mix(key, scale, sizeof scale);
+    if (siblings) *key = own;
+    return siblings;
+}
+
+/* The sky: told apart by its pixels, which are kept for the upload. */
+static bool sky_key(const struct run *run, const struct graph_image *image, uint64_t *key, struct glint_error *err) {
+    struct glint_capture *capture = run->replay->capture;
+    struct channels *sky = &run->replay->sky;
+    const double start = now_seconds();
+    if (run->replay->sky_hash) {
+        *key = mix_number(*key, run->replay->sky_hash);
+        return true;
+    }
+    channels_finish(sky);
+    sky->part = glint_capture_find(capture, image->row->role);
+    if (!channels_add_row(sky, image->row, err) || !channels_read(sky, capture, err)) return false;
+    run->replay->seconds[PHASE_READ] += now_seconds() - start;
+    run->replay->sky_hash =
+        mix(1, sky->data, (size_t)sky->part->width * sky->part->height * sky->count * sizeof *sky->data);
+    *key = mix_number(*key, run->replay->sky_hash);
+    return true;
+}
+
+/* What a shot's frames may share keeps its key, so that work on it is done once. Everything else is another with every
+   load. */
+static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
+    const struct graph_image *image = &run->graph.images[i];
+    if (image->source == SOURCE_CAPTURE && image->row->size == GLINT_SIZE_SKY) return sky_key(run, image, key, err);
+    if (image->source != SOURCE_CAPTURE || !size_is_array(image->row->size) || !sibling_key(run, key))
+        *key = mix_number(*key, run->replay->serial);
+    return true;
 }
 
 /* Of an image that no shader of this run makes. Images of a run folder are read, and told apart by their pixels. */
@@ -76,7 +104,7 @@ static bool given_key(const struct run *run, size_t i, uint64_t *key, struct gli
     const struct graph_image *image = &run->graph.images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->desc.format), image->name);
     if (image->source == SOURCE_NOTHING) *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
-    else if (image->source != SOURCE_RUN) *key = capture_key(run, image, *key);
+    else if (image->source != SOURCE_RUN && !capture_key(run, i, key, err)) return false;
     if (size_is_array(image->row->size) && run->active)
         *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
     if (image->source != SOURCE_RUN) return true;

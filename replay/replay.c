@@ -40,6 +40,7 @@ void glint_replay_destroy(struct glint_replay **pointer) {
     if (!replay) return;
     forget_results(replay);
     channels_finish(&replay->gbuffer);
+    channels_finish(&replay->sky);
     if (replay->device) {
         replay_drop_images(replay, true);
         programs_finish(&replay->programs, replay->device);
@@ -59,7 +60,9 @@ bool glint_replay_load(struct glint_replay *replay, struct glint_capture *captur
     replay->capture = capture;
     replay->serial++;
     replay->surveyed = false;
+    replay->sky_hash = 0;
     channels_finish(&replay->gbuffer);
+    channels_finish(&replay->sky);
     forget_results(replay);
     memset(replay->seconds, 0, sizeof replay->seconds);
     return true;
@@ -134,6 +137,7 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
     struct glint_error own = {0};
     bool ok = run_all(&run, &own);
     channels_finish(&replay->gbuffer);
+    channels_finish(&replay->sky);
     if (!ok) forget_results(replay);
     run_release(&run);
     replay->ran = ok;

@@ -24,6 +24,8 @@ struct glint_replay {
     struct glint_survey survey;
     bool surveyed;
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
+    struct channels sky;     /* read for its key, likewise */
+    uint64_t sky_hash;       /* of its pixels; 0: not known yet */
     struct image *images;    /* kept between runs while their descriptions stay */
     struct programs programs;
     struct host_buffer frame, staging, indirect;

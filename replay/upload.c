@@ -221,6 +221,7 @@ static bool upload_captured(struct run *run, const struct graph_image *image, st
     if (size_is_array(image->row->size)) return upload_cubemaps(run, role, err);
     struct channels own = {0}, *channels = &own;
     if (strcmp(role, "gbuffer") == 0 && replay->gbuffer.data) channels = &replay->gbuffer;
+    if (strcmp(role, "sky") == 0 && replay->sky.data) channels = &replay->sky;
     bool ok = upload_part(run, glint_capture_find(replay->capture, role), role, channels, 0,
                           image->row->size == GLINT_SIZE_SKY ? 6 : 1, err);
     channels_finish(&own);
@@ -249,5 +250,6 @@ bool run_upload(struct run *run, struct glint_error *err) {
         }
     }
     channels_finish(&run->replay->gbuffer);
+    channels_finish(&run->replay->sky);
     return ok;
 }

@@ -9,7 +9,7 @@
 // Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0.
 // A pass that declares DISPATCH(image) and after it DISPATCH_LIST(list) runs over the list when some pass made it, one
 // workgroup of 64 items each (item gl_LocalInvocationIndex + 64 * workgroup); its outputs are filled with their
-// "nothing" values before. Otherwise it runs over the whole image, and the list's header says 0xFFFFFFFF items.
+// "nothing" values before, and so are lists before the pass that makes them. Otherwise it runs over the whole image, and the list's header says 0xFFFFFFFF items.
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 //
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when

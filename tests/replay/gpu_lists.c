@@ -52,6 +52,24 @@ static void without_its_maker_a_list_is_the_whole_image(void **state) {
     check_worked(fixture, (const int[]){0, 0, 0, 0, 0});
 }
 
+/* Catches: what lay in memory before, in the part of a list that its items do not reach. */
+static void a_list_is_empty_behind_its_items(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct made made;
+    MADE(&made, &made_forger);
+    made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true}); /* the images hold fives */
+    MADE(&made, &made_sieve, &made_worker);
+    made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
+    const struct glint_image *image = glint_replay_find_image(fixture->replay, "list_a");
+    uint32_t *texels = calloc((size_t)image->width * image->height, sizeof *texels);
+    assert_true(glint_replay_read_image(fixture->replay, image, GLINT_U32, texels, &err));
+    assert_int_equal(texels[3], W * H / 5); /* every fifth of 400 */
+    for (uint32_t i = texels[3]; i < image->width * (image->height - 1); i++)
+        assert_int_equal(texels[image->width + i], 0xFFFFFFFFu);
+    free(texels);
+}
+
 /* Catches: a list that a run folder does not keep, or that is not used when it comes from there. */
 static void every_cut_of_lists_gives_the_bits_of_the_whole(void **state) {
     struct fixture *fixture = fixture_need_device(state);
@@ -112,6 +130,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pass_works_on_its_lists),
         cmocka_unit_test(without_its_maker_a_list_is_the_whole_image),
+        cmocka_unit_test(a_list_is_empty_behind_its_items),
         cmocka_unit_test(every_cut_of_lists_gives_the_bits_of_the_whole),
         cmocka_unit_test(a_header_beyond_the_list_is_refused),
         cmocka_unit_test(wrong_declarations_are_refused),
