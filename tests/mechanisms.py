@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures what each mechanism is worth and writes docs/mechanisms.md with its pictures.
 
-mechanisms.py GLINT [-o DOCS] [--only TEXT]
+mechanisms.py GLINT [-o DOCS] [--only TEXT] [--repeat N]
 
 One row for each mechanism: a scene that calls for it, the switch that turns it off, and what is looked at. Rows that the
-program refuses as unknown are left out, and said so on stderr."""
+program refuses are left out, and said so on stderr."""
 import argparse
 import json
 import os
@@ -15,8 +15,8 @@ import sys
 import formulas
 
 WORK = pathlib.Path("out/docs")
-SIZE, TRUTH = "480x270", "64"
-SHOT_SIZE, SHOT_TRUTH, FRAMES = "320x180", "16", 16
+SIZE, CUBE, TRUTH = "480x270", "128", "64"
+SHOT_SIZE, SHOT_TRUTH, FRAMES = "320x180", "32", 16
 
 # What is looked at: where it stands in the JSON of --against truth, and what it is called.
 PICTURE = ("error of the reflection", lambda a: surface(a["image"]["surfaces"], "all")["symmetric"])
@@ -30,11 +30,10 @@ COST = ("texture fetches a ray", lambda a: surface(a["distances"], "all")["fetch
 TIME = ("ms of all passes", lambda a: a["ms"])
 MIRROR = ["set downsample.jitter=false"]
 MANY = ["set pipeline.rays=16"]
-COCOON = ["use cubemap_mips=prefilter", "use cocoon=max"]
-HALF = ["use cubemap_mips=prefilter", "set downsample.ndf=blinn_phong", "set downsample.share=0.5"]
 CUBES = MIRROR + ["set screen_trace.length_m=0"]
-SCORE = CUBES + ["use cubemap_select=score"]
-HISTORY = ["use temporal=rough"]
+HISTORY = ["use temporal=rough", "use temporal_sharp=clamped"]
+CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
+LQ_AS_HQ = "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
 
 # (step, mechanism, scene, what both have, what turns it off, what is looked at)
 ROWS = [
@@ -47,12 +46,12 @@ ROWS = [
     ("down-sampling", "plus order against blue noise", "shot:room", HISTORY, "set downsample.pattern=blue", ROUGH),
     ("down-sampling", "shuffled each frame", "shot:room", HISTORY, "set downsample.shuffle=false", ROUGH),
     ("down-sampling", "another pixel each frame", "shot:room", HISTORY, "set downsample.alternate=false", PICTURE),
-    ("pre-filtering", "cone of what the cut leaves", "room", HALF, "set downsample.cone_factor=0", ROUGH),
-    ("pre-filtering", "29 taps", "room", HALF, "set cubemap_mips.reach=0", ROUGH),
-    ("pre-filtering", "29 taps instead of 1009", "room", [*HALF, "set cubemap_mips.reach=18"], "set cubemap_mips.reach=3", ROUGH),
-    ("pre-filtering", "colour filtered for cones", "room", HALF, "use cubemap_mips=plain", ROUGH),
-    ("pre-filtering", "screen MIPs", "room", [*HALF, "use lit_mips=cone"], "use lit_mips=none", ROUGH),
-    ("pre-filtering", "sky MIPs", "street", [*HALF, "use sky_mips=prefilter"], "use sky_mips=none", ROUGH),
+    ("pre-filtering", "cone of what the cut leaves", "room", [], "set downsample.cone_factor=0", ROUGH),
+    ("pre-filtering", "29 taps", "room", [], "set cubemap_mips.reach=0", ROUGH),
+    ("pre-filtering", "29 taps instead of 1009", "room", ["set cubemap_mips.reach=18"], "set cubemap_mips.reach=3", ROUGH),
+    ("pre-filtering", "colour filtered for cones", "room", [], "use cubemap_mips=plain", ROUGH),
+    ("pre-filtering", "screen MIPs", "room", [], "use lit_mips=none", ROUGH),
+    ("pre-filtering", "sky MIPs", "street", [], "use sky_mips=none", ROUGH),
     ("screen trace", "dither", "street", MANY, "set screen_trace.dither=false", PICTURE),
     ("screen trace", "1/z between texels", "room", MIRROR, "set screen_trace.interpolate=false", RAYS),
     ("screen trace", "refinement", "room", MIRROR, "set screen_trace.refine=false", RAYS),
@@ -64,11 +63,11 @@ ROWS = [
     ("screen trace", "the screen at all", "room", MIRROR, "set screen_trace.length_m=0", SMOOTH),
     ("active cube maps", "forced outdoor map", "hotel", MIRROR, "set cubemap_active.force_outdoor=false", SMOOTH),
     ("active cube maps", "vertical penalty", "hotel", MIRROR, "set cubemap_active.vertical_penalty=1", SMOOTH),
-    ("best cube map", "score against the nearest", "room", SCORE, "use cubemap_select=nearest", RAYS),
-    ("best cube map", "visibility", "room", SCORE, "set cubemap_select.visibility=0", RAYS),
-    ("best cube map", "distance", "room", SCORE, "set cubemap_select.distance=0", RAYS),
-    ("best cube map", "direction", "room", SCORE, "set cubemap_select.direction=0", RAYS),
-    ("best cube map", "fade", "room", SCORE, "set cubemap_select.fade=0", RAYS),
+    ("best cube map", "score against the nearest", "room", CUBES, "use cubemap_select=nearest", RAYS),
+    ("best cube map", "visibility", "room", CUBES, "set cubemap_select.visibility=0", RAYS),
+    ("best cube map", "distance", "room", CUBES, "set cubemap_select.distance=0", RAYS),
+    ("best cube map", "direction", "room", CUBES, "set cubemap_select.direction=0", RAYS),
+    ("best cube map", "fade", "room", CUBES, "set cubemap_select.fade=0", RAYS),
     ("cube-map trace", "shadow regions (mass depth)", "room", CUBES, "set cubemap_trace.mass_m=1e6", RAYS),
     ("cube-map trace", "mass depth grows with the step", "room", CUBES, "set cubemap_trace.mass_step=0", RAYS),
     ("cube-map trace", "secant", "room", CUBES, "set cubemap_trace.secant=false", MEDIAN),
@@ -78,28 +77,33 @@ ROWS = [
     ("cube-map trace", "step back after a switch", "room", CUBES, "set cubemap_trace.step_back=false", RAYS),
     ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", RAYS),
     ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", COST),
-    ("cube-map trace", "distance MIPs by roughness", "room", ["use cubemap_mips=prefilter", "set cubemap_trace.rough_level=3"],
+    ("cube-map trace", "distance MIPs by roughness", "room", ["set cubemap_trace.rough_level=3"],
      "set cubemap_trace.rough_level=0", ROUGH),
-    ("cube-map trace", "HQ/LQ split", "room", [],
-     "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300", ROUGH),
-    ("cube-map trace", "HQ/LQ split", "room", [],
-     "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300", COST),
-    ("cube-map trace", "cocoon caps the sky", "street",
-     [*CUBES, *COCOON, "set cubemap_trace.depth=capped"], "set cubemap_trace.depth=captured", COST),
-    ("cube-map trace", "cocoon caps the sky", "street",
-     [*CUBES, *COCOON, "set cubemap_trace.depth=capped"], "set cubemap_trace.depth=captured", SMOOTH),
-    ("classification", "lists of pixels with a ray", "street", ["use classify=tiles"], "use classify=none", TIME),
-    ("classification", "lists of unfinished pixels", "room", ["use classify_unfinished=tiles"], "use classify_unfinished=none", TIME),
+    ("cube-map trace", "HQ/LQ split", "room", [], LQ_AS_HQ, ROUGH),
+    ("cube-map trace", "HQ/LQ split", "room", [], LQ_AS_HQ, COST),
+    ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", COST),
+    ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", SMOOTH),
+    ("cocoon", "weighted maximum", "room", MIRROR, "set cocoon.reach=0", SMOOTH),
+    ("cocoon", "sky capped in finer levels", "street", CAPPED, "set cocoon.cap_sky=false", COST),
+    ("classification", "lists of pixels with a ray", "street", [], "use classify=none", TIME),
+    ("classification", "lists of unfinished pixels", "room", [], "use classify_unfinished=none", TIME),
     ("resolve", "bilinear colour", "room", MIRROR, "set resolve.filter_color=false", SMOOTH),
     ("blur", "five-sample blur", "room", [], "use blur=none", ROUGH),
     ("blur", "BRDF weights", "room", [], "set blur.brdf=false", ROUGH),
-    ("temporal", "history", "shot:room", [], "use temporal=none", ROUGH),
-    ("temporal", "extra samples where history is missing", "moving:room", [], "set temporal.extra=false", ROUGH),
-    ("temporal", "divergence threshold", "moving:room", [], "set temporal.divergence=false", ROUGH),
-    ("upscale", "best match against bilinear", "room", ["use upscale=best_match"], "use upscale=bilinear", PICTURE),
+    ("temporal", "history", "shot:room", HISTORY, "use temporal=none", ROUGH),
+    ("temporal", "history, moving", "moving:room", HISTORY, "use temporal=none", ROUGH),
+    ("temporal", "extra samples where history is missing", "moving:room", HISTORY, "set temporal.extra=false", ROUGH),
+    ("temporal", "divergence threshold", "moving:room", HISTORY, "set temporal.divergence=1e6", ROUGH),
+    ("temporal", "history of another surface refused", "moving:room", HISTORY,
+     "set temporal.history_depth=10 set temporal.history_normal=-1", ROUGH),
+    ("upscale", "best match against bilinear", "room", [], "use upscale=bilinear", PICTURE),
+    ("upscale", "all eight texels around", "room", MIRROR, "set upscale.around=false", PICTURE),
+    ("upscale", "depth in the match", "room", MIRROR, "set upscale.depth_weight=0", PICTURE),
+    ("upscale", "normals in the match", "room", MIRROR, "set upscale.normal_weight=0", PICTURE),
+    ("upscale", "roughness in the match", "room", MIRROR, "set upscale.roughness_weight=0", PICTURE),
     ("sharp", "resolve at full resolution", "room", [], "use resolve_sharp=none", SMOOTH),
-    ("sharp", "temporal filter", "shot:room", [], "use temporal_sharp=none", SMOOTH),
-    ("sharp", "variance clamping", "moving:room", [], "set temporal_sharp.clamp=false", SMOOTH),
+    ("sharp", "temporal filter", "shot:room", HISTORY, "use temporal_sharp=none", SMOOTH),
+    ("sharp", "variance clamping", "moving:room", HISTORY, "set temporal_sharp.clamp_history=false", SMOOTH),
 ]
 SHARES = [1, 0.75, 0.5, 0.25]
 RAY_COUNTS = [1, 8, 32, 128]
@@ -108,7 +112,7 @@ FELL_BACK = ("shadow_region", "fallback", "no_cubemap")  # reasons in cube maps
 
 
 class Unknown(Exception):
-    """What a row asks for does not exist."""
+    """What a row asks for does not exist, or fails."""
 
 
 def surface(rows, name):
@@ -122,15 +126,13 @@ def switches(text):
 
 
 class Bench:
-    def __init__(self, glint):
-        self.glint, self.known = os.path.abspath(glint), {}
+    def __init__(self, glint, repeat):
+        self.glint, self.repeat, self.known = os.path.abspath(glint), repeat, {}
 
     def run(self, *arguments):
         done = subprocess.run([self.glint, *map(str, arguments)], capture_output=True, text=True)
-        if done.returncode == 2:
-            raise Unknown(done.stderr.strip().split("\n")[0])
         if done.returncode:
-            sys.exit(f"mechanisms: glint {' '.join(map(str, arguments))}\n{done.stderr}")
+            raise Unknown(done.stderr.strip().split("\n")[0])
         return done.stdout
 
     def scene(self, name):
@@ -139,12 +141,12 @@ class Bench:
         if not kind:
             path = WORK / f"{scene}.exr"
             if not path.exists():
-                self.run("sample", scene, "-o", path, "--size", SIZE, "--truth", TRUTH)
+                self.run("sample", scene, "-o", path, "--size", SIZE, "--cube-size", CUBE, "--truth", TRUTH)
             return [path]
         frames = [WORK / f"{kind}-{scene}.{i:04}.exr" for i in range(1, FRAMES + 1)]
         if not frames[-1].exists():
             still = ["--camera", self.camera(scene)] if kind == "shot" else []
-            self.run("sample", scene, "-o", WORK / f"{kind}-{scene}.exr", "--size", SHOT_SIZE, "--truth", SHOT_TRUTH,
+            self.run("sample", scene, "-o", WORK / f"{kind}-{scene}.exr", "--size", SHOT_SIZE, "--cube-size", CUBE, "--truth", SHOT_TRUTH,
                      "--frames", FRAMES, *still)
         return frames
 
@@ -154,13 +156,13 @@ class Bench:
         target = [p + d for p, d in zip(camera["position"], camera["forward"])]
         return ",".join(f"{v:.6f}" for v in camera["position"] + target)
 
-    def replay(self, scene, settings, repeat=3):
+    def replay(self, scene, settings):
         """Comparisons with the truth, one for each frame, each with the time of all its passes."""
         key = (scene, *settings)
         if key not in self.known:
             options = [o for s in ["set resolve.fog=false", *settings] for o in switches(s)]
             captures = self.scene(scene)
-            timing = ["--repeat", repeat] if len(captures) == 1 else []
+            timing = ["--repeat", self.repeat] if len(captures) == 1 else []
             runs = json.loads(self.run("replay", *captures, "--against=truth", "--json", *options, *timing))["runs"]
             self.known[key] = [dict(r["against_truth"], ms=sum(p["time_ns"]["median"] for p in r["passes"] if not p.get("cached_work")) * 1e-6)
                                for r in runs]
@@ -213,7 +215,7 @@ def compared(bench, name, settings):
     noise = json.loads(bench.run("replay", room, f"--against=reference={far}", "--json", *options))
     against = bench.replay("room", settings)[0]
     noise = noise["runs"][0]["against_reference"]["image"]["surfaces"]
-    converged = bench.replay("room", many, repeat=1)[0]
+    converged = bench.replay("room", many)[0]
     return against, {s["surfaces"]: s["rmse"] for s in noise}, converged, one
 
 
@@ -246,7 +248,7 @@ def fallbacks(bench):
     """Over the pixels whose ray no cube map could follow: which they are does not depend on the fallback."""
     rows = []
     for fallback in FALLBACKS:
-        against = bench.replay("room", [*MIRROR, *COCOON, f"set cubemap_trace.fallback={fallback}"])[0]
+        against = bench.replay("room", [*MIRROR, f"set cubemap_trace.fallback={fallback}"])[0]
         fell = [r for r in against["rays"] if r["tracer"] == "cube map" and r["reason"] in FELL_BACK]
         count = sum(r["rays"] for r in fell)
         error = sum(r["rays"] * r["radiance_error"] for r in fell) / max(count, 1)
@@ -257,7 +259,7 @@ def fallbacks(bench):
 def frames(bench):
     rows = []
     for kind in ("shot:room", "moving:room"):
-        runs = bench.replay(kind, [])
+        runs = bench.replay(kind, HISTORY)
         for n in (1, 2, 4, 8, 16):
             s = runs[n - 1]["image"]["surfaces"]
             rows.append(("still" if kind.startswith("shot") else "moving", n,
@@ -302,7 +304,7 @@ def write(bench, docs, only):
     text = f"""# What each mechanism is worth
 
 Written by `./dev docs`; do not edit. Sample scenes at {SIZE} with {TRUTH} rays a pixel of truth, shots of {FRAMES} frames
-at {SHOT_SIZE}, preset `mafia3` without fog (the truth has none). Times are of all passes on {device}, and on a CPU say
+at {SHOT_SIZE}, cube maps of {CUBE}², preset `mafia3` without fog (the truth has none). Times are of all passes on {device}, and on a CPU say
 nothing about a GPU's. Errors are against the truth: the mean of |found − truth|/(found + truth + 0.05), which no outlier
 rules, where nothing else is said.
 
@@ -347,7 +349,8 @@ if __name__ == "__main__":
     parser.add_argument("glint")
     parser.add_argument("-o", "--docs", type=pathlib.Path, default=pathlib.Path("docs"))
     parser.add_argument("--only", help="only mechanisms whose name contains this, and no other section")
+    parser.add_argument("--repeat", type=int, default=1, help="timed rounds")
     given = parser.parse_args()
     WORK.mkdir(parents=True, exist_ok=True)
     given.docs.mkdir(parents=True, exist_ok=True)
-    write(Bench(given.glint), given.docs, given.only)
+    write(Bench(given.glint, given.repeat), given.docs, given.only)
