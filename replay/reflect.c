@@ -20,6 +20,7 @@ enum {
     DESCRIPTOR_SET = 34,
     OFFSET = 35
 };
+#define NONE UINT32_MAX
 
 static uint32_t opcode(const uint32_t *op) {
     return op[0] & 0xffff;
@@ -76,11 +77,11 @@ static uint32_t find_frame(const struct spirv *spirv) {
     return found;
 }
 
-/* The word of an instruction `code` whose word `at` is `value`; 0 when there is none. */
+/* The word of an instruction `code` whose word `at` is `value`; NONE when there is none. */
 static uint32_t look_up(const struct spirv *spirv, uint32_t code, uint32_t at, uint32_t value, uint32_t word) {
     for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op))
         if (opcode(op) == code && op_words(op) > at && op_words(op) > word && op[at] == value) return op[word];
-    return 0;
+    return NONE;
 }
 
 static uint32_t member_offset(const struct spirv *spirv, uint32_t type, uint32_t member) {
@@ -94,12 +95,11 @@ static uint32_t member_offset(const struct spirv *spirv, uint32_t type, uint32_t
 /* Words that an access chain into the block reaches: a component when the second index is constant, otherwise the
    member. */
 static void mark(struct spirv *spirv, uint32_t type, const uint32_t *op) {
-    const uint32_t member = op_words(op) > 4 ? look_up(spirv, OP_CONSTANT, 2, op[4], 3) : UINT32_MAX;
+    const uint32_t member = op_words(op) > 4 ? look_up(spirv, OP_CONSTANT, 2, op[4], 3) : NONE;
     const uint32_t begin = member_offset(spirv, type, member), end = member_offset(spirv, type, member + 1);
-    const bool component = op_words(op) == 6 && end - begin == 16;
-    const uint32_t place = component ? look_up(spirv, OP_CONSTANT, 2, op[5], 3) : 0;
+    const uint32_t place = op_words(op) == 6 && end - begin == 16 ? look_up(spirv, OP_CONSTANT, 2, op[5], 3) : NONE;
     for (uint32_t word = begin / 4; word < end / 4 && word < FRAME_WORDS; word++)
-        if (!component || word == begin / 4 + place) spirv->frame_words[word] = true;
+        if (place == NONE || word == begin / 4 + place) spirv->frame_words[word] = true;
 }
 
 void spirv_find_frame_words(struct spirv *spirv) {

@@ -11,6 +11,7 @@
 
 #include "fixture.h"
 #include "graph.h"
+#include "survey.h"
 
 #define READS(image)                                                                                                   \
     { .kind = GLINT_ROW_READ, .name = image, .glsl = "texture2D" }
@@ -227,8 +228,56 @@ static void the_real_passes_link(void **state) {
     graph_finish(&graph);
 }
 
+/* Catches: a fact that counts the limit itself as rough, or pixels that reflect nothing. */
+static void smooth_and_rough_pixels_are_facts(void **state) {
+    const struct fixture *fixture = *state;
+    struct glint_survey survey;
+    struct glint_error err = {0};
+    char reason[192];
+    bool known;
+    assert_true(glint_survey_capture(fixture->capture, &survey, &err));
+    assert_true(survey.smooth > 0 && survey.smooth < survey.reflecting);
+    survey = (struct glint_survey){.pixels = 10, .reflecting = 4, .smooth = 4};
+    assert_true(survey_fact(&survey, "smooth", reason, sizeof reason, &known) && known);
+    assert_string_equal(reason, "4 of 10 pixels reflect with roughness up to 0.1");
+    assert_false(survey_fact(&survey, "rough", reason, sizeof reason, &known));
+    assert_true(known);
+    assert_string_equal(reason, "0 of 10 pixels reflect with roughness above 0.1");
+    float pixels[3][4] = {
+        {1, 0.1f, 0, 1}, {1, 0.10001f, 0, 1}, {1, 0, 0, 0}}; /* depth, roughness, metalness, specular */
+    const char *names[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
+    const struct glint_part_info part = {.width = 3, .height = 1};
+    survey = (struct glint_survey){0};
+    survey_channels(&(struct channels){.part = &part, .names = names, .count = 4, .data = &pixels[0][0]}, &survey);
+    assert_int_equal(survey.reflecting, 2);
+    assert_int_equal(survey.smooth, 1);
+}
+
+/* Catches: passes for each ray that are not together, or that one of the others interrupts though it could wait. */
+static void passes_for_each_ray_stand_together(void **state) {
+    DEFINE_PASS(a_late, "v", READS("r2"), WRITES("l"));
+    DEFINE_PASS(b_ray, "v", READS("e"), WRITES("r1"), {.kind = GLINT_ROW_PER_RAY, .name = ""});
+    DEFINE_PASS(c_aside, "v", READS("r1"), WRITES("x"));
+    DEFINE_PASS(d_ray, "v", READS("r1"), WRITES("r2"), {.kind = GLINT_ROW_PER_RAY, .name = ""});
+    DEFINE_PASS(z_early, "v", READS("lit"), WRITES("e"));
+    static const char *const expected[] = {"z_early", "b_ray", "d_ray", "a_late", "c_aside"};
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &a_late, &b_ray, &c_aside, &d_ray, &z_early);
+    made.pipeline.rays = 2;
+    if (!build(state, &graph, &made, (struct glint_replay_options){0}, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < 5; i++) assert_string_equal(graph.passes[i].pass->slot, expected[i]);
+    assert_int_equal(graph.loop_first, 1);
+    assert_int_equal(graph.loop_end, 3);
+    assert_int_equal(graph_find(&graph, "e")->last_use, 2); /* each ray reads it again */
+    graph_finish(&graph);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smooth_and_rough_pixels_are_facts),
+        cmocka_unit_test(passes_for_each_ray_stand_together),
         cmocka_unit_test(passes_run_in_the_order_of_their_images),
         cmocka_unit_test(what_the_frame_does_not_call_for_is_dropped_with_the_figure),
         cmocka_unit_test(readers_of_a_dropped_pass_get_nothing),

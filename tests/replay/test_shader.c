@@ -157,6 +157,34 @@ static void foreign_bindings_are_refused(void **state) {
     }
 }
 
+/* Catches: a pass that is not run again though what it reads of the frame changed, and one that is run in every frame
+   for words it does not read. */
+static void the_words_of_the_frame_that_a_shader_reads_are_known(void **state) {
+    const size_t size = offsetof(struct frame_block, size) / 4, counts = offsetof(struct frame_block, counts) / 4,
+                 view = offsetof(struct frame_block, view_from_world) / 4;
+    const struct {
+        const char *use;
+        size_t first, count;
+    } cases[] = {
+        {"vec4(1)", 0, 0},
+        {"vec4(frame.counts.z)", counts + 2, 1},
+        {"vec4(frame.size)", size, 4},
+        {"frame.view_from_world * vec4(1)", view, 16},
+        {"vec4(frame.counts[int(gl_GlobalInvocationID.x)])", counts, 4},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct spirv spirv;
+        struct glint_error err;
+        char text[1024];
+        snprintf(text, sizeof text, START "void main() { imageStore(reflection_half, ivec2(0), %s); }\n", cases[i].use);
+        if (!compile(write_text(state, "words.comp", text), &spirv, &err)) fail_msg("%s", err.message);
+        for (size_t w = 0; w < FRAME_WORDS; w++)
+            if (spirv.frame_words[w] != (w >= cases[i].first && w < cases[i].first + cases[i].count))
+                fail_msg("%s: word %zu", cases[i].use, w);
+        spirv_finish(&spirv);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pass_compiles_to_what_is_built_in),
@@ -167,6 +195,7 @@ int main(void) {
         cmocka_unit_test(a_file_that_includes_itself_is_an_error),
         cmocka_unit_test(what_is_no_shader_is_an_error),
         cmocka_unit_test(foreign_bindings_are_refused),
+        cmocka_unit_test(the_words_of_the_frame_that_a_shader_reads_are_known),
     };
     return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);
 }
