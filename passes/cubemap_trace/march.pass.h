@@ -22,7 +22,7 @@ CHOICE2(mass, along, along, radial, "000, ComputeMassDepth (not printed); chosen
 CHOICE3(exhausted, stopped, fallback, stopped, direction, "000 leaves it open; chosen by measuring", "a ray that used all steps: looks up its direction, takes the fallback, or ends where it stopped")
 CHOICE3(fallback, cocoon, black, lookup, cocoon, "000, Tracing fallback solution in Mafia III; Current tracing fallback solution", "a ray that no cube map of the chain could follow: is black, looks up the best one, or is traced through the cocoon of the best one (without a cocoon: lookup)")
 CHOICE2(fallback_start, surface, stopped, surface, "000 leaves it open; chosen by measuring", "lookup: by the ray's direction, or towards where the ray stopped; cocoon: traced from the surface, or from there")
-CHOICE2(depth, captured, captured, capped, "000, Generating cocoon MIP (optimization for rays ending up at sky)", "distance that rays are marched through: as it is, or the cocoon's chain, in which rays to the sky soon meet its cap")
+CHOICE2(depth, capped, captured, capped, "000, Generating cocoon MIP (optimization for rays ending up at sky)", "distance that rays are marched through: as it is, or the cocoon's chain, in which rays to the sky soon meet its cap")
 SPEC(bool,  skip_volume,  true,  0,  1,    "1", "000, Cube-map tracing optimizations", "rays start where they leave a cube map's inner volume; off: all of it is marched")
 SPEC(int,   cocoon_size,  32,    1,  4096, "texels", "000, Cocoon cube-map depth MIP", "width of the level that is the cocoon")
 SPEC(int,   cocoon_steps, 16,    1,  256,  "steps", "chosen by measuring", "steps of the fallback's trace before the hit is closed in on")

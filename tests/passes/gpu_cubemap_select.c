@@ -1,0 +1,108 @@
+/* cubemap_select/score against scores in double: spheres of known radius around known centres. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { MAPS = 4 };
+
+static const double radius[MAPS] = {3, 6, 2.5, 9}, fades[MAPS] = {0.6, 1, 0.9, 0.25};
+static const double centers[MAPS][3] = {{-1, 0, -3}, {1.5, 0.5, -2}, {2.5, -0.5, -4}, {0, 0, 2}};
+
+static void sphere(uint32_t number, const double d[3], float out[5]) {
+    (void)d;
+    out[0] = out[1] = out[2] = out[3] = 1;
+    out[4] = (float)radius[number];
+}
+
+struct weights {
+    double visibility, distance, direction, fade;
+};
+
+static double score(const struct weights *w, uint32_t map, const double at[3], const double ray[3]) {
+    double length2 = 0, along = 0;
+    for (int k = 0; k < 3; ++k) {
+        length2 += pow(at[k] - centers[map][k], 2);
+        along += (at[k] - centers[map][k]) * ray[k];
+    }
+    double length = sqrt(length2);
+    return w->visibility * (length <= radius[map] * 1.03) + w->distance * 3 / (3 + length) +
+           w->direction * (0.5 + 0.5 * along / length) + w->fade * fades[map];
+}
+
+/* Counts pixels by the cube map that they should take; places are in the order of the host's table. */
+static void check(struct gpu *gpu, const struct weights *w, const char *what) {
+    char setting[64];
+    gpu_reset(gpu);
+    gpu_use(gpu, "cubemap_select=score");
+    gpu_set(gpu, "screen_trace.length_m=0");
+    gpu_set(gpu, "downsample.jitter=false");
+    const double values[] = {w->visibility, w->distance, w->direction, w->fade};
+    static const char *const names[] = {"visibility", "distance", "direction", "fade"};
+    for (int k = 0; k < 4; ++k) {
+        snprintf(setting, sizeof setting, "cubemap_select.%s=%g", names[k], values[k]);
+        gpu_set(gpu, setting);
+    }
+    gpu_run(gpu);
+    uint32_t width, height, *best = gpu_uints(gpu, "cubemap_best", &width, &height);
+    uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), *index = gpu_uints(gpu, "active_index", NULL, NULL);
+    size_t checked = 0, taken[MAPS] = {0};
+    for (uint32_t i = 0; i < width * height; ++i) {
+        /* A wall at z = -5 m, seen from the origin, 60° high, 64 × 36 pixels; the mirror ray starts there. */
+        double scale = 5 * tan(3.14159265358979323846 / 6) / 18;
+        double at[3] = {scale * (2 * (i % width) + (pick[i] & 1) + 0.5 - 32),
+                        -scale * (2 * (i / width) + (pick[i] >> 1) + 0.5 - 18), -5};
+        double length = sqrt(at[0] * at[0] + at[1] * at[1] + 25), ray[3] = {at[0] / length, at[1] / length, 5 / length};
+        double first = -1, second = -1;
+        uint32_t expected = 0;
+        for (uint32_t map = 0; map < MAPS; ++map) {
+            double s = score(w, map, at, ray);
+            if (s > first) second = first, first = s, expected = map;
+            else if (s > second) second = s;
+        }
+        if (first - second < 1e-4) continue; /* a tie within rounding */
+        assert_true(best[i] < MAPS);
+        if (index[best[i]] != expected)
+            fail_msg("%s: pixel %u takes cube map %u, expected %u", what, i, index[best[i]], expected);
+        ++taken[expected];
+        ++checked;
+    }
+    print_message("# %s: %zu pixels; cube maps taken %zu, %zu, %zu, %zu\n", what, checked, taken[0], taken[1], taken[2],
+                  taken[3]);
+    assert_true(checked > width * height / 2);
+    free(index);
+    free(pick);
+    free(best);
+}
+
+static void each_term_alone_and_together_decides(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    struct plain plain = {
+        .width = 64, .height = 36, .fov_y_degrees = 60, .cube_size = 8, .cube_count = MAPS, .cube = sphere};
+    for (int i = 0; i < MAPS; ++i) {
+        for (int k = 0; k < 3; ++k) plain.cubes[i].center[k] = centers[i][k];
+        plain.cubes[i].fade = fades[i];
+    }
+    plain_capture(gpu_path(gpu, "spheres", path), &plain);
+    gpu_load(gpu, "spheres");
+    check(gpu, &(struct weights){0, 1, 0, 0}, "distance");
+    check(gpu, &(struct weights){0, 0, 1, 0}, "direction");
+    check(gpu, &(struct weights){1, 0.2, 0, 0}, "visibility, then distance");
+    check(gpu, &(struct weights){0, 0.5, 0, 1}, "fade, then distance");
+    check(gpu, &(struct weights){0.3, 1, 0.5, 0.2}, "all");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_term_alone_and_together_decides),
+    };
+    return cmocka_run_group_tests_name("gpu_cubemap_select", tests, gpu_set_up, gpu_tear_down);
+}
