@@ -10,7 +10,7 @@ static bool is_history(const struct image *image) {
 }
 
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next) {
-    const bool follows = replay->loaded && replay->ran && !next->cut && next->number == replay->number + 1;
+    const bool follows = replay->loaded && replay->ran && next->number == replay->number + 1;
     for (struct image *image = replay->images; image; image = image->next) image->used = !is_history(image);
     replay_drop_images(replay, false);
     for (struct image *image = replay->images; image; image = image->next) {
