@@ -15,7 +15,7 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
     if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
     else if (row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), cube ? "image2DArray" : "image2D") != 0)
         is = cube ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
-    else if (row_is_sampled(binding) && ((strstr(kind, "Cube") != NULL) != cube || (strstr(kind, "Array") && !cube)))
+    else if (row_is_sampled(binding) && (strstr(kind, "Cube") || strstr(kind, "Array") ? !cube : cube))
         is = array ? "an array of cube maps" : cube ? "a cube map" : "a plain image";
     if (is)
         faults_add(faults, GLINT_ERROR_USAGE, "%s/%s %s %s as %s, but it is %s", pass->slot, pass->variant,

@@ -78,6 +78,12 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
     return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s declares no image to dispatch over", pass->slot, pass->variant);
 }
 
+/* Cube maps can be sampled by direction, or fetched as an array of faces. */
+static VkImageView sampled_view(const struct image *image, const char *kind) {
+    if (strstr(kind, "2DArray")) return image->faces_view;
+    return strstr(kind, "CubeArray") ? image->array_view : image->view;
+}
+
 static void describe(const struct run *run, const struct step *step, const struct dispatch *dispatch) {
     const struct glint_pass *pass = step->pass->pass;
     for (size_t r = 0; r < pass->row_count; r++) {
@@ -85,11 +91,10 @@ static void describe(const struct run *run, const struct step *step, const struc
         if (!row_is_image(row)) continue;
         const struct image *image = bound(run, row);
         const uint32_t coarsest = image->desc.levels - 1;
-        const bool sampled = row_is_sampled(row), array = strstr(row->glsl, "CubeArray") != NULL;
+        const bool sampled = row_is_sampled(row);
         const VkDescriptorImageInfo info = {
-            .imageView = !sampled ? image->levels[dispatch->level < coarsest ? dispatch->level : coarsest].view
-                         : array  ? image->array_view
-                                  : image->view,
+            .imageView = sampled ? sampled_view(image, row->glsl)
+                                 : image->levels[dispatch->level < coarsest ? dispatch->level : coarsest].view,
             .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
         const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                             .dstSet = dispatch->set,

@@ -55,6 +55,16 @@ static void parse_include(const char *line, size_t length, char *name) {
     name[i < length && line[i] == close ? n : 0] = 0;
 }
 
+/* What `#line N` calls the next line; 0 when the line is none. */
+static size_t renumbered(const char *line, size_t length) {
+    size_t i = 0, number = 0;
+    while (i < length && isspace((unsigned char)line[i])) i++;
+    if (length - i < 6 || strncmp(line + i, "#line ", 6) != 0) return 0;
+    for (i += 6; i < length && isdigit((unsigned char)line[i]) && number < TEXT_MAX; i++)
+        number = 10 * number + (size_t)(line[i] - '0');
+    return number;
+}
+
 static bool is_version(const char *line, size_t length) {
     size_t i = 0;
     while (i < length && isspace((unsigned char)line[i])) i++;
@@ -124,6 +134,8 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
                 !append_line_directive(out, line + 1, file, err))
                 return false;
         }
+        const size_t next = renumbered(text, length);
+        if (next) line = next - 1;
         text += length + (end != NULL);
     }
     return true;

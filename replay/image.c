@@ -155,7 +155,9 @@ bool image_bind(struct image *image, struct glint_device *device, struct block *
     return create_view(image, device, cube ? VK_IMAGE_VIEW_TYPE_CUBE : VK_IMAGE_VIEW_TYPE_2D, 0, image->desc.levels,
                        &image->view, err) &&
            (!cube ||
-            create_view(image, device, VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, 0, image->desc.levels, &image->array_view, err));
+            (create_view(image, device, VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, 0, image->desc.levels, &image->array_view,
+                         err) &&
+             create_view(image, device, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, image->desc.levels, &image->faces_view, err)));
 }
 
 void image_destroy(struct image **pointer, struct glint_device *device) {
@@ -165,6 +167,7 @@ void image_destroy(struct image **pointer, struct glint_device *device) {
     for (uint32_t i = 0; i < image->desc.levels; i++) vkDestroyImageView(device->device, image->levels[i].view, NULL);
     vkDestroyImageView(device->device, image->view, NULL);
     vkDestroyImageView(device->device, image->array_view, NULL);
+    vkDestroyImageView(device->device, image->faces_view, NULL);
     vkDestroyImage(device->device, image->image, NULL);
     if (image->block) block_release(image->block, image, device);
     free(image);

@@ -38,6 +38,7 @@ struct image {
     VkImage image;
     VkImageView view;       /* to sample all levels */
     VkImageView array_view; /* of a cube image, as a cube array; `view` is a cube then. NULL otherwise */
+    VkImageView faces_view; /* of a cube image, as an array of its faces; NULL otherwise */
     struct block *block;
     uint64_t key;   /* hash of all that its contents depend on; 0: contents undefined */
     bool listed;    /* shown to callers */

@@ -8,17 +8,17 @@
 };
 #include "shared/cube_chain.glsl"
 
-float texel_of(ivec3 at, int width, int level) { return texel_color(chain, at, width, float(level)).x; }
+float texel_of(ivec3 at, int level) { return texelFetch(faces, at, level).x; }
 
 // Top-down: the farthest that is not sky.
 float farthest_child(ivec3 at, int width, int level) {
-    if (level == 0) return texel_color(cubemap_distance, at, width, 0.0).x;
-    int finer = face_size(chain, level - 1);
+    if (level == 0) return texelFetch(cubemap_distance, at, 0).x;
+    int finer = face_size(faces, level - 1);
     Footprint x = footprint(at.x, width, finer), y = footprint(at.y, width, finer);
     float most = -1.0;
     for (int j = 0; j < y.count; ++j) {
         for (int i = 0; i < x.count; ++i) {
-            float distance_m = texel_of(ivec3(x.first + i, y.first + j, at.z), finer, level - 1);
+            float distance_m = texel_of(ivec3(x.first + i, y.first + j, at.z), level - 1);
             if (distance_m < LARGEST) most = max(most, distance_m);
         }
     }
@@ -29,7 +29,7 @@ float farthest_child(ivec3 at, int width, int level) {
 float farthest_of_map(int layer, int level) {
     float most = -1.0;
     for (int face = 0; face < 6; ++face) {
-        float distance_m = level == 0 ? texel_color(cubemap_distance, ivec3(0, 0, layer - layer % 6 + face), 1, 0.0).x
+        float distance_m = level == 0 ? texelFetch(cubemap_distance, ivec3(0, 0, layer - layer % 6 + face), 0).x
                                       : farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level);
         if (distance_m < LARGEST) most = max(most, distance_m);
     }
@@ -43,7 +43,7 @@ float weighted_max(vec4 direction, int level) {
     if (!(pivot < LARGEST)) return INFINITE;
     vec3 axis = normalize(direction.xyz), tangent, bitangent;
     tangent_frame(axis, tangent, bitangent);
-    float rim = cone_tangent_of_level(0.0, float(face_size(chain, level + 1)), kernel);
+    float rim = cone_tangent_of_level(0.0, float(face_size(faces, level + 1)), kernel);
     float power = cone_power(rim, threshold), depth_m = 0.0;
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
@@ -66,11 +66,11 @@ void main() {
         return;
     }
     int coarsest = textureQueryLevels(samplerCubeArray(chain, nearest_clamp)) - 1;
-    int cocoon = int(ceil(log2(max(float(face_size(chain, 0)) / float(size), 1.0)) - 1e-4));
-    bool is_sky = !(texel_of(at, width, level) < LARGEST);
+    int cocoon = int(ceil(log2(max(float(face_size(faces, 0)) / float(size), 1.0)) - 1e-4));
+    bool is_sky = !(texel_of(at, level) < LARGEST);
     if (!is_sky && level != cocoon) return;
     float distance_m;
-    if (level == coarsest) distance_m = is_sky ? farthest_of_map(at.z, level) : texel_of(at, width, level);
+    if (level == coarsest) distance_m = is_sky ? farthest_of_map(at.z, level) : texel_of(at, level);
     else if (level >= cocoon) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
     else if (cap_sky)
         distance_m = textureLod(samplerCubeArray(chain, linear_clamp), texel_direction(at.xy, width, at.z), float(cocoon)).x;

@@ -3,6 +3,7 @@ PASS("Weighted maximum", "000, Generating cocoon MIP")
 #include "slot.h"
 #line 202
 SELF(textureCubeArray, chain, cocoon_distance)
+SELF(texture2DArray, faces, cocoon_distance)
 SPEC(int,   size,       32,  1,     4096,  "texels", "000, Cocoon cube-map depth MIP", "width of the level that becomes the cocoon: the widest that is no wider")
 SPEC(int,   reach,      3,   0,     16,    "taps", "000, Weighted MAX (samples not printed)", "taps are the lattice points up to this far: 3: 29 taps")
 SPEC(bool,  cap_sky,    true, 0,    1,     "1", "000, Generating cocoon MIP, upper MIPs", "finer levels take the cocoon where they see sky; off: they stay +inf there")

@@ -2,13 +2,13 @@
 #include "shared/cube_chain.glsl"
 
 float joined_distance(ivec3 at, int size, int level) {
-    if (level == 0) return texel_color(cubemap_distance, at, size, 0.0).x;
+    if (level == 0) return texelFetch(cubemap_distance, at, 0).x;
     int finer = face_size(finer_distance, level - 1);
     Footprint x = footprint(at.x, size, finer), y = footprint(at.y, size, finer);
     float sum = 0.0, total = 0.0, least = INFINITE, most = 0.0;
     for (int j = 0; j < y.count; ++j) {
         for (int i = 0; i < x.count; ++i) {
-            float distance_m = texel_color(finer_distance, ivec3(x.first + i, y.first + j, at.z), finer, float(level - 1)).x;
+            float distance_m = texelFetch(finer_distance, ivec3(x.first + i, y.first + j, at.z), level - 1).x;
             if (!(distance_m < LARGEST)) continue;
             sum += x.share[i] * y.share[j] * distance_m;
             total += x.share[i] * y.share[j];

@@ -12,7 +12,7 @@ void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
     int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);
     if (at.x >= size || at.y >= size) return;
-    vec4 color = level == 0 ? texel_color(cubemap_color, at, size, 0.0) : box_color(finer_color, at, size, level);
+    vec4 color = level == 0 ? texelFetch(cubemap_color, at, 0) : box_color(finer_faces, at, size, level);
     imageStore(cubemap_color_mips, at, color);
     imageStore(cubemap_distance_mips, at, vec4(joined_distance(at, size, level)));
 }

@@ -13,10 +13,10 @@ void main() {
     int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);
     if (at.x >= size || at.y >= size) return;
     if (dispatch_phase == 0u) {
-        vec4 color = level == 0 ? texel_color(cubemap_color, at, size, 0.0) : box_color(finer_color, at, size, level);
+        vec4 color = level == 0 ? texelFetch(cubemap_color, at, 0) : box_color(finer_faces, at, size, level);
         imageStore(cubemap_color_box, at, color);
         imageStore(cubemap_distance_mips, at, vec4(joined_distance(at, size, level)));
     } else {
-        imageStore(cubemap_color_mips, at, prefiltered(finer_color, at, size, level, reach, texel_scale, threshold));
+        imageStore(cubemap_color_mips, at, prefiltered(finer_color, finer_faces, at, size, level, reach, texel_scale, threshold));
     }
 }

@@ -4,7 +4,8 @@ PASS("Pre-filtered for cones", "000, Pre-filtering cube-maps")
 #line 202
 WRITE(image2DArray, cubemap_color_box, RGBA16F, "radiance", CUBEMAPS_MIPS, "R G B A", 0, "the chain before the pre-filter")
 SELF(textureCubeArray, finer_color, cubemap_color_box)
-SELF(textureCubeArray, finer_distance, cubemap_distance_mips)
+SELF(texture2DArray, finer_faces, cubemap_color_box)
+SELF(texture2DArray, finer_distance, cubemap_distance_mips)
 #include "shared/join_rows.h"
 #include "shared/prefilter_rows.h"
 DISPATCH_LEVELS(cubemap_color_box, 0, -1, down)

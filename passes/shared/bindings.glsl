@@ -5,7 +5,8 @@
 // An image with levels (a size class ..._MIPS) is written one level at a time, dispatch_level; imageSize() is that
 // level's. Readers, and SELF in the pass that writes it, see all levels as one texture.
 // Cube maps are written as WRITE(image2DArray, ...): layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), and
-// gl_GlobalInvocationID.z is the layer. They are read as textureCube or textureCubeArray.
+// gl_GlobalInvocationID.z is the layer. They are read as textureCube or textureCubeArray,
+// or as texture2DArray where the texel is known: layers as above, texelFetch, no filter and no search for the face.
 // Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0.
 // A pass that declares DISPATCH(image) and after it DISPATCH_LIST(list) runs over the list when some pass made it, one
 // workgroup of 64 items each (item gl_LocalInvocationIndex + 64 * workgroup); its outputs are filled with their

@@ -50,7 +50,8 @@ Tap cube_tap(ivec2 point, vec3 axis, vec3 tangent, vec3 bitangent, float level, 
     // The source's texels are half as wide as the taps are apart, so that bilinear taps leave no gaps and add no blur of
     // their own. A texel at v spans (major/|v|)^1.5 of one at the face's centre, a piece of the plane (1/|v|)^1.5.
     vec3 a = abs(tap.direction);
-    float wide = rim / (float(reach) + 0.5) * 0.5 * face_size * pow(max(a.x, max(a.y, a.z)), -1.5);
+    float root = inversesqrt(max(a.x, max(a.y, a.z)));
+    float wide = rim / (float(reach) + 0.5) * 0.5 * face_size * root * root * root;
     tap.lod = clamp(log2(wide) - 1.0, 0.0, level);
     return tap;
 }

@@ -13,7 +13,7 @@ void main() {
     int size = imageSize(sky_mips).x, level = int(dispatch_level);
     if (at.x >= size || at.y >= size) return;
     if (dispatch_phase == 0u)
-        imageStore(sky_box, at, level == 0 ? texel_color(sky, at, size, 0.0) : box_color(finer_color, at, size, level));
+        imageStore(sky_box, at, level == 0 ? texelFetch(sky, at, 0) : box_color(finer_faces, at, size, level));
     else
-        imageStore(sky_mips, at, prefiltered(finer_color, at, size, level, reach, texel_scale, threshold));
+        imageStore(sky_mips, at, prefiltered(finer_color, finer_faces, at, size, level, reach, texel_scale, threshold));
 }

@@ -4,6 +4,7 @@ PASS("Pre-filtered for cones", "000, Pre-filtering cube-maps")
 #line 202
 WRITE(image2DArray, sky_box, RGBA16F, "radiance", SKY_MIPS, "R G B A", 0, "the chain before the pre-filter")
 SELF(textureCubeArray, finer_color, sky_box)
+SELF(texture2DArray, finer_faces, sky_box)
 #include "shared/prefilter_rows.h"
 DISPATCH_LEVELS(sky_box, 0, -1, down)
 DISPATCH_LEVELS(sky_mips, 0, -1, down)

@@ -1,6 +1,6 @@
 /* What every variant of this slot reads and writes. */
 #line 102
 SLOT("MIP chain of the sky")
-READ(textureCubeArray, sky)
+READ(texture2DArray, sky)
 WRITE(image2DArray, sky_mips, RGBA16F, "radiance", SKY_MIPS, "R G B A", 0, "sky at level 0; coarser ones stand for a cone")
 NEEDS(reflecting)

@@ -104,6 +104,17 @@ static void lines_after_an_include_keep_their_numbers(void **state) {
     fixture_says(&err, "/mine.comp:11: 'oops'");
 }
 
+/* Rows take their numbers from #line, so what follows an include must go on from there. */
+static void lines_after_a_directive_and_an_include_keep_its_numbers(void **state) {
+    struct spirv spirv;
+    struct glint_error err;
+    write_text(state, "helper.glsl", "\nfloat half_of(float x) { return x / 2; }\n");
+    char *path =
+        write_text(state, "mine.comp", START "#line 500\n#include \"helper.glsl\"\nvoid main() {\n    oops;\n}\n");
+    assert_false(compile(path, &spirv, &err));
+    fixture_says(&err, "/mine.comp:502: 'oops'");
+}
+
 static void a_missing_include_is_placed(void **state) {
     struct spirv spirv;
     struct glint_error err;
@@ -191,6 +202,7 @@ int main(void) {
         cmocka_unit_test(errors_name_the_users_file_and_line),
         cmocka_unit_test(errors_in_an_included_file_name_that_file),
         cmocka_unit_test(lines_after_an_include_keep_their_numbers),
+        cmocka_unit_test(lines_after_a_directive_and_an_include_keep_its_numbers),
         cmocka_unit_test(a_missing_include_is_placed),
         cmocka_unit_test(a_file_that_includes_itself_is_an_error),
         cmocka_unit_test(what_is_no_shader_is_an_error),
