@@ -114,6 +114,20 @@ json_t *parse_json(const char *text) {
     return json;
 }
 
+const json_t *named(const json_t *list, const char *key, const char *name) {
+    size_t i;
+    json_t *item;
+    json_array_foreach(list, i, item) if (!strcmp(json_string_value(json_object_get(item, key)), name)) return item;
+    fail_msg("%s %s is not listed", key, name);
+    return NULL;
+}
+
+double number(const json_t *object, const char *key) {
+    const json_t *value = json_object_get(object, key);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
 int make_folder(void **state) {
     (void)state;
     return mkdtemp(folder) ? 0 : -1;

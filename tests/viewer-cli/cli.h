@@ -31,6 +31,9 @@ void refused(struct outcome outcome, int status, const char *text, const char *f
 void assert_contains(const char *text, const char *needle);
 /* Parses, or fails. Released by json_decref. */
 struct json_t *parse_json(const char *text);
+/* The object of a list whose `key` is `name`, and the number that an object has under a key; or fail. */
+const struct json_t *named(const struct json_t *list, const char *key, const char *name);
+double number(const struct json_t *object, const char *key);
 
 /* A fresh folder; in_folder gives the path of a file in it (static storage for a few calls). */
 int make_folder(void **state);

@@ -27,20 +27,6 @@ static int make_run(void **state) {
     return 0;
 }
 
-static const json_t *named(const json_t *list, const char *key, const char *name) {
-    size_t i;
-    json_t *item;
-    json_array_foreach(list, i, item) if (!strcmp(json_string_value(json_object_get(item, key)), name)) return item;
-    fail_msg("%s %s is not listed", key, name);
-    return NULL;
-}
-
-static double number(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
-    assert_true(json_is_number(value));
-    return json_number_value(value);
-}
-
 static void info_tells_the_camera_and_the_ranges(void **state) {
     (void)state;
     char *text = glint_ok("info", capture), *json_text = glint_ok("info", capture, "--json");

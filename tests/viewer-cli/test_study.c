@@ -8,20 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const json_t *named(const json_t *list, const char *key, const char *name) {
-    size_t i;
-    json_t *item;
-    json_array_foreach(list, i, item) if (!strcmp(json_string_value(json_object_get(item, key)), name)) return item;
-    fail_msg("%s %s is not listed", key, name);
-    return NULL;
-}
-
-static double number(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
-    assert_true(json_is_number(value));
-    return json_number_value(value);
-}
-
 /* The reference must be better by far than what is measured with it. */
 static void reference_is_near_the_truth_and_others_are_compared_with_it(void **state) {
     (void)state;
