@@ -1,9 +1,9 @@
 /* Reads channels of a part, decoded block by block in the threads that decompress them. */
+#include <Imath/half.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "capture_internal.h"
-#include "half.h"
 
 enum decoding { AS_STORED, LENGTH, DEPTH, NORMAL, ROUGHNESS, MOTION, PACKED, COLOR };
 
@@ -87,7 +87,7 @@ static void put(const struct job *job, const float *values, size_t count, uint8_
         return;
     }
     uint16_t half[GLINT_BLOCK];
-    for (size_t i = 0; i < count; i++) half[i] = glint_float_to_half(values[i]);
+    for (size_t i = 0; i < count; i++) half[i] = imath_float_to_half(values[i]);
     for (size_t i = 0; i < count; i++) memcpy(out + 2 * i * job->count, &half[i], 2);
 }
 

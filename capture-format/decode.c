@@ -1,9 +1,9 @@
 /* From each encoding to the canonical values. FORMAT.md states the formulas and how precise they are. */
+#include <Imath/half.h>
 #include <math.h>
 #include <string.h>
 
 #include "capture_internal.h"
-#include "half.h"
 
 void glint_decode_widen(enum glint_stored stored, const uint8_t *in, size_t count, float *out) {
     if (stored == GLINT_STORED_FLOAT) {
@@ -12,7 +12,7 @@ void glint_decode_widen(enum glint_stored stored, const uint8_t *in, size_t coun
     }
     uint16_t half[GLINT_BLOCK];
     memcpy(half, in, count * 2);
-    for (size_t i = 0; i < count; i++) out[i] = glint_half_to_float(half[i]);
+    for (size_t i = 0; i < count; i++) out[i] = imath_half_to_float(half[i]);
 }
 
 /* z_clip = A·z + B and w = s·z for view z, so a depth-buffer value d = A·s + B/t at distance t = s·z in front. */

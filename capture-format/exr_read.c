@@ -1,4 +1,5 @@
 /* Reads and decompresses the chunks of one part on all cores. */
+#include <Imath/half.h>
 #include <errno.h>
 #include <libdeflate.h>
 #include <math.h>
@@ -7,7 +8,6 @@
 #include <unistd.h>
 
 #include "exr_internal.h"
-#include "half.h"
 #include "threads.h"
 
 struct worker {
@@ -200,14 +200,14 @@ static size_t put_line(const uint8_t *from, enum glint_stored stored, enum glint
         for (uint32_t x = 0; x < width; x++) {
             uint16_t half;
             memcpy(&half, from + x * 2, 2);
-            const float value = glint_half_to_float(half);
+            const float value = imath_half_to_float(half);
             memcpy(out + x * step, &value, 4);
         }
     } else if (type == GLINT_F16) {
         for (uint32_t x = 0; x < width; x++) {
             float value;
             memcpy(&value, from + x * 4, 4);
-            const uint16_t half = glint_float_to_half(value);
+            const uint16_t half = imath_float_to_half(value);
             memcpy(out + x * step, &half, 2);
         }
     } else if (type == GLINT_F32 || type == GLINT_U32) {

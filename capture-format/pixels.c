@@ -1,9 +1,8 @@
 /* From the caller's memory to the type that the file stores. */
 #include "pixels.h"
 
+#include <Imath/half.h>
 #include <string.h>
-
-#include "half.h"
 
 static size_t type_bytes(enum glint_type type) {
     switch (type) {
@@ -91,11 +90,11 @@ static void copy_line(enum glint_type type, const uint8_t *in, size_t step, uint
         break;
     case GLINT_UNORM8:
         for (uint32_t x = 0; x < width; x++)
-            memcpy(out + 2 * x, &(uint16_t){glint_float_to_half((float)in[x * step] / 255)}, 2);
+            memcpy(out + 2 * x, &(uint16_t){imath_float_to_half((float)in[x * step] / 255)}, 2);
         break;
     case GLINT_SNORM8:
         for (uint32_t x = 0; x < width; x++)
-            memcpy(out + 2 * x, &(uint16_t){glint_float_to_half(snorm((int8_t)in[x * step], 127))}, 2);
+            memcpy(out + 2 * x, &(uint16_t){imath_float_to_half(snorm((int8_t)in[x * step], 127))}, 2);
         break;
     case GLINT_UNORM16:
         for (uint32_t x = 0; x < width; x++) {

@@ -1,11 +1,11 @@
 /* Parts: a list of channels, each a plane of floats that is converted to the type an engine would have had. */
 #include "dump.h"
 
+#include <Imath/half.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "encode.h"
-#include "half.h"
 
 #define MAX_CHANNELS 24
 
@@ -33,7 +33,8 @@ static void convert(enum glint_type type, const float *source, size_t stride, si
         float v = source[i * stride];
         switch (type) {
         case GLINT_F16:
-            words[i] = half_from(v);
+            /* As a game's buffer saturates: what is too large becomes the largest, infinity stays. */
+            words[i] = imath_float_to_half(isfinite(v) ? clampf(v, -65504, 65504) : v);
             break;
         case GLINT_U16:
             words[i] = (uint16_t)v;
@@ -85,7 +86,7 @@ static bool part_done(struct part *part, const struct dump *dump, struct glint_e
 }
 
 static const char *const rgb[3] = {"R", "G", "B"};
-static const struct storage half = {GLINT_F16, "RGBA16F"}, whole = {GLINT_F32, "R32F"};
+static const struct storage in_half = {GLINT_F16, "RGBA16F"}, whole = {GLINT_F32, "R32F"};
 
 static void encode_pixels(const struct dump *dump, const struct view *view, const struct pixel *in, struct pixel *out) {
     const struct glint_encodings *e = &dump->encodings;
@@ -162,7 +163,7 @@ static bool color_part(struct part *part, const struct dump *dump, const char *n
 
 bool dump_lit(const struct dump *dump, const char *name, const struct pixel *pixels, struct glint_error *err) {
     struct part part;
-    return color_part(&part, dump, name, dump->view->width, dump->view->height, half, &pixels->lit,
+    return color_part(&part, dump, name, dump->view->width, dump->view->height, in_half, &pixels->lit,
                       sizeof(struct pixel), err) &&
            part_done(&part, dump, err);
 }
@@ -172,8 +173,8 @@ bool dump_cubemap(const struct dump *dump, uint32_t index, const struct glint_cu
     char name[32];
     struct part part;
     snprintf(name, sizeof name, "cubemap.%03u", index);
-    if (!color_part(&part, dump, name, size, 6 * size, half, &texels->color, sizeof *texels, err)) return false;
-    put(&part, "A", half, &texels->alpha, sizeof *texels);
+    if (!color_part(&part, dump, name, size, 6 * size, in_half, &texels->color, sizeof *texels, err)) return false;
+    put(&part, "A", in_half, &texels->alpha, sizeof *texels);
     put(&part, "distance.Z", whole, &texels->distance, sizeof *texels);
     part.part.cubemap = map;
     return part_done(&part, dump, err);
@@ -192,7 +193,7 @@ bool dump_cubemap_elsewhere(const struct dump *dump, uint32_t index, const struc
 
 bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels, struct glint_error *err) {
     struct part part;
-    return color_part(&part, dump, "sky", size, 6 * size, half, &texels->color, sizeof *texels, err) &&
+    return color_part(&part, dump, "sky", size, 6 * size, in_half, &texels->color, sizeof *texels, err) &&
            part_done(&part, dump, err);
 }
 
@@ -225,7 +226,7 @@ static bool dump_lobe(const struct dump *dump, const char *name, const struct tr
         return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", name);
     if (!color_part(&part, dump, name, width, height, whole, color, sizeof *truth, err)) return false;
     put(&part, "weight", whole, weight, sizeof *truth);
-    put(&part, "error", half, error, sizeof *truth);
+    put(&part, "error", in_half, error, sizeof *truth);
     const struct glint_attribute attributes[] = {
         {.name = "truthSamples", .type = GLINT_ATTRIBUTE_INT, .number = samples},
         {.name = "truthNoise", .type = GLINT_ATTRIBUTE_DOUBLE, .number = noise},
@@ -244,6 +245,6 @@ bool dump_truth(const struct dump *dump, const struct truth *truth, uint32_t sam
     struct part part;
     part_init(&part, dump, "truth.mirror", dump->view->width, dump->view->height);
     put(&part, "distance.Z", whole, &truth->distance, sizeof *truth);
-    put(&part, "visible", half, &truth->visible, sizeof *truth);
+    put(&part, "visible", in_half, &truth->visible, sizeof *truth);
     return part_done(&part, dump, err);
 }

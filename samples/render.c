@@ -1,7 +1,7 @@
 /* The frame as an engine's buffers hold it, and its cube maps. One ray a pixel, through its jittered centre. */
 #include "render.h"
 
-#include "half.h"
+#include <Imath/half.h>
 
 struct frame_work {
     const struct world *world;
@@ -28,8 +28,12 @@ static vec3 bent(vec3 normal, const struct hit *hit, vec3 to_eye) {
     return towards;
 }
 
+static float rounded(float value) {
+    return imath_half_to_float(imath_float_to_half(value));
+}
+
 static vec3 to_half(vec3 v) {
-    return v3(half_to(half_from(v.x)), half_to(half_from(v.y)), half_to(half_from(v.z)));
+    return v3(rounded(v.x), rounded(v.y), rounded(v.z));
 }
 
 static struct pixel seen(const struct frame_work *work, const struct hit *hit, vec3 direction) {
