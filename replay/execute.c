@@ -43,10 +43,11 @@ static bool submit(struct run *run, const char *what, struct glint_error *err) {
     return device_submit(run->replay->device, what, err) && read_times(run, err);
 }
 
-/* Some of the passes, for one ray. Somebody who follows the progress gets each pass submitted by itself, and can stop
-   between two; otherwise they are one command buffer. `done` is how far the run is at the first, `share` their part. */
-static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t ray, double done, double share,
-                           struct glint_error *err) {
+/* Some of the passes, for one ray. `apart`: each is submitted by itself, so that who follows the progress can stop between
+   two; otherwise they are one command buffer, as a timed one has to be: a device that waits for the next submission
+   starts its first pass cold. `done` is how far the run is at the first pass, `share` their part. */
+static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t ray, bool apart, double done,
+                           double share, struct glint_error *err) {
     struct glint_device *device = run->replay->device;
     struct frame_block block = run->block;
     bool recording = false;
@@ -60,7 +61,7 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
         if (!report_progress(run->progress, run->user, slot, 0.2 + 0.8 * here, err)) return false;
         if (!recording && !device_begin(device, err)) return false;
         record_step(run, step);
-        recording = !run->progress;
+        recording = !apart;
         if (!recording && !submit(run, slot, err)) return false;
     }
     if (run->rays && first == run->graph.loop_first && end == run->graph.loop_end) {
@@ -72,16 +73,17 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
 }
 
 /* All passes; those that run for each ray in a loop, each ray submitted by itself. */
-static bool execute_round(struct run *run, double done, double share, struct glint_error *err) {
+static bool execute_round(struct run *run, bool apart, double done, double share, struct glint_error *err) {
     const struct graph *graph = &run->graph;
     const size_t first = graph->loop_first, end = graph->loop_end;
     const uint32_t rays = pipeline_rays(run->pipeline);
     const double each = graph->pass_count ? share / (double)graph->pass_count : 0;
-    if (!execute_passes(run, 0, first, 0, done, each * (double)first, err)) return false;
+    if (!execute_passes(run, 0, first, 0, apart, done, each * (double)first, err)) return false;
     const double loop = each * (double)(end - first) / rays;
     for (uint32_t ray = 0; end > first && ray < rays; ray++)
-        if (!execute_passes(run, first, end, ray, done + each * (double)first + loop * ray, loop, err)) return false;
-    return execute_passes(run, end, graph->pass_count, 0, done + each * (double)end,
+        if (!execute_passes(run, first, end, ray, apart, done + each * (double)first + loop * ray, loop, err))
+            return false;
+    return execute_passes(run, end, graph->pass_count, 0, apart, done + each * (double)end,
                           each * (double)(graph->pass_count - end), err);
 }
 
@@ -98,7 +100,8 @@ bool run_execute(struct run *run, struct glint_error *err) {
     }
     for (uint32_t round = 0; round < rounds; round++) {
         for (size_t p = 0; p < run->graph.pass_count; p++) run->steps[p].round_ns = 0;
-        if (!execute_round(run, (double)round / rounds, 1.0 / rounds, err)) return false;
+        const bool apart = run->progress && (round < warmup || rounds == 1);
+        if (!execute_round(run, apart, (double)round / rounds, 1.0 / rounds, err)) return false;
         for (size_t p = 0; p < run->graph.pass_count && round >= warmup && run->queries; p++)
             if (run->steps[p].execute) run->steps[p].ns[run->steps[p].timed++] = run->steps[p].round_ns;
     }
