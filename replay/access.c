@@ -17,26 +17,35 @@ static const struct {
     [IMAGE_CLEAR] = {VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true},
 };
 
-/* All images stay in the general layout: storage images must, and sampling from it costs nothing measurable here. */
+/* All images stay in the general layout: storage images must, and sampling from it costs nothing measurable here. So only
+   an image whose memory held another one before needs a barrier of its own, which gives it that layout. */
 void image_access(struct image *image, enum image_access access, struct barriers *barriers) {
     struct block *block = image->block;
     const VkPipelineStageFlags2 stage = accesses[access].stage;
-    bool write = accesses[access].write, takes_over = block->owner != image;
-    bool unseen_write = block->write_stage && !(block->read_stages & stage);
-    bool after_others = block->write_stage || block->read_stages;
-    if ((takes_over || (write ? after_others : unseen_write)) && barriers->count < PASS_IMAGES_MAX)
-        barriers->images[barriers->count++] = (VkImageMemoryBarrier2){
-            .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-            .srcStageMask = write || takes_over ? block->write_stage | block->read_stages : block->write_stage,
-            .srcAccessMask = block->write_access,
-            .dstStageMask = stage,
-            .dstAccessMask = accesses[access].access,
-            .oldLayout = takes_over ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL,
-            .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .image = image->image,
-            .subresourceRange = image_range(&image->desc)};
+    const bool write = accesses[access].write, takes_over = block->owner != image;
+    const bool unseen_write = block->write_stage && !(block->read_stages & stage);
+    const bool after_others = block->write_stage || block->read_stages;
+    const VkPipelineStageFlags2 from =
+        write || takes_over ? block->write_stage | block->read_stages : block->write_stage;
+    VkMemoryBarrier2 *memory = &barriers->memory;
+    if (takes_over && barriers->count < PASS_IMAGES_MAX)
+        barriers->images[barriers->count++] = (VkImageMemoryBarrier2){.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                                                      .srcStageMask = from,
+                                                                      .srcAccessMask = block->write_access,
+                                                                      .dstStageMask = stage,
+                                                                      .dstAccessMask = accesses[access].access,
+                                                                      .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                                                      .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+                                                                      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                                                      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                                                      .image = image->image,
+                                                                      .subresourceRange = image_range(&image->desc)};
+    else if (write ? after_others : unseen_write)
+        *memory = (VkMemoryBarrier2){.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                     .srcStageMask = memory->srcStageMask | from,
+                                     .srcAccessMask = memory->srcAccessMask | block->write_access,
+                                     .dstStageMask = memory->dstStageMask | stage,
+                                     .dstAccessMask = memory->dstAccessMask | accesses[access].access};
     block->owner = image;
     if (write) {
         block->write_stage = stage;
@@ -46,9 +55,13 @@ void image_access(struct image *image, enum image_access access, struct barriers
 }
 
 void barriers_record(struct barriers *barriers, struct glint_device *device) {
+    const bool memory = barriers->memory.srcStageMask != 0;
     const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                   .memoryBarrierCount = memory,
+                                   .pMemoryBarriers = &barriers->memory,
                                    .imageMemoryBarrierCount = barriers->count,
                                    .pImageMemoryBarriers = barriers->images};
-    if (barriers->count) vkCmdPipelineBarrier2(device->commands, &info);
+    if (memory || barriers->count) vkCmdPipelineBarrier2(device->commands, &info);
     barriers->count = 0;
+    barriers->memory = (VkMemoryBarrier2){0};
 }

@@ -237,10 +237,10 @@ bool host_buffer_init(struct host_buffer *buffer, struct glint_device *device, e
     VkMemoryRequirements need;
     vkGetBufferMemoryRequirements(device->device, buffer->buffer, &need);
     const VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    /* Reading uncached memory is slow; writing it is not. */
-    const VkMemoryPropertyFlags preferred = use == HOST_BUFFER_READBACK   ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
-                                            : use == HOST_BUFFER_INDIRECT ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
-                                                                          : 0;
+    /* Reading uncached memory is slow for the host; what shaders read over the bus is slow for every pass. */
+    const VkMemoryPropertyFlags preferred = use == HOST_BUFFER_READBACK ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                                            : use == HOST_BUFFER_UPLOAD ? 0
+                                                                        : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     if (!device_allocate(device, &need, coherent, preferred, name, &buffer->memory, err)) goto fail;
     result = vkBindBufferMemory(device->device, buffer->buffer, buffer->memory, 0);
     if (result == VK_SUCCESS) result = vkMapMemory(device->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map);

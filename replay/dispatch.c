@@ -160,7 +160,7 @@ void step_record(const struct run *run, struct step *step) {
         const struct dispatch *dispatch = &step->dispatches[d];
         const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
         const uint32_t place[] = {dispatch->level, dispatch->phase}; /* how push_begin.glsl opens the block */
-        struct barriers barriers = {.count = 0};
+        struct barriers barriers = {0};
         if (dispatch->list) image_record_groups(dispatch->list, device, &run->replay->indirect, dispatch->at);
         access_images(run, step->pass->pass, &barriers);
         barriers_record(&barriers, device);

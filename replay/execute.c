@@ -7,20 +7,32 @@
 
 #include "timing.h"
 
-static void record_step(const struct run *run, struct step *step) {
+static void stamp(struct run *run) {
+    if (run->queries)
+        vkCmdWriteTimestamp2(run->replay->device->commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, run->queries,
+                             run->stamps++);
+}
+
+/* One timestamp before the first pass and one after each: a pass's time is what passed since the one before it ended. */
+static bool begin(struct run *run, struct glint_error *err) {
+    struct glint_device *device = run->replay->device;
+    if (!device_begin(device, err)) return false;
+    if (run->queries) vkCmdResetQueryPool(device->commands, run->queries, 0, (uint32_t)run->graph.pass_count + 1);
+    run->stamps = 0;
+    stamp(run);
+    return true;
+}
+
+static void record_step(struct run *run, struct step *step) {
     struct glint_device *device = run->replay->device;
     const struct glint_pass *pass = step->pass->pass;
-    const uint32_t query = 2 * (uint32_t)(step - run->steps);
-    VkCommandBuffer commands = device->commands;
     char label[128];
     snprintf(label, sizeof label, "%s/%s", pass->slot, pass->variant);
-    if (run->queries) vkCmdResetQueryPool(commands, run->queries, query, 2);
     device_begin_label(device, label);
-    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, query);
     step_record(run, step);
-    if (run->queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, run->queries, query + 1);
+    step->stamp = run->stamps;
+    stamp(run);
     device_end_label(device);
-    step->recorded = true;
 }
 
 static bool read_times(struct run *run, struct glint_error *err) {
@@ -28,13 +40,13 @@ static bool read_times(struct run *run, struct glint_error *err) {
     for (size_t p = 0; run->queries && p < run->graph.pass_count; p++) {
         struct step *step = &run->steps[p];
         uint64_t ticks[2];
-        if (!step->recorded) continue;
-        VkResult result = vkGetQueryPoolResults(device->device, run->queries, 2 * (uint32_t)p, 2, sizeof ticks, ticks,
+        if (!step->stamp) continue;
+        VkResult result = vkGetQueryPoolResults(device->device, run->queries, step->stamp - 1, 2, sizeof ticks, ticks,
                                                 sizeof ticks[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
         if (result != VK_SUCCESS) return vk_fail(err, "reading timestamps", result);
         const uint64_t passed = (ticks[1] - ticks[0]) & device->timestamp_mask;
         step->round_ns += (uint64_t)((double)passed * device->timestamp_ns);
-        step->recorded = false;
+        step->stamp = 0;
     }
     return true;
 }
@@ -48,7 +60,6 @@ static bool submit(struct run *run, const char *what, struct glint_error *err) {
    starts its first pass cold. `done` is how far the run is at the first pass, `share` their part. */
 static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t ray, bool apart, double done,
                            double share, struct glint_error *err) {
-    struct glint_device *device = run->replay->device;
     struct frame_block block = run->block;
     bool recording = false;
     block.flags.w = ray;
@@ -59,13 +70,13 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
         const char *slot = step->pass->pass->slot;
         const double here = done + share * (double)(p - first) / (double)(end - first);
         if (!report_progress(run->progress, run->user, slot, 0.2 + 0.8 * here, err)) return false;
-        if (!recording && !device_begin(device, err)) return false;
+        if (!recording && !begin(run, err)) return false;
         record_step(run, step);
         recording = !apart;
         if (!recording && !submit(run, slot, err)) return false;
     }
     if (run->rays && first == run->graph.loop_first && end == run->graph.loop_end) {
-        if (!recording && !device_begin(device, err)) return false;
+        if (!recording && !begin(run, err)) return false;
         rays_record(run, ray);
         recording = true;
     }

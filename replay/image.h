@@ -70,8 +70,9 @@ bool image_bind(struct image *image, struct glint_device *device, struct block *
 void image_rename(struct image *image, const char *name);
 void image_destroy(struct image **image, struct glint_device *device);
 
-/* Barriers gathered for one step. */
+/* Barriers gathered for one step: one for all memory, and one for each image that takes over its memory. */
 struct barriers {
+    VkMemoryBarrier2 memory;
     VkImageMemoryBarrier2 images[PASS_IMAGES_MAX];
     uint32_t count;
 };

@@ -41,7 +41,7 @@ static bool prepare_queries(struct run *run, struct glint_error *err) {
     if (!run->replay->device->timestamp_mask || !run->graph.pass_count) return true;
     const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                        .queryCount = 2 * (uint32_t)run->graph.pass_count};
+                                        .queryCount = (uint32_t)run->graph.pass_count + 1};
     VkResult result = vkCreateQueryPool(run->replay->device->device, &info, NULL, &run->queries);
     return result == VK_SUCCESS || vk_fail(err, "creating timestamp queries", result);
 }

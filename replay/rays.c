@@ -116,7 +116,7 @@ void rays_record(const struct run *run, uint32_t ray) {
     for (size_t i = 0; i < run->rays->count; i++) {
         const struct sum *sum = &run->rays->sums[i];
         const VkDescriptorSet sets[] = {sum->set, run->frame_set};
-        struct barriers barriers = {.count = 0};
+        struct barriers barriers = {0};
         image_access(sum->of, IMAGE_SHADER_BOTH, &barriers);
         image_access(sum->sum, IMAGE_SHADER_STORAGE, &barriers);
         barriers_record(&barriers, device);

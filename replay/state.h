@@ -56,7 +56,7 @@ struct step {
     size_t list_count; /* how many of them run over lists */
     uint64_t key;
     bool execute;
-    bool recorded;     /* in the commands under way */
+    uint32_t stamp;    /* written when it ended, in the commands under way; 0: it is not in them */
     uint64_t round_ns; /* so far */
     uint64_t *ns;      /* one for each timed round */
     size_t timed;
@@ -81,6 +81,7 @@ struct run {
     VkDescriptorPool pool;
     VkDescriptorSet frame_set;
     VkQueryPool queries;
+    uint32_t stamps; /* written in the commands under way */
     struct rays *rays; /* NULL: one a frame */
     glint_progress progress;
     void *user;

@@ -10,7 +10,7 @@ static VkBufferImageCopy some_layers(const struct image *image, VkDeviceSize off
 
 void image_record_upload(struct image *image, struct glint_device *device, const struct host_buffer *from,
                          VkDeviceSize offset, uint32_t level, uint32_t first_layer, uint32_t layers, bool discard) {
-    struct barriers barriers = {.count = 0};
+    struct barriers barriers = {0};
     if (discard) image->block->owner = NULL;
     image_access(image, IMAGE_COPY_WRITE, &barriers);
     barriers_record(&barriers, device);
@@ -20,7 +20,7 @@ void image_record_upload(struct image *image, struct glint_device *device, const
 
 void image_record_readback(struct image *image, struct glint_device *device, const struct host_buffer *to,
                            VkDeviceSize offset, uint32_t level) {
-    struct barriers barriers = {.count = 0};
+    struct barriers barriers = {0};
     image_access(image, IMAGE_COPY_READ, &barriers);
     barriers_record(&barriers, device);
     const VkBufferImageCopy copy = some_layers(image, offset, level, 0, image_layers(&image->desc));
@@ -39,7 +39,7 @@ void image_record_groups(struct image *list, struct glint_device *device, const 
                                     .dstAccessMask = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
     VkDependencyInfo info = {
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &before};
-    struct barriers barriers = {.count = 0};
+    struct barriers barriers = {0};
     image_access(list, IMAGE_COPY_READ, &barriers);
     barriers_record(&barriers, device);
     vkCmdPipelineBarrier2(device->commands, &info); /* an earlier round has read what is overwritten */
@@ -51,7 +51,7 @@ void image_record_groups(struct image *list, struct glint_device *device, const 
 }
 
 void image_record_clear(struct image *image, struct glint_device *device, double value) {
-    struct barriers barriers = {.count = 0};
+    struct barriers barriers = {0};
     image->block->owner = NULL;
     image_access(image, IMAGE_CLEAR, &barriers);
     barriers_record(&barriers, device);
