@@ -21,7 +21,7 @@ const char *row_image(const struct glint_row *row) {
 }
 
 bool size_is_array(enum glint_size_class size) {
-    return size == GLINT_SIZE_CUBEMAPS || size == GLINT_SIZE_CUBEMAPS_MIPS;
+    return size == GLINT_SIZE_CUBEMAPS || size == GLINT_SIZE_CUBEMAPS_MIPS || size == GLINT_SIZE_COCOON;
 }
 bool size_is_cube(enum glint_size_class size) {
     return size_is_array(size) || size == GLINT_SIZE_SKY || size == GLINT_SIZE_SKY_MIPS;

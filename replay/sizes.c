@@ -105,6 +105,10 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         expected[0] = expected[1] = sizes->cube_face;
         desc->layers = 6 * (sizes->active ? sizes->active : 1);
         break;
+    case GLINT_SIZE_COCOON:
+        expected[0] = expected[1] = sizes->active ? COCOON_SIZE : 0;
+        desc->layers = 6 * (sizes->active ? sizes->active : 1);
+        break;
     case GLINT_SIZE_SKY:
     case GLINT_SIZE_SKY_MIPS:
         expected[0] = expected[1] = sizes->sky_face;

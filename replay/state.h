@@ -11,7 +11,7 @@
 #include "survey.h"
 #include "tables.h"
 
-enum { LIST_WIDTH = 256, LIST_ITEMS = 64 /* of a workgroup */ };
+enum { LIST_WIDTH = 256, LIST_ITEMS = 64 /* of a workgroup */, COCOON_SIZE = 32 /* shared/cocoon.glsl */ };
 
 enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE, PHASES };
 

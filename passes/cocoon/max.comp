@@ -6,6 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "max.pass.h"
 };
+#include "shared/cocoon.glsl"
 #include "shared/cube_chain.glsl"
 
 float texel_of(ivec3 at, int level) { return texelFetch(faces, at, level).x; }
@@ -57,8 +58,21 @@ float weighted_max(vec4 direction, int level) {
     return depth_m;
 }
 
+int cocoon_level() { return int(ceil(log2(max(float(face_size(faces, 0)) / float(size), 1.0)) - 1e-4)); }
+
+void keep_cocoon(ivec3 at) {
+    if (any(greaterThanEqual(at.xy, ivec2(COCOON_SIZE)))) return;
+    vec3 direction = direction_of_sample(at.xy, at.z % 6);
+    float distance_m = textureLod(samplerCubeArray(chain, linear_clamp), vec4(direction, at.z / 6), float(cocoon_level())).x;
+    imageStore(cocoon, at, vec4(distance_m < LARGEST ? length(direction) / distance_m : 0.0)); // filtered, +inf may be NaN
+}
+
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
+    if (dispatch_phase == 2u) {
+        keep_cocoon(at);
+        return;
+    }
     int width = imageSize(cocoon_distance).x, level = int(dispatch_level);
     if (at.x >= width || at.y >= width) return;
     if (dispatch_phase == 0u) {
@@ -66,14 +80,14 @@ void main() {
         return;
     }
     int coarsest = textureQueryLevels(samplerCubeArray(chain, nearest_clamp)) - 1;
-    int cocoon = int(ceil(log2(max(float(face_size(faces, 0)) / float(size), 1.0)) - 1e-4));
+    int cocoon_at = cocoon_level();
     bool is_sky = !(texel_of(at, level) < LARGEST);
-    if (!is_sky && level != cocoon) return;
+    if (!is_sky && level != cocoon_at) return;
     float distance_m;
     if (level == coarsest) distance_m = is_sky ? farthest_of_map(at.z, level) : texel_of(at, level);
-    else if (level >= cocoon) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
+    else if (level >= cocoon_at) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
     else if (cap_sky)
-        distance_m = textureLod(samplerCubeArray(chain, linear_clamp), texel_direction(at.xy, width, at.z), float(cocoon)).x;
+        distance_m = textureLod(samplerCubeArray(chain, linear_clamp), texel_direction(at.xy, width, at.z), float(cocoon_at)).x;
     else return;
     imageStore(cocoon_distance, at, vec4(distance_m));
 }

@@ -11,3 +11,4 @@ PUSH(float, kernel,     3.5, 0.25,  64.0,  "texels", "000, Weighted MAX (specPow
 PUSH(float, threshold,  0.1, 0.001, 0.999, "1", "000, Weighted MAX (specPow not printed)", "weight there, from which the power follows")
 DISPATCH_LEVELS(cocoon_distance, 0, -1, down)
 DISPATCH_LEVELS(cocoon_distance, 0, -1, up)
+DISPATCH(cocoon)

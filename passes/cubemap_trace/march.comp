@@ -7,6 +7,7 @@
 #include "march.pass.h"
 };
 #include "shared/camera.glsl"
+#include "shared/cocoon.glsl"
 #include "shared/cubemap.glsl"
 #include "shared/end_reasons.glsl"
 #include "shared/random.glsl"
@@ -15,15 +16,17 @@
 #include "volume.glsl"
 
 const uint NO_PLACE = 255u;
+const int COCOON_STEPS = 8, COCOON_REFINEMENTS = 3;
 
 struct Quality {
     int steps, refinements;
-    float first_m, ratio, level;
+    float first_m, ratio, level, roughness;
 };
 
 Quality quality_of(float roughness, uvec2 pixel) {
     bool smooth_surface = roughness <= hq_roughness;
     Quality q;
+    q.roughness = roughness;
     q.steps = smooth_surface ? steps_hq : steps_lq;
     q.refinements = smooth_surface ? refinements : refinements_lq;
     float total_m = smooth_surface ? length_m : length_lq_m;
@@ -120,67 +123,44 @@ struct Result {
 
 vec3 center_of(uint place) { return texelFetch(active_center, ivec2(place, 0), 0).xyz; }
 
-// The distance along the ray at which it leaves the cocoon, which is smooth and closed; < 0 when it has none there: all
-// of the map is sky, or no pass made a cocoon, or the ray starts outside and does not come in. A start outside goes on
-// to where the ray enters. Up to the sphere around the farthest texel the ray is sampled at growing distances, and the
-// interval in which it goes behind is halved.
-float leaves_cocoon(vec3 from_center, vec3 direction, float start_m, uint place, inout uint fetches) {
-    float level = clamp(ceil(log2(float(face_size(cocoon_distance)) / float(cocoon_size)) - 1e-4), 0.0,
-                        float(last_level(cocoon_distance)));
-    float farthest_m = 0.0;
-    for (int face = 0; face < 6; ++face) {
-        vec3 axis = vec3(0.0);
-        axis[face >> 1] = (face & 1) == 0 ? 1.0 : -1.0;
-        farthest_m = max(farthest_m, textureLod(samplerCubeArray(cocoon_distance, nearest_clamp), vec4(axis, place), 99.0).x);
-    }
-    fetches += 6u;
-    if (!(farthest_m < LARGEST)) return -1.0;
-    float half_b = dot(from_center, direction), c = dot(from_center, from_center) - farthest_m * farthest_m;
-    float root = half_b * half_b - c;
-    if (root <= 0.0) return -1.0;
-    float last_m = sqrt(root) - half_b, first_m = max(start_m, -sqrt(root) - half_b);
-    if (last_m <= first_m) return -1.0;
-    bool inside = false;
-    float low_m = first_m;
-    for (int i = 0; i <= cocoon_steps; ++i) {
-        float part = float(i) / float(cocoon_steps), t = mix(first_m, last_m, part * part);
-        vec3 at = from_center + direction * t;
-        fetches += 4u;
-        if (length(at) <= mean_of(patch_of(cocoon_distance, vec4(at, place), level))) {
-            inside = true;
-        } else if (inside) {
-            float high_m = t;
-            for (int k = 0; k < 8; ++k) {
-                float middle_m = 0.5 * (low_m + high_m);
-                at = from_center + direction * middle_m;
-                fetches += 4u;
-                if (length(at) <= mean_of(patch_of(cocoon_distance, vec4(at, place), level))) low_m = middle_m;
-                else high_m = middle_m;
-            }
-            return 0.5 * (low_m + high_m);
-        }
-        low_m = t;
-    }
-    return inside ? last_m : -1.0;
+bool sees_sky(vec3 from_center, inout Result result) {
+    result.fetches++;
+    vec4 at = vec4(from_center, result.place);
+    return !(textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x < LARGEST);
 }
 
-// Where a ray ends that no cube map could follow. What has no end in the cocoon is looked up by its direction.
-void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, uint reason) {
+void end_in_sky(inout Result result) {
+    result.end = END_sky;
+    result.travelled_m = INFINITE;
+    if (frame.counts.w > 0u) result.place = NO_PLACE; // else the cube map holds what there is of the sky
+}
+
+// A ray that met the cap that a cocoon puts over the sky ends in the sky. A wide cone stays on the cap, where the cube
+// map's levels hold, with alpha, how much of what lies around it is sky.
+void end_on_cap(inout Result result, float roughness) {
+    result.end = END_sky;
+    if (roughness <= hq_roughness) end_in_sky(result);
+}
+
+// Where a ray ends that no cube map could follow. What has no end in the cocoon is looked up by its direction; what ends
+// where it caps the sky, in the sky.
+void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, float roughness, uint reason) {
     bool from_surface = fallback_start == fallback_start_surface;
-    result.end = reason;
     if (fallback == fallback_black) {
         result.place = NO_PLACE;
-        return;
-    }
-    if (fallback == fallback_cocoon) {
+    } else if (fallback == fallback_cocoon) {
         float start_m = from_surface ? 0.0 : result.travelled_m;
-        float end_m = leaves_cocoon(origin - center_of(best), direction, start_m, best, result.fetches);
+        vec3 start = origin + start_m * direction - center_of(best);
+        float end_m = leaves_cocoon(cocoon, start, direction, best, COCOON_STEPS, COCOON_REFINEMENTS);
+        result.fetches += uint(COCOON_STEPS + 1 + COCOON_REFINEMENTS);
         result.place = best;
-        result.travelled_m = end_m < 0.0 ? INFINITE : end_m;
+        result.travelled_m = end_m < 0.0 ? INFINITE : start_m + end_m;
+        if (end_m >= 0.0 && sees_sky(start + end_m * direction, result)) end_on_cap(result, roughness);
     } else if (from_surface) {
         result.place = best;
         result.travelled_m = INFINITE;
     }
+    result.end = reason;
 }
 
 // A sample of the ray: its parameter and how far it lies behind the surface that is seen in its direction, < 0 in front.
@@ -202,18 +182,8 @@ precise float secant_between(Sample front, Sample behind) {
     return mix(front.t, behind.t, gap / (gap - behind.gap));
 }
 
-void end_in_sky(inout Result result) {
-    result.travelled_m = INFINITE;
-    result.end = END_sky;
-    if (frame.counts.w > 0u) result.place = NO_PLACE; // else the cube map holds what there is of the sky
-}
-
-// A hit on the cap that a cocoon's chain puts over the sky is the sky.
-Result capped(Result result, vec3 from_center, vec3 direction) {
-    if (!through_cocoon()) return result;
-    vec4 at = vec4(from_center + direction * result.travelled_m, result.place);
-    result.fetches++;
-    if (!(textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x < LARGEST)) end_in_sky(result);
+Result capped(Result result, vec3 from_center, vec3 direction, float roughness) {
+    if (through_cocoon() && sees_sky(from_center + direction * result.travelled_m, result)) end_on_cap(result, roughness);
     return result;
 }
 
@@ -253,14 +223,14 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             }
             result.travelled_m = secant ? secant_between(front, behind) : behind.t;
             result.end = END_hit;
-            if (!verify) return capped(result, from_center, direction);
+            if (!verify) return capped(result, from_center, direction, quality.roughness);
             result.fetches += fetches;
             Sample end = sample_at(from_center, direction, result.travelled_m, result.place, quality.level);
-            if (abs(end.gap) <= verify_part * end.seen_m) return capped(result, from_center, direction);
+            if (abs(end.gap) <= verify_part * end.seen_m) return capped(result, from_center, direction, quality.roughness);
         }
         if (++used >= longest) {
             result.travelled_m = now.t;
-            fall_back(result, origin, direction, best, END_shadow_region);
+            fall_back(result, origin, direction, best, quality.roughness, END_shadow_region);
             return result;
         }
         result.place = texelFetch(active_chain, ivec2(used, best), 0).x;
@@ -276,12 +246,12 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     if (refined > 0) {
         result.travelled_m = secant ? secant_between(front, behind) : behind.t;
         result.end = END_hit;
-        return capped(result, from_center, direction);
+        return capped(result, from_center, direction, quality.roughness);
     }
     if (now.seen_m == INFINITE) {
         end_in_sky(result);
     } else if (exhausted == exhausted_fallback) {
-        fall_back(result, origin, direction, best, END_steps_exhausted);
+        fall_back(result, origin, direction, best, quality.roughness, END_steps_exhausted);
     } else if (exhausted == exhausted_direction) {
         result.travelled_m = INFINITE;
     }

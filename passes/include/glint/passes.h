@@ -38,6 +38,7 @@ enum glint_size_class {
     GLINT_SIZE_FULL,     /* the capture's resolution */
     GLINT_SIZE_HALF,     /* half of it, rounded up; full under downsample/none */
     GLINT_SIZE_CUBEMAPS, /* cube-map array: one cube of the capture's face size for each active cube map */
+    GLINT_SIZE_COCOON,   /* the same with faces of 32 × 32 */
     GLINT_SIZE_SKY,      /* the sky's cube map */
     GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
     GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
