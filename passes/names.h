@@ -24,6 +24,7 @@
 #define DISPATCH(image)
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LIST(list)
+#define WORKGROUP(width, height)
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)

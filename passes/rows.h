@@ -16,6 +16,7 @@
 #undef DISPATCH
 #undef DISPATCH_LEVELS
 #undef DISPATCH_LIST
+#undef WORKGROUP
 #undef PER_RAY
 #undef ACCUMULATE
 #undef NEEDS
@@ -65,6 +66,7 @@
     {.kind = GLINT_ROW_DISPATCH_LEVELS, .id = __LINE__, .name = #image_, .first = first_, .last = last_,      \
      .order = GLINT_ORDER_##order_},
 #define DISPATCH_LIST(list) {.kind = GLINT_ROW_DISPATCH_LIST, .id = __LINE__, .name = #list},
+#define WORKGROUP(width, height) {.kind = GLINT_ROW_WORKGROUP, .id = __LINE__, .name = "", .first = width, .last = height},
 #define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__, .name = ""},
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},

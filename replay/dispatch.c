@@ -20,10 +20,12 @@ static bool row_is_dispatch(const struct glint_row *row) {
 
 static void add(struct step *step, uint32_t phase, const struct image *image, uint32_t level) {
     const VkExtent3D extent = image_extent(&image->desc, level);
+    const struct workgroup group = pass_workgroup(step->pass->pass);
     step->dispatches[step->dispatch_count++] =
         (struct dispatch){.phase = phase,
                           .level = level,
-                          .groups = {(extent.width + 7) / 8, (extent.height + 7) / 8, image_layers(&image->desc)}};
+                          .groups = {(extent.width + group.width - 1) / group.width,
+                                     (extent.height + group.height - 1) / group.height, image_layers(&image->desc)}};
 }
 
 /* From the finer to the coarser of the two levels that the row names, or back. An image may have fewer levels. */

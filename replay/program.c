@@ -28,11 +28,20 @@ static bool add_constant(struct constants *constants, uint32_t id, uint32_t bits
     return true;
 }
 
+struct workgroup pass_workgroup(const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_WORKGROUP)
+            return (struct workgroup){(uint32_t)pass->rows[r].first, (uint32_t)pass->rows[r].last};
+    return (struct workgroup){8, 8};
+}
+
 bool constants_init(struct constants *constants, const struct pipeline_pass *entry, bool diagnostics,
                     struct glint_error *err) {
     *constants = (struct constants){.push_count = 2};
     const struct glint_pass *pass = entry->pass;
-    bool fits = add_constant(constants, 0, diagnostics);
+    const struct workgroup group = pass_workgroup(pass);
+    bool fits = add_constant(constants, 0, diagnostics) && add_constant(constants, 1, group.width) &&
+                add_constant(constants, 2, group.height);
     for (size_t i = 0; i < pass->row_count && fits; i++) {
         uint32_t bits = row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], entry->values[i]) : 0;
         if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
@@ -41,7 +50,7 @@ bool constants_init(struct constants *constants, const struct pipeline_pass *ent
             constants->push[constants->push_count++] = bits;
     }
     return fits || glint_fail(err, GLINT_ERROR_LIMIT, "%s/%s: more than %d constants or %d bytes of push constants",
-                              pass->slot, pass->variant, CONSTANTS_MAX - 1, PUSH_BYTES_MAX);
+                              pass->slot, pass->variant, CONSTANTS_MAX - 3, PUSH_BYTES_MAX);
 }
 
 static VkResult create_sampler(struct glint_device *device, VkFilter filter, const char *name, VkSampler *sampler) {

@@ -6,6 +6,12 @@
 #include "pipeline.h"
 #include "shader.h"
 
+/* Invocations of a workgroup. */
+struct workgroup {
+    uint32_t width, height;
+};
+struct workgroup pass_workgroup(const struct glint_pass *pass);
+
 enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64 };
 
 /* Values of a pass's parameters as the shader takes them. */

@@ -1,6 +1,7 @@
 /* Down a chain of the farthest distance, up again with a weighted maximum. */
 PASS("Weighted maximum", "000, Generating cocoon MIP")
 #include "slot.h"
+WORKGROUP(8, 16)
 #line 202
 SELF(textureCubeArray, chain, cocoon_distance)
 SELF(texture2DArray, faces, cocoon_distance)

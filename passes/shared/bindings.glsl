@@ -41,12 +41,14 @@ layout(constant_id = 0) const bool diagnostics = false;
 #define DISPATCH(image)
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LIST(list)
+#define WORKGROUP(width, height)
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)
 #define RESOLUTION(size)
 
-layout(local_size_x = 8, local_size_y = 8) in;
+// Ids 1 and 2 are the workgroup that the pass declares.
+layout(local_size_x = 8, local_size_y = 8, local_size_x_id = 1, local_size_y_id = 2) in;
 
 #define FIELD(type, name, meaning) type name;
 layout(set = 1, binding = 0, std140) uniform Frame {
