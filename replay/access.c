@@ -15,6 +15,7 @@ static const struct {
     [IMAGE_COPY_READ] = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, false},
     [IMAGE_COPY_WRITE] = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true},
     [IMAGE_CLEAR] = {VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, true},
+    [IMAGE_GROUPS] = {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false},
 };
 
 /* All images stay in the general layout: storage images must, and sampling from it costs nothing measurable here. So only
@@ -28,7 +29,7 @@ void image_access(struct image *image, enum image_access access, struct barriers
     const VkPipelineStageFlags2 from =
         write || takes_over ? block->write_stage | block->read_stages : block->write_stage;
     VkMemoryBarrier2 *memory = &barriers->memory;
-    if (takes_over && barriers->count < PASS_IMAGES_MAX)
+    if (takes_over && image->image && barriers->count < PASS_IMAGES_MAX)
         barriers->images[barriers->count++] = (VkImageMemoryBarrier2){.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
                                                                       .srcStageMask = from,
                                                                       .srcAccessMask = block->write_access,
@@ -40,7 +41,7 @@ void image_access(struct image *image, enum image_access access, struct barriers
                                                                       .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                                                       .image = image->image,
                                                                       .subresourceRange = image_range(&image->desc)};
-    else if (write ? after_others : unseen_write)
+    else if (takes_over || write ? after_others : unseen_write)
         *memory = (VkMemoryBarrier2){.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                      .srcStageMask = memory->srcStageMask | from,
                                      .srcAccessMask = memory->srcAccessMask | block->write_access,

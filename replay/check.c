@@ -12,7 +12,12 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
                       struct faults *faults) {
     const bool array = size_is_array(image->size), cube = size_is_cube(image->size);
     const char *kind = binding->glsl, *is = NULL;
-    if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
+    if (image->size == GLINT_SIZE_LIST) {
+        if (strcmp(kind, row_is_output(binding) ? "uimageBuffer" : "utextureBuffer") != 0)
+            is = row_is_output(binding) ? "a list, to be written as uimageBuffer"
+                                        : "a list, to be read as utextureBuffer";
+    } else if (strstr(kind, "Buffer")) is = "no list";
+    else if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
     else if (row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), cube ? "image2DArray" : "image2D") != 0)
         is = cube ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
     else if (row_is_sampled(binding) && (strstr(kind, "Cube") || strstr(kind, "Array") ? !cube : cube))
@@ -31,6 +36,10 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
             (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
                        pass->slot, pass->variant, row->name);
+        const bool works = row->kind == GLINT_ROW_DISPATCH_LIST || (row_is_output(row) && row->size == GLINT_SIZE_LIST);
+        if (works && pass_row(pass, GLINT_ROW_WORKGROUP, NULL))
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected workgroups of 8 x 8", pass->slot,
+                       pass->variant, row->name);
         if (row->kind == GLINT_ROW_DISPATCH_LIST && (!pass_row(pass, GLINT_ROW_READ, row->name) || !dispatch))
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: DISPATCH_LIST %s: expected an image that the pass reads, and a DISPATCH before it",

@@ -18,9 +18,14 @@ static bool row_is_dispatch(const struct glint_row *row) {
            row->kind == GLINT_ROW_DISPATCH_LIST;
 }
 
-static void add(struct step *step, uint32_t phase, const struct image *image, uint32_t level) {
-    const VkExtent3D extent = image_extent(&image->desc, level);
-    const struct workgroup group = pass_workgroup(step->pass->pass);
+static void add(const struct run *run, struct step *step, uint32_t phase, const struct image *image, uint32_t level) {
+    const uint32_t *half = run->sizes.half;
+    VkExtent3D extent = image_extent(&image->desc, level);
+    struct workgroup group = pass_workgroup(step->pass->pass);
+    if (image->desc.buffer) {
+        extent = (VkExtent3D){half[0], half[1], 1};
+        group = (struct workgroup){LIST_BLOCK, LIST_BLOCK};
+    }
     step->dispatches[step->dispatch_count++] =
         (struct dispatch){.phase = phase,
                           .level = level,
@@ -29,7 +34,8 @@ static void add(struct step *step, uint32_t phase, const struct image *image, ui
 }
 
 /* From the finer to the coarser of the two levels that the row names, or back. An image may have fewer levels. */
-static void add_levels(struct step *step, uint32_t phase, const struct glint_row *row, const struct image *image) {
+static void add_levels(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
+                       const struct image *image) {
     const int count = (int)image->desc.levels;
     const bool swapped = (row->first < 0) == (row->last < 0) ? row->first > row->last : row->first < 0;
     int fine = swapped ? row->last : row->first, coarse = swapped ? row->first : row->last;
@@ -38,7 +44,7 @@ static void add_levels(struct step *step, uint32_t phase, const struct glint_row
     if (fine < 0) fine = 0;
     if (coarse > count - 1) coarse = count - 1;
     for (int i = 0; i <= coarse - fine; i++)
-        add(step, phase, image, (uint32_t)(row->order == GLINT_ORDER_up ? coarse - i : fine + i));
+        add(run, step, phase, image, (uint32_t)(row->order == GLINT_ORDER_up ? coarse - i : fine + i));
 }
 
 /* The images of the rows DISPATCH_LIST that follow row `r`; 0 when there are none, or one of them was not made. */
@@ -71,9 +77,8 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
         for (size_t i = 0; i < count; i++)
             step->dispatches[step->dispatch_count++] =
                 (struct dispatch){.phase = phase + 1 + (uint32_t)i, .list = lists[i]};
-        step->list_count += count;
-        if (row->kind == GLINT_ROW_DISPATCH && count == 0) add(step, phase, image, 0);
-        if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(step, phase, row, image);
+        if (row->kind == GLINT_ROW_DISPATCH && count == 0) add(run, step, phase, image, 0);
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(run, step, phase, row, image);
         phase++;
     }
     if (phase > 0) return true;
@@ -102,9 +107,9 @@ static void describe(const struct run *run, const struct step *step, const struc
                                             .dstSet = dispatch->set,
                                             .dstBinding = row->id,
                                             .descriptorCount = 1,
-                                            .descriptorType = sampled ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
-                                                                      : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                            .pImageInfo = &info};
+                                            .descriptorType = row_descriptor(row),
+                                            .pImageInfo = &info,
+                                            .pTexelBufferView = &image->buffer_view};
         vkUpdateDescriptorSets(run->replay->device->device, 1, &write, 0, NULL);
     }
 }
@@ -142,19 +147,10 @@ static void access_images(const struct run *run, const struct glint_pass *pass, 
     }
 }
 
-/* Over a list a pass does not reach every pixel, and a list does not fill its image. */
-static void clear_outputs(const struct run *run, const struct glint_pass *pass, bool all) {
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (row_is_output(&pass->rows[r]) && (all || pass->rows[r].size == GLINT_SIZE_LIST) &&
-            graph_find(&run->graph, pass->rows[r].name)->source == SOURCE_MADE)
-            image_record_clear(run_image(run, pass->rows[r].name), run->replay->device, pass->rows[r].nothing);
-}
-
 void step_record(const struct run *run, struct step *step) {
     struct glint_device *device = run->replay->device;
     VkCommandBuffer commands = device->commands;
     VkPipelineLayout layout = step->program->layout;
-    clear_outputs(run, step->pass->pass, step->list_count > 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
     vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
                        step->constants.push);
@@ -163,12 +159,12 @@ void step_record(const struct run *run, struct step *step) {
         const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
         const uint32_t place[] = {dispatch->level, dispatch->phase}; /* how push_begin.glsl opens the block */
         struct barriers barriers = {0};
-        if (dispatch->list) image_record_groups(dispatch->list, device, &run->replay->indirect, dispatch->at);
+        if (dispatch->list) image_access(dispatch->list, IMAGE_GROUPS, &barriers);
         access_images(run, step->pass->pass, &barriers);
         barriers_record(&barriers, device);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof place, place);
-        if (dispatch->list) vkCmdDispatchIndirect(commands, run->replay->indirect.buffer, dispatch->at);
+        if (dispatch->list) vkCmdDispatchIndirect(commands, dispatch->list->buffer, 0);
         else vkCmdDispatch(commands, dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
     }
 }

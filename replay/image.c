@@ -7,7 +7,7 @@
 
 bool image_desc_equal(const struct image_desc *a, const struct image_desc *b) {
     return a->format == b->format && a->width == b->width && a->height == b->height && a->layers == b->layers &&
-           a->levels == b->levels;
+           a->levels == b->levels && a->buffer == b->buffer;
 }
 
 uint32_t image_layers(const struct image_desc *desc) {
@@ -59,6 +59,27 @@ static void describe_levels(struct image *image) {
     }
 }
 
+static VkResult create_buffer(struct image *image, struct glint_device *device, struct glint_error *err) {
+    const uint64_t texels = image_bytes(&image->desc, 0) / format_bytes(image->desc.format);
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device->physical, &properties);
+    if (texels > properties.limits.maxTexelBufferElements) {
+        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: %llu texels, but the device's limit is %u", image->name,
+                   (unsigned long long)texels, properties.limits.maxTexelBufferElements);
+        return VK_ERROR_FORMAT_NOT_SUPPORTED;
+    }
+    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                     .size = image_bytes(&image->desc, 0),
+                                     .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                              VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                                              VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                              VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    VkResult result = vkCreateBuffer(device->device, &info, NULL, &image->buffer);
+    if (result != VK_SUCCESS) vk_fail(err, image->name, result);
+    else device_set_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)image->buffer, image->name);
+    return result;
+}
+
 struct image *image_create(struct glint_device *device, const char *name, const struct image_desc *desc,
                            struct glint_error *err) {
     struct image *image = calloc(1, sizeof *image);
@@ -69,6 +90,11 @@ struct image *image_create(struct glint_device *device, const char *name, const 
     image->desc = *desc;
     image_rename(image, name);
     describe_levels(image);
+    if (desc->buffer) {
+        if (create_buffer(image, device, err) == VK_SUCCESS) return image;
+        free(image);
+        return NULL;
+    }
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                     .flags = desc->layers ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
                                     .imageType = VK_IMAGE_TYPE_2D,
@@ -101,7 +127,8 @@ struct image *image_create(struct glint_device *device, const char *name, const 
 
 VkMemoryRequirements image_requirements(struct glint_device *device, const struct image *image) {
     VkMemoryRequirements need;
-    vkGetImageMemoryRequirements(device->device, image->image, &need);
+    if (image->image) vkGetImageMemoryRequirements(device->device, image->image, &need);
+    else vkGetBufferMemoryRequirements(device->device, image->buffer, &need);
     return need;
 }
 
@@ -142,10 +169,23 @@ static bool create_view(const struct image *image, struct glint_device *device, 
     return true;
 }
 
+static bool bind_buffer(struct image *image, struct glint_device *device, struct glint_error *err) {
+    const VkBufferViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                         .buffer = image->buffer,
+                                         .format = format_vulkan(image->desc.format),
+                                         .range = VK_WHOLE_SIZE};
+    VkResult result = vkBindBufferMemory(device->device, image->buffer, image->block->memory, 0);
+    if (result == VK_SUCCESS) result = vkCreateBufferView(device->device, &info, NULL, &image->buffer_view);
+    if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
+    device_set_name(device, VK_OBJECT_TYPE_BUFFER_VIEW, (uint64_t)(uintptr_t)image->buffer_view, image->name);
+    return true;
+}
+
 bool image_bind(struct image *image, struct glint_device *device, struct block *block, struct glint_error *err) {
     const bool cube = image->desc.layers != 0;
     image->block = block;
     block->images++;
+    if (!image->image) return bind_buffer(image, device, err);
     VkResult result = vkBindImageMemory(device->device, image->image, block->memory, 0);
     if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
     for (uint32_t i = 0; i < image->desc.levels; i++)
@@ -169,6 +209,8 @@ void image_destroy(struct image **pointer, struct glint_device *device) {
     vkDestroyImageView(device->device, image->array_view, NULL);
     vkDestroyImageView(device->device, image->faces_view, NULL);
     vkDestroyImage(device->device, image->image, NULL);
+    vkDestroyBufferView(device->device, image->buffer_view, NULL);
+    vkDestroyBuffer(device->device, image->buffer, NULL);
     if (image->block) block_release(image->block, image, device);
     free(image);
 }

@@ -23,6 +23,7 @@ struct image_desc {
     enum glint_format format;
     uint32_t width, height, layers; /* of one layer; layers: 6 · cubes, 0: a plain 2D image */
     uint32_t levels;                /* each half as large as the one before it, at least 1 × 1 */
+    bool buffer;                    /* of the texels of a plain 2D image, row by row */
 };
 
 enum { LEVELS_MAX = 17 };
@@ -35,7 +36,9 @@ struct image_level {
 struct image {
     struct image_level levels[LEVELS_MAX];
     struct image_desc desc;
-    VkImage image;
+    VkImage image; /* NULL: it is a buffer */
+    VkBuffer buffer;
+    VkBufferView buffer_view;
     VkImageView view;       /* to sample all levels */
     VkImageView array_view; /* of a cube image, as a cube array; `view` is a cube then. NULL otherwise */
     VkImageView faces_view; /* of a cube image, as an array of its faces; NULL otherwise */
@@ -83,7 +86,8 @@ enum image_access {
     IMAGE_SHADER_STORAGE,
     IMAGE_COPY_READ,
     IMAGE_COPY_WRITE,
-    IMAGE_CLEAR
+    IMAGE_CLEAR,
+    IMAGE_GROUPS /* counts of workgroups, by an indirect dispatch */
 };
 /* Notes that the next step accesses the image, and adds the barrier that this needs. */
 void image_access(struct image *image, enum image_access access, struct barriers *barriers);
@@ -95,9 +99,6 @@ void image_record_upload(struct image *image, struct glint_device *device, const
                          VkDeviceSize offset, uint32_t level, uint32_t first_layer, uint32_t layers, bool discard);
 void image_record_readback(struct image *image, struct glint_device *device, const struct host_buffer *to,
                            VkDeviceSize offset, uint32_t level);
-/* Records copying the group counts that open a list to where an indirect dispatch reads them. */
-void image_record_groups(struct image *list, struct glint_device *device, const struct host_buffer *to,
-                         VkDeviceSize offset);
 /* Records filling with one value. */
 void image_record_clear(struct image *image, struct glint_device *device, double value);
 /* Makes device writes to host buffers visible to the host; last thing before a submit. */

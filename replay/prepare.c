@@ -7,11 +7,13 @@
 static VkResult create_pool(struct run *run, uint32_t sets, uint32_t sampled, uint32_t storage) {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, sampled + 1},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, storage + 1},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, sampled + 1},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, storage + 1},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
                                           {VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
     const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                              .maxSets = sets + 1,
-                                             .poolSizeCount = 4,
+                                             .poolSizeCount = sizeof sizes / sizeof sizes[0],
                                              .pPoolSizes = sizes};
     return vkCreateDescriptorPool(run->replay->device->device, &info, NULL, &run->pool);
 }
@@ -49,14 +51,11 @@ static bool prepare_queries(struct run *run, struct glint_error *err) {
 bool run_prepare(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     uint32_t sets = 0, sampled = 0, storage = 0;
-    VkDeviceSize groups = 0;
     for (size_t p = 0; p < run->graph.pass_count; p++) {
         struct step *step = &run->steps[p];
         if (!step->pass->runs || step->pass->pass->host) continue;
         if (!step_plan(run, step, err)) return false;
         if (!step->execute) continue;
-        for (size_t d = 0; d < step->dispatch_count; d++)
-            if (step->dispatches[d].list) step->dispatches[d].at = groups, groups += 4 * sizeof(uint32_t);
         const struct glint_pass *pass = step->pass->pass;
         step->program = programs_get(&replay->programs, replay->device, pass, &step->spirv, &step->constants, err);
         if (!step->program) return false;
@@ -66,11 +65,6 @@ bool run_prepare(struct run *run, struct glint_error *err) {
             sampled += dispatches * row_is_sampled(&pass->rows[r]);
             storage += dispatches * row_is_output(&pass->rows[r]);
         }
-    }
-    if (groups > replay->indirect.size) {
-        host_buffer_finish(&replay->indirect, replay->device);
-        if (!host_buffer_init(&replay->indirect, replay->device, HOST_BUFFER_INDIRECT, groups, "groups of lists", err))
-            return false;
     }
     VkResult result = create_pool(run, sets, sampled, storage);
     if (result != VK_SUCCESS) return vk_fail(err, "creating the descriptor pool", result);

@@ -102,6 +102,12 @@ void programs_finish(struct programs *programs, struct glint_device *device) {
     *programs = (struct programs){0};
 }
 
+VkDescriptorType row_descriptor(const struct glint_row *row) {
+    if (strstr(row->glsl, "Buffer"))
+        return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+}
+
 static VkResult create_layouts(struct program *program, struct glint_device *device, VkDescriptorSetLayout frame,
                                const struct glint_pass *pass, const struct constants *constants, const char *name) {
     VkDescriptorSetLayoutBinding bindings[PASS_IMAGES_MAX];
@@ -109,9 +115,8 @@ static VkResult create_layouts(struct program *program, struct glint_device *dev
     for (size_t i = 0; i < pass->row_count && count < PASS_IMAGES_MAX; i++) {
         const struct glint_row *row = &pass->rows[i];
         if (!row_is_image(row)) continue;
-        bindings[count++] = (VkDescriptorSetLayoutBinding){
-            row->id, row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1,
-            VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+        bindings[count++] =
+            (VkDescriptorSetLayoutBinding){row->id, row_descriptor(row), 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     }
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};

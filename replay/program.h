@@ -33,6 +33,8 @@ struct program {
     struct program *next;
 };
 
+VkDescriptorType row_descriptor(const struct glint_row *row);
+
 struct programs {
     struct program *first;
     VkDescriptorSetLayout frame; /* set 1 */

@@ -46,7 +46,6 @@ void glint_replay_destroy(struct glint_replay **pointer) {
         programs_finish(&replay->programs, replay->device);
         host_buffer_finish(&replay->frame, replay->device);
         host_buffer_finish(&replay->staging, replay->device);
-        host_buffer_finish(&replay->indirect, replay->device);
     }
     free(replay->plan);
     free(replay);

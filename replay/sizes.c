@@ -49,6 +49,13 @@ static bool traces_all_pixels(const struct glint_pipeline *pipeline) {
     return false;
 }
 
+uint32_t list_blocks(const struct frame_sizes *sizes) {
+    return (sizes->half[0] + LIST_BLOCK - 1) / LIST_BLOCK * ((sizes->half[1] + LIST_BLOCK - 1) / LIST_BLOCK);
+}
+uint32_t list_capacity(const struct frame_sizes *sizes) {
+    return LIST_BLOCK * LIST_BLOCK * list_blocks(sizes) + 2 * LIST_ITEMS;
+}
+
 bool run_sizes(struct run *run, struct glint_error *err) {
     struct glint_capture *capture = run->replay->capture;
     struct frame_sizes *sizes = &run->sizes;
@@ -84,7 +91,7 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     const struct frame_sizes *sizes = &run->sizes;
     const struct glint_row *row = image->row;
     const bool cube = size_is_cube(row->size);
-    *desc = (struct image_desc){row->format, 1, 1, cube ? 6 : 0, 1};
+    *desc = (struct image_desc){row->format, 1, 1, cube ? 6 : 0, 1, row->size == GLINT_SIZE_LIST};
     if (run->options->float_precision) desc->format = format_widened(row->format);
     if (image->source == SOURCE_NOTHING) {
         if (row->size == GLINT_SIZE_LIST) desc->width = LIST_WIDTH; /* the header is there */
@@ -123,9 +130,8 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         if (existing_size(run, image, found)) expected[0] = found[0], expected[1] = sizes->active;
         break;
     case GLINT_SIZE_LIST:
-        expected[0] = LIST_WIDTH;
-        /* and a row, so that each class of items may be filled up to whole workgroups */
-        expected[1] = 2 + (sizes->half[0] * sizes->half[1] + LIST_WIDTH - 1) / LIST_WIDTH;
+        expected[0] = LIST_WIDTH; /* behind the items a maker notes marks and a count of each block (compact.glsl) */
+        expected[1] = 1 + (list_capacity(sizes) + 65 * list_blocks(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
         break;
     }
     if (existing_size(run, image, found) && !(cube && !expected[0]) &&

@@ -11,7 +11,12 @@
 #include "survey.h"
 #include "tables.h"
 
-enum { LIST_WIDTH = 256, LIST_ITEMS = 64 /* of a workgroup */, COCOON_SIZE = 32 /* shared/cocoon.glsl */ };
+enum {
+    LIST_WIDTH = 256,
+    LIST_ITEMS = 64 /* of a workgroup */,
+    LIST_BLOCK = 32 /* pixels across, of a maker's workgroup */,
+    COCOON_SIZE = 32 /* shared/cocoon.glsl */
+};
 
 enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE, PHASES };
 
@@ -28,7 +33,7 @@ struct glint_replay {
     uint64_t sky_hash;       /* of its pixels; 0: not known yet */
     struct image *images;    /* kept between runs while their descriptions stay */
     struct programs programs;
-    struct host_buffer frame, staging, indirect;
+    struct host_buffer frame, staging;
     struct glint_plan_entry *plan;
     struct glint_pass_result *results;
     size_t *result_places; /* in the whole pipeline's order, counted from 1 */
@@ -42,7 +47,6 @@ struct dispatch {
     uint32_t phase, level, groups[3];
     VkDescriptorSet set; /* with this level of what the pass writes */
     struct image *list;  /* whose header says how many groups; NULL: `groups` */
-    VkDeviceSize at;     /* of the copy of that header */
 };
 
 /* One pass of a run on the device. */
@@ -53,7 +57,6 @@ struct step {
     struct program *program;
     struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
     size_t dispatch_count;
-    size_t list_count; /* how many of them run over lists */
     uint64_t key;
     bool execute;
     uint32_t stamp;    /* written when it ended, in the commands under way; 0: it is not in them */
@@ -81,7 +84,7 @@ struct run {
     VkDescriptorPool pool;
     VkDescriptorSet frame_set;
     VkQueryPool queries;
-    uint32_t stamps; /* written in the commands under way */
+    uint32_t stamps;   /* written in the commands under way */
     struct rays *rays; /* NULL: one a frame */
     glint_progress progress;
     void *user;
@@ -97,6 +100,9 @@ bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipe
 bool run_sizes(struct run *run, struct glint_error *err);
 bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
                         struct glint_error *err);
+
+uint32_t list_blocks(const struct frame_sizes *sizes);
+uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */
 
 /* history.c: what is left of the frame before. */
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next);

@@ -14,6 +14,11 @@ void image_record_upload(struct image *image, struct glint_device *device, const
     if (discard) image->block->owner = NULL;
     image_access(image, IMAGE_COPY_WRITE, &barriers);
     barriers_record(&barriers, device);
+    if (!image->image) {
+        const VkBufferCopy all = {.srcOffset = offset, .size = image_bytes(&image->desc, 0)};
+        vkCmdCopyBuffer(device->commands, from->buffer, image->buffer, 1, &all);
+        return;
+    }
     const VkBufferImageCopy copy = some_layers(image, offset, level, first_layer, layers);
     vkCmdCopyBufferToImage(device->commands, from->buffer, image->image, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
 }
@@ -23,31 +28,13 @@ void image_record_readback(struct image *image, struct glint_device *device, con
     struct barriers barriers = {0};
     image_access(image, IMAGE_COPY_READ, &barriers);
     barriers_record(&barriers, device);
+    if (!image->image) {
+        const VkBufferCopy all = {.dstOffset = offset, .size = image_bytes(&image->desc, 0)};
+        vkCmdCopyBuffer(device->commands, image->buffer, to->buffer, 1, &all);
+        return;
+    }
     const VkBufferImageCopy copy = some_layers(image, offset, level, 0, image_layers(&image->desc));
     vkCmdCopyImageToBuffer(device->commands, image->image, VK_IMAGE_LAYOUT_GENERAL, to->buffer, 1, &copy);
-}
-
-void image_record_groups(struct image *list, struct glint_device *device, const struct host_buffer *to,
-                         VkDeviceSize offset) {
-    const VkMemoryBarrier2 before = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                     .srcStageMask = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                                     .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT},
-                           after = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                    .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                    .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                    .dstStageMask = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-                                    .dstAccessMask = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
-    VkDependencyInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &before};
-    struct barriers barriers = {0};
-    image_access(list, IMAGE_COPY_READ, &barriers);
-    barriers_record(&barriers, device);
-    vkCmdPipelineBarrier2(device->commands, &info); /* an earlier round has read what is overwritten */
-    const VkBufferImageCopy copy = {
-        .bufferOffset = offset, .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {3, 1, 1}};
-    vkCmdCopyImageToBuffer(device->commands, list->image, VK_IMAGE_LAYOUT_GENERAL, to->buffer, 1, &copy);
-    info.pMemoryBarriers = &after;
-    vkCmdPipelineBarrier2(device->commands, &info);
 }
 
 void image_record_clear(struct image *image, struct glint_device *device, double value) {
@@ -55,6 +42,10 @@ void image_record_clear(struct image *image, struct glint_device *device, double
     image->block->owner = NULL;
     image_access(image, IMAGE_CLEAR, &barriers);
     barriers_record(&barriers, device);
+    if (!image->image) {
+        vkCmdFillBuffer(device->commands, image->buffer, 0, VK_WHOLE_SIZE, (uint32_t)value);
+        return;
+    }
     VkClearColorValue color;
     for (int i = 0; i < 4; i++)
         if (format_is_uint(image->desc.format)) color.uint32[i] = (uint32_t)value;

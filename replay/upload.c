@@ -140,9 +140,8 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
 
 /* A list from a file must not start more work than it has items for. */
 static bool check_list(const struct run *run, size_t i, const uint32_t *header, struct glint_error *err) {
-    const struct image_desc *desc = &run->images[i]->desc;
-    const uint64_t capacity = (uint64_t)(desc->height - 1) * desc->width;
-    const uint64_t most = (capacity + LIST_ITEMS - 1) / LIST_ITEMS;
+    const uint64_t capacity = list_capacity(&run->sizes);
+    const uint64_t most = capacity / LIST_ITEMS + 64; /* rounded up to full rows of workgroups */
     if (header[3] <= capacity && header[0] <= most && header[1] <= most && header[2] <= most &&
         (uint64_t)header[0] * header[1] * header[2] <= most)
         return true;

@@ -34,18 +34,26 @@ uint best_place(vec3 position, vec3 ray) {
     return best;
 }
 
+bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
+    depth_m = texelFetch(depth_half, pixel, 0).x;
+    normal = texelFetch(normal_jittered, pixel, 0).xyz;
+    return texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal);
+}
+
 void main() {
-    ivec2 pixel = work_pixel(cubemap_list);
-    if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;
-    float depth_m = texelFetch(depth_half, pixel, 0).x;
-    vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
-    uint best = 255u;
-    if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal)) {
-        vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
-        vec3 position = mat3(frame.world_from_view) *
-                        view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        vec3 ray = mirror_direction(position, normal);
-        best = best_place(position + ray * texelFetch(screen_travelled, pixel, 0).x, ray);
+    ivec2 size = imageSize(cubemap_best), pixel = own_pixel(size);
+    float depth_m;
+    vec3 normal;
+    bool traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    if (!traced && inside(pixel, size)) imageStore(cubemap_best, pixel, uvec4(255u));
+    if (has_list()) {
+        pixel = listed_pixel(cubemap_list);
+        traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
     }
+    if (!traced) return;
+    vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
+    vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    vec3 ray = mirror_direction(position, normal);
+    uint best = best_place(position + ray * texelFetch(screen_travelled, pixel, 0).x, ray);
     imageStore(cubemap_best, pixel, uvec4(best));
 }

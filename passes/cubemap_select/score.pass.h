@@ -3,7 +3,7 @@ PASS("Best score", "000, Best cube-map selection, GPU")
 #include "slot.h"
 #line 202
 READ(textureCubeArray, cubemap_distance)
-OPTIONAL_READ(utexture2D, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
+OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
 DISPATCH_LIST(cubemap_list)
 PUSH(float, visibility, 0.1,  0.0, 16.0, "1", "000, Best cube-map selection, GPU", "weight of: the point is seen from the centre; 0: off")
 PUSH(float, distance,   1.0,  0.0, 16.0, "1", "000, Best cube-map selection, GPU", "weight of: the centre is near; 0: off")

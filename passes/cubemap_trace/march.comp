@@ -267,20 +267,31 @@ Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
     return march(origin, direction, start_m, best, quality_of(normal.w, uvec2(pixel)));
 }
 
-void main() {
-    ivec2 pixel = work_pixel(cubemap_list);
-    if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
-    float depth_m = texelFetch(depth_half, pixel, 0).x;
-    vec4 normal = texelFetch(normal_jittered, pixel, 0);
-    float start_m = texelFetch(screen_travelled, pixel, 0).x;
-    Result result = Result(start_m, NO_PLACE, END_not_traced, 0u, 0u);
-    if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal.xyz))
-        result = trace(pixel, depth_m, normal, start_m);
+void store(ivec2 pixel, Result result) {
     imageStore(travelled, pixel, vec4(result.travelled_m));
     imageStore(cubemap_index, pixel, uvec4(result.place));
-    if (diagnostics) {
-        imageStore(cubemap_end, pixel, uvec4(result.end));
-        imageStore(cubemap_steps, pixel, uvec4(result.steps));
-        imageStore(cubemap_fetches, pixel, uvec4(result.fetches));
+    if (!diagnostics) return;
+    imageStore(cubemap_end, pixel, uvec4(result.end));
+    imageStore(cubemap_steps, pixel, uvec4(result.steps));
+    imageStore(cubemap_fetches, pixel, uvec4(result.fetches));
+}
+
+bool has_ray(ivec2 pixel, out float depth_m, out vec4 normal) {
+    depth_m = texelFetch(depth_half, pixel, 0).x;
+    normal = texelFetch(normal_jittered, pixel, 0);
+    return texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal.xyz);
+}
+
+void main() {
+    ivec2 size = imageSize(travelled), pixel = own_pixel(size);
+    float depth_m;
+    vec4 normal;
+    bool traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    if (!traced && inside(pixel, size))
+        store(pixel, Result(texelFetch(screen_travelled, pixel, 0).x, NO_PLACE, END_not_traced, 0u, 0u));
+    if (has_list()) {
+        pixel = listed_pixel(cubemap_list);
+        traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
     }
+    if (traced) store(pixel, trace(pixel, depth_m, normal, texelFetch(screen_travelled, pixel, 0).x));
 }

@@ -3,7 +3,7 @@ PASS("Linear march", "002, Linear ray march; 000, Screen-space tracing")
 #include "slot.h"
 #line 202
 READ(texture2D, normal_half)
-OPTIONAL_READ(utexture2D, screen_list, R32UI, LIST, 0xFFFFFFFFu)
+OPTIONAL_READ(utextureBuffer, screen_list, R32UI, LIST, 0xFFFFFFFFu)
 DISPATCH_LIST(screen_list)
 SPEC(int,   steps,       32,    1,   1024,  "samples", "002, Linear ray march", "samples along the ray")
 SPEC(bool,  dither,      true,  0,   1,     "1", "002, Dithering", "shift the samples of each ray by a random part of a step")

@@ -8,9 +8,14 @@
 // gl_GlobalInvocationID.z is the layer. They are read as textureCube or textureCubeArray,
 // or as texture2DArray where the texel is known: layers as above, texelFetch, no filter and no search for the face.
 // Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0.
-// A pass that declares DISPATCH(image) and after it DISPATCH_LIST(list) runs over the list when some pass made it, one
-// workgroup of 64 items each (item gl_LocalInvocationIndex + 64 * workgroup); its outputs are filled with their
-// "nothing" values before, and so are lists before the pass that makes them. Otherwise it runs over the whole image, and the list's header says 0xFFFFFFFF items.
+//
+// Lists (size class LIST) are buffers of uints: READ(utextureBuffer, ...), WRITE(uimageBuffer, ...). Words 0 to 2 are the
+// workgroups that they are worked on with, word 3 is the number of items, which begin at word 256. Nobody clears them:
+// what lies behind the items is the maker's own. DISPATCH over a list is one workgroup for each 32x32 pixels of HALF.
+// A pass that declares DISPATCH(image) and after it DISPATCH_LIST(list) runs over the list alone when some pass made it, in
+// the phase of that row, and otherwise over the image. A workgroup works on 64 items (item gl_LocalInvocationIndex + 64 *
+// workgroup), and it writes what its pass says of the image's tile of the same number where the list leaves pixels out: lists
+// have at least as many workgroups as HALF has tiles. See work_list.glsl.
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 //
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when

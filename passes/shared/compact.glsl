@@ -1,89 +1,111 @@
-// Compaction of pixels into one list ordered by class, by prefix sums alone: the same list in every run. Three steps:
-// counts of each 8x8 tile, sums of 64 tiles each, items. A workgroup is a tile. No item beyond 0xFFFF in x or y.
+// Compaction of pixels into one list ordered by class, by prefix sums alone: the same list in every run. Two dispatches
+// over the list, a workgroup for each block of 32x32 pixels, an invocation for 4x4 of them: the first marks and counts,
+// the second adds up the blocks before its own and puts the items in their places. What passes from one to the other
+// lies behind the room for items. Within a class items are ordered by block, and in it by squares of 4x4 in Morton order:
+// where all pixels are of one class, 64 items are a tile of 8x8, and their neighbours in the list are neighbours in the
+// picture where some are missing. No pixel beyond 0xFFFF in x or y.
 #ifndef GLINT_COMPACT
 #define GLINT_COMPACT
 #include "shared/work_list.glsl"
 
-const uint CLASSES = 3u; // a pixel's class is below it, or CLASSES: not in the list
-shared uvec3 compact_sums[64];
+const uint CLASSES = 2u;
+// The class of a pixel; CLASSES: not in the list. `pixel` lies in the picture.
+uint class_of(ivec2 pixel);
 
-uvec3 one_of(uint kind) { return uvec3(equal(uvec3(kind), uvec3(0u, 1u, 2u))); }
+shared uint compact_before[64]; // inclusive sums over the invocations
+shared uint compact_sums[4];    // of each class: pixels of all blocks, of the blocks before this one
+shared uint compact_items[1024];
 
-// Sum over the workgroup.
-uvec3 workgroup_sum(uvec3 value) {
-    uint lane = gl_LocalInvocationIndex;
-    barrier();
-    compact_sums[lane] = value;
-    for (uint reach = 32u; reach > 0u; reach >>= 1u) {
-        barrier();
-        if (lane < reach) compact_sums[lane] += compact_sums[lane + reach];
+ivec2 square_corner() {
+    uint i = gl_LocalInvocationIndex;
+    uvec2 square = uvec2(i & 1u | i >> 1u & 2u | i >> 2u & 4u, i >> 1u & 1u | i >> 2u & 2u | i >> 3u & 4u);
+    return ivec2(32u * gl_WorkGroupID.xy + 4u * square);
+}
+int block_count() { return int(gl_NumWorkGroups.x * gl_NumWorkGroups.y); }
+int counts_place(int block) { return LIST_ITEMS + 1024 * block_count() + 128 + block; }
+int marks_place(int block) { return counts_place(block_count()) + 64 * block + int(gl_LocalInvocationIndex); }
+
+// Two numbers below 65536, one for each class.
+uint pack(uvec2 counts) { return counts.x | counts.y << 16u; }
+uvec2 unpack(uint counts) { return uvec2(counts & 0xFFFFu, counts >> 16u); }
+uint count_of(uint marks) { return pack(uvec2(bitCount(unpack(marks)))); }
+
+void mark_block(writeonly uimageBuffer list) {
+    ivec2 corner = square_corner(), last = ivec2(frame.size.zw) - 1;
+    int block = int(workgroup_index());
+    uint marks = 0u;
+    for (int i = 0; i < 16; ++i) {
+        ivec2 pixel = corner + ivec2(i & 3, i >> 2);
+        uint kind = class_of(min(pixel, last));
+        if (all(lessThanEqual(pixel, last)) && kind < CLASSES) marks |= 1u << (uint(i) + 16u * kind);
     }
+    if (gl_LocalInvocationIndex == 0u) compact_sums[0] = 0u;
     barrier();
-    return compact_sums[0];
+    atomicAdd(compact_sums[0], count_of(marks)); // sums do not depend on their order
+    barrier();
+    imageStore(list, marks_place(block), uvec4(marks));
+    if (gl_LocalInvocationIndex == 0u) imageStore(list, counts_place(block), uvec4(compact_sums[0]));
 }
 
-// Sum over the invocations before this one.
-uvec3 workgroup_before(uvec3 value) {
+// Leaves the pixels in all blocks and in those before this one, and each invocation's pixels with those before it.
+void add_up(utextureBuffer marked, uint own) {
     uint lane = gl_LocalInvocationIndex;
-    barrier();
-    compact_sums[lane] = value;
-    for (uint reach = 1u; reach < 64u; reach <<= 1u) {
-        barrier();
-        uvec3 other = lane >= reach ? compact_sums[lane - reach] : uvec3(0u);
-        barrier();
-        compact_sums[lane] += other;
-    }
-    return compact_sums[lane] - value;
-}
-
-// A tile's counts are at most 64 each, those of 64 tiles at most 4096.
-uint pack_tile(uvec3 counts) { return counts.x | counts.y << 10u | counts.z << 20u; }
-uvec3 unpack_tile(uint packed) { return uvec3(packed, packed >> 10u, packed >> 20u) & 0x3FFu; }
-uvec3 group_counts(utexture2D groups, uint group) {
-    uint pair = texelFetch(groups, list_texel(2u * group), 0).x;
-    return uvec3(pair & 0xFFFFu, pair >> 16u, texelFetch(groups, list_texel(2u * group + 1u), 0).x);
-}
-
-uint tile_count(ivec2 size) { return uint((size.x + 7) / 8 * ((size.y + 7) / 8)); }
-uint workgroup_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
-// First step: what the tile's first invocation stores at list_texel(workgroup_index()).
-uint counted_tile(uint kind) { return pack_tile(workgroup_sum(one_of(kind))); }
-
-// Second step, on at least a 64th as many workgroups: what the first invocation of group workgroup_index() stores at
-// list_texel(2 · group) and at the next.
-uvec2 summed_tiles(utexture2D tiles, uint tile_total) {
-    uint tile = 64u * workgroup_index() + gl_LocalInvocationIndex;
-    uvec3 sum = workgroup_sum(tile < tile_total ? unpack_tile(texelFetch(tiles, list_texel(tile), 0).x) : uvec3(0u));
-    return uvec2(sum.x | sum.y << 16u, sum.z);
-}
-
-// Third step: where an invocation's item goes, and what the first tile has to add. Each class begins at a multiple of 64, so
-// that no workgroup of the list's reader holds two.
-struct Places {
-    uint item;           // if the pixel has a class
-    uvec3 filler, ends;  // each class's next free place, plus the invocation's number, and its end
-    uvec4 header;
-};
-
-Places places_of(utexture2D tiles, utexture2D groups, uint tile_total, uint kind) {
-    uint tile = workgroup_index(), group = tile / 64u, lane = gl_LocalInvocationIndex;
-    uvec3 before = uvec3(0u), all = uvec3(0u);
-    for (uint i = lane; 64u * i < tile_total; i += 64u) {
-        uvec3 counts = group_counts(groups, i);
+    uvec2 all = uvec2(0u), before = uvec2(0u);
+    if (lane < 4u) compact_sums[lane] = 0u;
+    for (int i = int(lane); i < block_count(); i += 64) {
+        uvec2 counts = unpack(texelFetch(marked, counts_place(i)).x);
         all += counts;
-        if (i < group) before += counts;
+        if (i < int(workgroup_index())) before += counts;
     }
-    if (lane < tile % 64u) before += unpack_tile(texelFetch(tiles, list_texel(64u * group + lane), 0).x);
-    all = workgroup_sum(all);
-    before = workgroup_sum(before) + workgroup_before(one_of(kind));
-    uvec3 lengths = (all + 63u) / 64u * 64u, starts = uvec3(0u, lengths.x, lengths.x + lengths.y);
-    uint total = starts.z + lengths.z, across = min(total / 64u, 32768u);
-    Places places;
-    places.item = kind < CLASSES ? starts[kind] + before[kind] : 0u;
-    places.filler = starts + all + lane;
-    places.ends = starts + lengths;
-    places.header = uvec4(across, across > 0u ? (total / 64u + across - 1u) / across : 1u, 1u, total);
-    return places;
+    compact_before[lane] = own;
+    barrier();
+    atomicAdd(compact_sums[0], all.x);
+    atomicAdd(compact_sums[1], all.y);
+    atomicAdd(compact_sums[2], before.x);
+    atomicAdd(compact_sums[3], before.y);
+    for (uint reach = 1u; reach < 64u; reach <<= 1u) {
+        uint other = lane >= reach ? compact_before[lane - reach] : 0u;
+        barrier();
+        compact_before[lane] += other;
+        barrier();
+    }
+}
+
+// What opens the list, and what fills up its classes.
+void close_list(writeonly uimageBuffer list, uvec2 all, uvec2 first, uvec2 lengths) {
+    uint lane = gl_LocalInvocationIndex, total = lengths.x + lengths.y;
+    uvec2 tiles = (frame.size.zw + 7u) / 8u;
+    uint groups = max(total / 64u, tiles.x * tiles.y), rows = (groups + 32767u) / 32768u;
+    uvec4 header = uvec4((groups + rows - 1u) / rows, rows, 1u, total);
+    if (lane < 4u) imageStore(list, int(lane), uvec4(header[lane]));
+    for (uint k = 0u; k < CLASSES; ++k)
+        if (all[k] + lane < lengths[k]) imageStore(list, LIST_ITEMS + int(first[k] + all[k] + lane), uvec4(NO_ITEM));
+}
+
+void place_block(utextureBuffer marked, writeonly uimageBuffer list) {
+    uint lane = gl_LocalInvocationIndex, marks = texelFetch(marked, marks_place(int(workgroup_index()))).x;
+    uint own = count_of(marks);
+    add_up(marked, own);
+    uvec2 all = uvec2(compact_sums[0], compact_sums[1]), before = uvec2(compact_sums[2], compact_sums[3]);
+    uvec2 lengths = (all + 63u) / 64u * 64u, first = uvec2(0u, lengths.x), block = unpack(compact_before[63]);
+    uvec2 at = unpack(compact_before[lane] - own) + uvec2(0u, block.x);
+    for (uint k = 0u; k < CLASSES; ++k)
+        for (uint left = unpack(marks)[k]; left != 0u; left &= left - 1u) {
+            int i = findLSB(left);
+            compact_items[at[k]++] = item_of(square_corner() + ivec2(i & 3, i >> 2));
+        }
+    barrier();
+    for (uint i = lane; i < block.x + block.y; i += 64u) {
+        uint k = i < block.x ? 0u : 1u;
+        uint place = first[k] + before[k] + i - k * block.x;
+        imageStore(list, LIST_ITEMS + int(place), uvec4(compact_items[i]));
+    }
+    if (workgroup_index() == 0u) close_list(list, all, first, lengths);
+}
+
+// `marked`: all of the list, as a SELF binding.
+void compact(utextureBuffer marked, writeonly uimageBuffer list) {
+    if (dispatch_phase == 0u) mark_block(list);
+    else place_block(marked, list);
 }
 #endif

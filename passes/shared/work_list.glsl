@@ -1,20 +1,30 @@
-// Which pixel an invocation works on: by its place in the picture, or by a list of pixels (see bindings.glsl).
+// Which pixel an invocation works on: by its place in the picture, or from a list of pixels (see bindings.glsl).
 #ifndef GLINT_WORK_LIST
 #define GLINT_WORK_LIST
-const uint NO_LIST = 0xFFFFFFFFu, NO_ITEM = 0xFFFFFFFFu; // number of items; an item that fills up a workgroup
-const int LIST_WIDTH = 256;
+const uint NO_ITEM = 0xFFFFFFFFu; // fills up a class to whole workgroups
+const int LIST_COUNT = 3, LIST_ITEMS = 256; // places in a list: the number of its items, the first of them
 const ivec2 OUTSIDE = ivec2(0x7FFFFFFF);
 
-ivec2 list_texel(uint index) { return ivec2(index % uint(LIST_WIDTH), 1u + index / uint(LIST_WIDTH)); }
 uint item_of(ivec2 pixel) { return uint(pixel.y) << 16u | uint(pixel.x); }
+bool inside(ivec2 pixel, ivec2 size) { return all(lessThan(pixel, size)); }
+uint workgroup_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
-// OUTSIDE: nothing to do.
-ivec2 work_pixel(utexture2D list) {
-    uint count = texelFetch(list, ivec2(3, 0), 0).x;
-    if (count == NO_LIST) return ivec2(gl_GlobalInvocationID.xy);
-    uint index = 64u * (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) + gl_LocalInvocationIndex;
-    if (index >= count) return OUTSIDE;
-    uint item = texelFetch(list, list_texel(index), 0).x;
+// Declare DISPATCH over the image first and DISPATCH_LIST after it.
+bool has_list() { return dispatch_phase > 0u; }
+
+// The pixel at the invocation's own place. The workgroups of a list, in order, are also the picture's tiles, so that what
+// the list leaves out gets its values in the same dispatch.
+ivec2 own_pixel(ivec2 size) {
+    if (!has_list()) return ivec2(gl_GlobalInvocationID.xy);
+    uint tile = workgroup_index(), across = uint(size.x + 7) / 8u;
+    return 8 * ivec2(tile % across, tile / across) + ivec2(gl_LocalInvocationID.xy);
+}
+
+// The pixel that the list gives to the invocation; OUTSIDE: none.
+ivec2 listed_pixel(utextureBuffer list) {
+    uint index = 64u * workgroup_index() + gl_LocalInvocationIndex;
+    if (index >= texelFetch(list, LIST_COUNT).x) return OUTSIDE;
+    uint item = texelFetch(list, LIST_ITEMS + int(index)).x;
     return item == NO_ITEM ? OUTSIDE : ivec2(item & 0xFFFFu, item >> 16u);
 }
 #endif

@@ -49,8 +49,9 @@ enum glint_size_class {
     GLINT_SIZE_HALF_MIPS,
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
-    GLINT_SIZE_LIST /* 2D, 256 wide. Row 0: workgroup counts x, y, z, number of items; then up to HALF's pixels items.
-                       A list that no pass makes: 0xFFFFFFFF everywhere, the header alone */
+    GLINT_SIZE_LIST /* a buffer of uints, shown as an image 256 wide. Row 0: workgroup counts x, y, z, number of items; then
+                       up to HALF's pixels items, and room for its maker to work in. DISPATCH over it: 64 invocations for
+                       each 32 × 32 pixels of HALF. A list that no pass makes: 0xFFFFFFFF everywhere, the header alone */
 };
 
 /* In which order the levels of DISPATCH_LEVELS run. */

@@ -7,6 +7,8 @@
 };
 
 void main() {
-    imageStore(list_a, ivec2(gl_GlobalInvocationID.xy), uvec4(5u));
-    imageStore(list_b, ivec2(gl_GlobalInvocationID.xy), uvec4(5u));
+    for (int i = int(gl_LocalInvocationIndex); i < 1000; i += 64) { // 25 x 16 pixels of HALF are one block
+        imageStore(list_a, i, uvec4(5u));
+        imageStore(list_b, i, uvec4(5u));
+    }
 }

@@ -7,11 +7,12 @@
 #include "sieve.pass.h"
 };
 
-void close_list(writeonly uimage2D list, uint count) {
-    imageStore(list, ivec2(0, 0), uvec4((count + 63u) / 64u));
-    imageStore(list, ivec2(1, 0), uvec4(1u));
-    imageStore(list, ivec2(2, 0), uvec4(1u));
-    imageStore(list, ivec2(3, 0), uvec4(count));
+void close_list(writeonly uimageBuffer list, uint count) {
+    uvec2 tiles = (frame.size.zw + 7u) / 8u;
+    imageStore(list, 0, uvec4(max((count + 63u) / 64u, tiles.x * tiles.y)));
+    imageStore(list, 1, uvec4(1u));
+    imageStore(list, 2, uvec4(1u));
+    imageStore(list, 3, uvec4(count));
 }
 
 void main() {
@@ -20,8 +21,8 @@ void main() {
     for (uint y = 0u; y < frame.size.w; ++y)
         for (uint x = 0u; x < frame.size.z; ++x) {
             uint kind = (x + 3u * y) % 5u, item = x + (y << 16u);
-            if (kind == 0u) imageStore(list_a, ivec2(a % 256u, 1u + a / 256u), uvec4(item)), ++a;
-            else if (kind < 3u && !empty) imageStore(list_b, ivec2(b % 256u, 1u + b / 256u), uvec4(item)), ++b;
+            if (kind == 0u) imageStore(list_a, 256 + int(a), uvec4(item)), ++a;
+            else if (kind < 3u && !empty) imageStore(list_b, 256 + int(b), uvec4(item)), ++b;
         }
     close_list(list_a, a);
     close_list(list_b, b);

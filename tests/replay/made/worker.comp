@@ -7,18 +7,20 @@
 #include "worker.pass.h"
 };
 
-uint texel(uint x, uint y) {
-    return dispatch_phase == 2u ? texelFetch(list_b, ivec2(x, y), 0).x : texelFetch(list_a, ivec2(x, y), 0).x;
+#include "shared/work_list.glsl"
+
+void store(ivec2 pixel, float value) {
+    imageStore(worked, pixel, vec4(value + 1000.0 * float(uint(pixel.x) + frame.size.z * uint(pixel.y))));
 }
 
 void main() {
-    uvec2 at = gl_GlobalInvocationID.xy;
-    uint count = texel(3u, 0u), i = gl_LocalInvocationIndex + 64u * gl_WorkGroupID.x;
-    if (count != 0xFFFFFFFFu) {
-        if (i >= count) return;
-        uint item = texel(i % 256u, 1u + i / 256u);
-        at = uvec2(item & 0xFFFFu, item >> 16u);
+    ivec2 size = imageSize(worked), pixel = own_pixel(size);
+    if (!has_list()) {
+        if (inside(pixel, size)) store(pixel, 10.0);
+        return;
     }
-    float value = 10.0 + float(dispatch_phase) + 1000.0 * float(at.x + frame.size.z * at.y);
-    imageStore(worked, ivec2(at), vec4(value));
+    // What list_a leaves out; list_b comes after it.
+    if (dispatch_phase == 1u && inside(pixel, size) && (pixel.x + 3 * pixel.y) % 5 != 0) imageStore(worked, pixel, vec4(7.0));
+    pixel = dispatch_phase == 1u ? listed_pixel(list_a) : listed_pixel(list_b);
+    if (inside(pixel, size)) store(pixel, 10.0 + float(dispatch_phase));
 }
