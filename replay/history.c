@@ -25,14 +25,6 @@ void replay_age_images(struct glint_replay *replay, const struct glint_frame *ne
     replay->ran = false;
 }
 
-struct glint_run *run_folder(const struct run *run, const struct graph_image *image) {
-    return image->history ? run->history : run->inputs;
-}
-
-const struct glint_run_image *run_given(const struct run *run, const struct graph_image *image, const char *name) {
-    return glint_run_find(run_folder(run, image), image->history ? name + strlen(HISTORY_PREFIX) : name);
-}
-
 static bool on_device(const struct run *run, const char *name, const struct image_desc *desc) {
     for (const struct image *image = run->replay->images; image; image = image->next)
         if (strcmp(image->name, name) == 0) return image->key && image_desc_equal(&image->desc, desc);

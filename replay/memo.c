@@ -24,34 +24,6 @@ static uint64_t table_key(const struct glint_table *table) {
     return mix(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
 }
 
-/* Reads all levels of an image from the run folder, one after the other; the key comes to depend on them. */
-static bool read_given(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
-    const struct image *image = run->images[i];
-    const struct image_desc *desc = &image->desc;
-    const uint32_t components = format_components(desc->format);
-    const bool integer = format_is_uint(desc->format);
-    size_t values = 0;
-    for (uint32_t l = 0; l < desc->levels; l++) values += image_values(desc, l);
-    uint32_t *at = run->given[i] = malloc(values * sizeof *at);
-    if (!at) return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
-    const struct graph_image *source = &run->graph.images[i];
-    const double start = now_seconds();
-    for (uint32_t l = 0; l < desc->levels; at += image_values(desc, l++)) {
-        const struct glint_image *level = &image->levels[l].info;
-        const struct glint_run_image *info = run_given(run, source, level->name);
-        if (!info || info->width != level->width || info->height != level->height || info->components != components ||
-            info->integer != integer)
-            return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u of %u %s channels, found %s",
-                              source->history ? run->options->history : run->options->inputs, level->name, level->width,
-                              level->height, components, integer ? "uint" : "float",
-                              info ? "another size or kind" : "none");
-        if (!glint_run_read(run_folder(run, source), info, integer ? GLINT_U32 : GLINT_F32, at, err)) return false;
-    }
-    run->replay->seconds[PHASE_READ] += now_seconds() - start;
-    *key = mix(*key, run->given[i], values * sizeof *at);
-    return true;
-}
-
 /* Cube maps in a file beside the capture: told apart by what the file holds. False when some are in the capture. */
 static bool sibling_key(const struct run *run, uint64_t *key) {
     const struct glint_frame *frame = glint_capture_frame(run->replay->capture);
@@ -108,7 +80,10 @@ static bool given_key(const struct run *run, size_t i, uint64_t *key, struct gli
     if (size_is_array(image->row->size) && run->active)
         *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
     if (image->source != SOURCE_RUN) return true;
-    return read_given(run, i, key, err);
+    size_t bytes = 0;
+    if (!run_read_given(run, i, &bytes, err)) return false;
+    *key = mix(*key, run->given[i], bytes);
+    return true;
 }
 
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {

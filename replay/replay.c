@@ -6,11 +6,6 @@
 
 #include "timing.h"
 
-bool report_progress(glint_progress progress, void *user, const char *what, double done, struct glint_error *err) {
-    return !progress || progress(user, what, done) ||
-           glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted at %s", what);
-}
-
 struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err) {
     struct glint_replay *replay = calloc(1, sizeof *replay);
     if (!replay) {

@@ -8,6 +8,7 @@
 #include "graph.h"
 #include "image.h"
 #include "program.h"
+#include "progress.h"
 #include "survey.h"
 #include "tables.h"
 
@@ -96,6 +97,10 @@ bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipe
                   const struct glint_replay_options *options, const struct glint_run *inputs, struct graph *graph,
                   struct glint_error *err);
 
+/* given.c: what a run folder gives. Which one an image is read from, its name (or its level's) there, and its pixels. */
+const struct glint_run_image *run_given(const struct run *run, const struct graph_image *image, const char *name);
+bool run_read_given(const struct run *run, size_t image, size_t *bytes, struct glint_error *err);
+
 /* sizes.c */
 bool run_sizes(struct run *run, struct glint_error *err);
 bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
@@ -107,9 +112,6 @@ uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class
 /* history.c: what is left of the frame before. */
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next);
 bool run_history(struct run *run, struct glint_error *err);
-/* The run folder that an image is read from, and its name (or its level's) there. */
-struct glint_run *run_folder(const struct run *run, const struct graph_image *image);
-const struct glint_run_image *run_given(const struct run *run, const struct graph_image *image, const char *name);
 
 /* allocate.c: images and their memory. */
 bool run_allocate(struct run *run, struct glint_error *err);
@@ -142,6 +144,5 @@ void run_release(struct run *run);
 json_t *run_record(const struct run *run);
 
 bool replay_staging(struct glint_replay *replay, VkDeviceSize size, struct glint_error *err);
-bool report_progress(glint_progress progress, void *user, const char *what, double done, struct glint_error *err);
 
 #endif
