@@ -7,8 +7,6 @@
 
 #include <xxhash.h>
 
-#include "graph.h"
-
 static uint32_t value_bits(const struct glint_row *row, double value) {
     uint32_t bits;
     if (row->type == GLINT_VALUE_FLOAT) {
@@ -35,8 +33,8 @@ struct workgroup pass_workgroup(const struct glint_pass *pass) {
     return (struct workgroup){8, 8};
 }
 
-bool constants_init(struct constants *constants, const struct pipeline_pass *entry, bool diagnostics,
-                    struct glint_error *err) {
+bool constants_init(struct constants *constants, const struct graph *graph, const struct pipeline_pass *entry,
+                    bool diagnostics, struct glint_error *err) {
     *constants = (struct constants){.push_count = 2};
     const struct glint_pass *pass = entry->pass;
     const struct workgroup group = pass_workgroup(pass);
@@ -46,6 +44,9 @@ bool constants_init(struct constants *constants, const struct pipeline_pass *ent
         uint32_t bits = row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], entry->values[i]) : 0;
         if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
             fits = add_constant(constants, pass->rows[i].id, bits);
+        else if (pass->rows[i].optional) /* has_NAME in bindings.glsl */
+            fits = add_constant(constants, 1000 + pass->rows[i].id,
+                                graph_bound(graph, &pass->rows[i])->source != SOURCE_NOTHING);
         else if (pass->rows[i].kind == GLINT_ROW_PUSH && (fits = constants->push_count < PUSH_BYTES_MAX / 4))
             constants->push[constants->push_count++] = bits;
     }

@@ -3,6 +3,7 @@
 #define GLINT_REPLAY_PROGRAM_H
 
 #include "device.h"
+#include "graph.h"
 #include "pipeline.h"
 #include "shader.h"
 
@@ -22,8 +23,8 @@ struct constants {
     uint32_t push[PUSH_BYTES_MAX / 4]; /* the dispatch's level and phase first */
     uint32_t push_count;
 };
-bool constants_init(struct constants *constants, const struct pipeline_pass *pass, bool diagnostics,
-                    struct glint_error *err);
+bool constants_init(struct constants *constants, const struct graph *graph, const struct pipeline_pass *pass,
+                    bool diagnostics, struct glint_error *err);
 
 struct program {
     uint64_t key;

@@ -25,8 +25,8 @@ vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
 
 // The last of the reflection images that the pipeline makes.
 vec3 reflected_color(ivec2 pixel) {
-    if (texelFetch(reflection_stable, ivec2(0), 0).a >= 0.0) return texelFetch(reflection_stable, pixel, 0).rgb;
-    if (texelFetch(reflection_sharp, ivec2(0), 0).a >= 0.0) return texelFetch(reflection_sharp, pixel, 0).rgb;
+    if (has_reflection_stable) return texelFetch(reflection_stable, pixel, 0).rgb;
+    if (has_reflection_sharp) return texelFetch(reflection_sharp, pixel, 0).rgb;
     return texelFetch(reflection, pixel, 0).rgb;
 }
 

@@ -13,7 +13,7 @@
 // The texel whose ray is taken: upscale's choice, else the pixel's own.
 ivec2 ray_texel(ivec2 pixel) {
     ivec2 own = pixel / int(reduction(frame.size));
-    uint source = texelFetch(sharp_source, min(pixel, textureSize(sharp_source, 0) - 1), 0).x;
+    uint source = has_sharp_source ? texelFetch(sharp_source, pixel, 0).x : 0u;
     return source >= 1u && source <= 9u ? own + ivec2((source - 1u) % 3u, (source - 1u) / 3u) - 1 : own;
 }
 

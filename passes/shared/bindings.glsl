@@ -18,13 +18,16 @@
 // have at least as many workgroups as HALF has tiles. See work_list.glsl.
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 //
+// OPTIONAL_READ gives a constant has_NAME: false when no pass makes the image and its "nothing" value is bound.
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when
 // frame.flags.x is 1; otherwise they are stand-ins of one texel with the image's "nothing" value.
 layout(constant_id = 0) const bool diagnostics = false;
 #define PASS(title, source)
 #define SLOT(title)
 #define READ(kind, name) layout(set = 0, binding = __LINE__) uniform kind name;
-#define OPTIONAL_READ(kind, name, format, size, nothing) READ(kind, name)
+#define OPTIONAL_READ(kind, name, format, size, nothing) \
+    READ(kind, name)                                     \
+    layout(constant_id = 1000 + __LINE__) const bool has_##name = true;
 #define SELF(kind, name, image) READ(kind, name)
 #define HISTORY(kind, name, image) READ(kind, name)
 #define WRITE(kind, name, format, unit, size, channels, nothing, meaning) \

@@ -11,8 +11,7 @@
 #include "shared/reproject.glsl"
 
 vec4 current_color(ivec2 texel) {
-    bool blurred = texelFetch(reflection_blurred, ivec2(0), 0).a >= 0.0;
-    return blurred ? texelFetch(reflection_blurred, texel, 0) : texelFetch(reflection_half, texel, 0);
+    return has_reflection_blurred ? texelFetch(reflection_blurred, texel, 0) : texelFetch(reflection_half, texel, 0);
 }
 
 struct Past {

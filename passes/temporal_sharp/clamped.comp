@@ -10,8 +10,7 @@
 #include "shared/reuse.glsl"
 
 vec4 current_color(ivec2 pixel) {
-    bool sharp = texelFetch(reflection_sharp, ivec2(0), 0).a >= 0.0;
-    return sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
+    return has_reflection_sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
 }
 
 // M. Salvi, An Excursion in Temporal Supersampling, GDC 2016: mean and deviation of the 3 x 3 neighbours. The window opens as
