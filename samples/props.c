@@ -154,6 +154,31 @@ void prop_flower_pot(struct scene *scene, float height_m) {
     scene_sphere(scene, v3(0, 1.45f * h, 0), 0.5f * h, 10);
 }
 
+void prop_shrub(struct scene *scene, float height_m) {
+    const struct material wood = {
+        .albedo = {0.12f, 0.075f, 0.045f}, .roughness = 0.6f, .specular = 0.4f, .stencil = STENCIL_WORLD};
+    const struct material green = {.albedo = {0.05f, 0.13f, 0.04f},
+                                   .roughness = 0.45f,
+                                   .specular = 0.4f,
+                                   .stencil = STENCIL_WORLD | STENCIL_VEGETATION};
+    enum { LEAVES = 220 };
+    const float h = height_m, r = 0.36f * h;
+    const vec3 center = v3(0, 0.64f * h, 0);
+    scene_mesh(scene, &wood, MESH_PLAIN);
+    scene_box(scene, v3(-0.2f * h, 0, -0.2f * h), v3(0.2f * h, 0.3f * h, 0.2f * h));
+    scene_mesh(scene, &wood, MESH_DETAIL);
+    scene_tube(scene, v3(0, 0.3f * h, 0), center, 0.02f * h, 8);
+    scene_mesh(scene, &green, MESH_DETAIL | MESH_STIPPLED);
+    for (uint32_t i = 0; i < LEAVES; i++) { /* over a ball, evenly */
+        float y = 1 - 2 * ((float)i + 0.5f) / LEAVES, around = 2.39996f * (float)i, flat = sqrtf(1 - y * y);
+        vec3 out = v3(flat * cosf(around), y, flat * sinf(around));
+        leaf(scene, along(center, out, 0.5f * r), unit(v3(out.x, 0, out.z)),
+             r * (0.7f + 0.2f * unit_float(hash_two(i, 6))), 0.5f + y);
+    }
+    scene_mesh(scene, &green, MESH_SIMPLIFIED);
+    scene_sphere(scene, center, 0.9f * r, 10);
+}
+
 void prop_stairs(struct scene *scene, uint32_t count, float width_m, const struct material *material) {
     scene_mesh(scene, material, MESH_PLAIN);
     for (uint32_t i = 0; i < count; i++)

@@ -12,6 +12,8 @@ void prop_street_lamp(struct scene *scene, vec3 intensity);
 /* Posts and two thin bars along +X. */
 void prop_railing(struct scene *scene, float length_m);
 void prop_flower_pot(struct scene *scene, float height_m);
+/* A shrub in a tub, its leaves stippled. */
+void prop_shrub(struct scene *scene, float height_m);
 /* Steps that rise towards -Z: `count` of them, 0.17 m by 0.30 m. */
 void prop_stairs(struct scene *scene, uint32_t count, float width_m, const struct material *material);
 

@@ -53,7 +53,13 @@ static struct pixel seen(const struct frame_work *work, const struct hit *hit, v
 }
 
 struct hit primary_hit(const struct world *world, const struct view *view, uint32_t x, uint32_t y) {
-    return world_trace(world, view_eye(view), view_ray(view, x, y), (float)VIEW_NEAR);
+    float from = (float)VIEW_NEAR;
+    struct hit hit;
+    do {
+        hit = world_trace(world, view_eye(view), view_ray(view, x, y), from);
+        from = hit.t * (1 + 1e-5f) + 1e-5f;
+    } while ((x ^ y) & 1 && hit.t < INFINITY && hit.mesh->flags & MESH_STIPPLED);
+    return hit;
 }
 
 static void frame_row(void *user, uint32_t y) {

@@ -44,7 +44,17 @@ struct truth {
     float distance, visible;        /* of the exact mirror ray; INFINITY: sky */
 };
 
+/* For the mean of several. */
+struct truth_sum {
+    double color[2][3], square[2]; /* of the errors, absolute */
+    uint32_t count[2];
+};
+void truth_add(struct truth_sum *sum, const struct truth *truth);
+/* Colours and errors; what else there is stays. */
+void truth_mean(const struct truth_sum *sum, struct truth *truth);
+
+/* `first`: how many of the sequence of draws were used before. */
 bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
-                  struct truth *truth, struct job *job, double weight, struct glint_error *err);
+                  uint32_t first, struct truth *truth, struct job *job, double weight, struct glint_error *err);
 
 #endif

@@ -82,6 +82,7 @@ static bool check_options(const struct glint_sample_options *o, struct glint_err
     if (!(o->fov_y_rad >= 0 && o->fov_y_rad < 3.0))
         return glint_fail(err, GLINT_ERROR_USAGE, "field of view %g rad: expected between 0 and 3", o->fov_y_rad);
     if (!finite3(o->offset)) return glint_fail(err, GLINT_ERROR_USAGE, "offset: expected finite numbers");
+    if (!finite3(o->travel)) return glint_fail(err, GLINT_ERROR_USAGE, "travel: expected finite numbers");
     bool looks = finite3(o->eye) && finite3(o->target) && memcmp(o->eye, o->target, sizeof o->eye);
     if (o->camera_given && !looks)
         return glint_fail(err, GLINT_ERROR_USAGE, "camera: expected a position and another point to look at");
@@ -133,8 +134,9 @@ static struct glint_frame frame_of_views(const struct session *s, const struct v
     memcpy(frame.jitter_px, view->jitter_px, sizeof frame.jitter_px);
     move_camera(&frame.camera, offset);
     move_camera(&frame.previous, offset);
-    vec3 player =
-        s->options.camera_given ? view_eye(view) : along(scene->player, scene->player_step, (float)(number - 1));
+    const double *travel = s->options.travel;
+    vec3 step = s->options.travel_given ? v3((float)travel[0], (float)travel[1], (float)travel[2]) : scene->player_step;
+    vec3 player = s->options.camera_given ? view_eye(view) : along(scene->player, step, (float)(number - 1));
     const float at[3] = {player.x, player.y, player.z};
     for (int i = 0; i < 3; i++) frame.player[i] = (double)at[i] + offset[i];
     frame.fog.base += offset[1];
@@ -177,17 +179,39 @@ static bool write_sky(struct session *s, const struct dump *dump, struct glint_e
     return render_sky(s->now, size, s->texels, &s->job, 1, err) && dump_sky(dump, size, s->texels, err);
 }
 
+/* Lobes become their means over all places of a pixel that show a surface; distances stay those of the sample. */
+static bool average_truth(struct session *s, uint32_t number, struct glint_error *err) {
+    const struct glint_sample_options *o = &s->options;
+    size_t pixels = (size_t)o->width * o->height;
+    struct truth_sum *sums = calloc(pixels, sizeof *sums);
+    struct pixel *seen = calloc(pixels, sizeof *seen);
+    struct truth *truth = calloc(pixels, sizeof *truth);
+    bool ok = (sums && seen && truth) || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the truth of pixels");
+    for (uint32_t k = 0; ok && k < VIEW_PLACES; k++) {
+        struct view view = view_through(&s->scene, o, o->width, o->height, number, k);
+        ok = render_frame(s->now, &view, &view, seen, &s->job, 0, err) &&
+             render_truth(s->now, &view, seen, o->truth_samples, k * o->truth_samples, truth, &s->job, 0, err);
+        for (size_t i = 0; ok && i < pixels; i++) truth_add(&sums[i], &truth[i]);
+    }
+    for (size_t i = 0; ok && i < pixels; i++) truth_mean(&sums[i], &s->truth[i]);
+    free(sums);
+    free(seen);
+    free(truth);
+    return ok;
+}
+
 static bool write_parts(struct session *s, const struct dump *dump, const struct view *view,
-                        const struct view *previous, bool shot, struct glint_error *err) {
+                        const struct view *previous, uint32_t number, bool shot, struct glint_error *err) {
     if (!dump_gbuffer(dump, "gbuffer", view, s->pixels, err) || !dump_lit(dump, "lit", s->pixels, err) ||
         !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
         !dump_lit(dump, "previous.lit", s->previous, err))
         return false;
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
     if (!s->truth) return true;
-    return render_truth(s->now, view, s->pixels, s->options.truth_samples, s->truth, &s->job, s->options.truth_samples,
-                        err) &&
-           dump_truth(dump, s->truth, s->options.truth_samples, err);
+    return render_truth(s->now, view, s->pixels, s->options.truth_samples, 0, s->truth, &s->job,
+                        s->options.truth_samples, err) &&
+           (!s->options.truth_of_pixels || average_truth(s, number, err)) &&
+           dump_truth(dump, s->truth, s->options.truth_samples * (s->options.truth_of_pixels ? VIEW_PLACES : 1), err);
 }
 
 static bool make_worlds(struct session *s, double time, struct glint_error *err) {
@@ -221,8 +245,8 @@ static bool write_frame(struct session *s, const char *path, uint32_t number, bo
     dump.writer = glint_writer_create(
         path, &(struct glint_writer_options){.compression = o->compression, .threads = o->threads}, err);
     if (!dump.writer) return false;
-    ok = glint_writer_set_frame(dump.writer, &frame, err) && write_parts(s, &dump, &views[0], &views[1], shot, err) &&
-         glint_writer_finish(dump.writer, err);
+    ok = glint_writer_set_frame(dump.writer, &frame, err) &&
+         write_parts(s, &dump, &views[0], &views[1], number, shot, err) && glint_writer_finish(dump.writer, err);
     glint_writer_destroy(&dump.writer);
     return ok;
 }

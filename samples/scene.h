@@ -32,7 +32,8 @@ enum mesh_flags {
     MESH_PLAIN = 0,
     MESH_DETAIL = 1,     /* not in imperfect cube maps */
     MESH_SIMPLIFIED = 2, /* only in imperfect cube maps */
-    MESH_MOVING = 4      /* not in imperfect cube maps; moves by `step` each frame */
+    MESH_MOVING = 4,     /* not in imperfect cube maps; moves by `step` each frame */
+    MESH_STIPPLED = 8    /* the camera sees it in every other pixel, as engines fade things near it or far away */
 };
 
 struct mesh {

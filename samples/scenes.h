@@ -9,7 +9,8 @@
     SCENE(mirror_box,                                                                                                  \
           "closed box 0..8 x 0..4 x 0..6 m with a mirror floor: every reflected distance has a closed form")           \
     SCENE(matte, "sunlit blocks of specular 0: nothing reflects")                                                      \
-    SCENE(street, "wet road at dusk with puddles, lit windows, thin rails and poles, a car that no cube map holds")    \
+    SCENE(street,                                                                                                      \
+          "wet road at dusk with puddles, lit windows, stippled shrubs, thin rails, a car that no cube map holds")     \
     SCENE(room, "corridor and room with windows, polished tiles, a metal column, stairs, flower pots")                 \
     SCENE(hotel, "lobby with a gallery and the street before it at night; 14 cube maps, the nearest eight indoors")
 

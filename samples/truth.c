@@ -9,7 +9,7 @@ struct truth_work {
     const struct world *world;
     const struct view *view;
     const struct pixel *pixels;
-    uint32_t samples;
+    uint32_t samples, first; /* of the sequence of draws */
     struct truth *truth;
 };
 
@@ -54,14 +54,14 @@ static vec3 average(const struct truth_work *work, const struct start *start, lo
     struct mean mean = {0};
     for (uint32_t i = 0; i < work->samples; i++) {
         float u, v;
-        r2_point(i, seed, &u, &v);
+        r2_point(work->first + i, seed, &u, &v);
         for (uint32_t k = 0; k < MOST_REPEATS; k++) {
             vec3 direction = draw(start->to_eye, start->normal, start->roughness, u, v);
             if (dot(direction, start->normal) > 0 && dot(direction, start->geometric) > 0) {
                 gather(&mean, world_look(work->world, start->leave, direction, NULL));
                 break;
             }
-            uint32_t again = hash_two(hash_two(seed, i), k);
+            uint32_t again = hash_two(hash_two(seed, work->first + i), k);
             u = unit_float(hash_u32(again));
             v = unit_float(hash_u32(again + 1));
         }
@@ -99,6 +99,33 @@ static struct truth truth_of(const struct truth_work *work, uint32_t x, uint32_t
     return truth;
 }
 
+static void add_lobe(struct truth_sum *sum, int lobe, vec3 color, float weight, float error) {
+    if (!(weight > 0)) return;
+    double absolute = (double)error * (double)luminance(color);
+    sum->color[lobe][0] += (double)color.x;
+    sum->color[lobe][1] += (double)color.y;
+    sum->color[lobe][2] += (double)color.z;
+    sum->square[lobe] += absolute * absolute;
+    sum->count[lobe]++;
+}
+
+void truth_add(struct truth_sum *sum, const struct truth *truth) {
+    add_lobe(sum, 0, truth->ggx, truth->ggx_weight, truth->ggx_error);
+    add_lobe(sum, 1, truth->blinn_phong, truth->phong_weight, truth->phong_error);
+}
+
+static void mean_lobe(const struct truth_sum *sum, int lobe, vec3 *color, float *error) {
+    double n = sum->count[lobe];
+    if (n == 0) return;
+    *color = v3((float)(sum->color[lobe][0] / n), (float)(sum->color[lobe][1] / n), (float)(sum->color[lobe][2] / n));
+    *error = luminance(*color) > 0 ? (float)(sqrt(sum->square[lobe]) / n) / luminance(*color) : 0;
+}
+
+void truth_mean(const struct truth_sum *sum, struct truth *truth) {
+    mean_lobe(sum, 0, &truth->ggx, &truth->ggx_error);
+    mean_lobe(sum, 1, &truth->blinn_phong, &truth->phong_error);
+}
+
 static void truth_row(void *user, uint32_t y) {
     const struct truth_work *work = user;
     for (uint32_t x = 0; x < work->view->width; x++)
@@ -106,7 +133,7 @@ static void truth_row(void *user, uint32_t y) {
 }
 
 bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
-                  struct truth *truth, struct job *job, double weight, struct glint_error *err) {
-    struct truth_work work = {world, view, pixels, samples, truth};
+                  uint32_t first, struct truth *truth, struct job *job, double weight, struct glint_error *err) {
+    struct truth_work work = {world, view, pixels, samples, first, truth};
     return parallel_for(job, "tracing the truth", weight, view->height, truth_row, &work, err);
 }

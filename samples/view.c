@@ -52,16 +52,18 @@ static void projection(struct view *view, enum glint_depth_encoding depth, doubl
     }
 }
 
-struct view view_at(const struct scene *scene, const struct glint_sample_options *options, uint32_t width,
-                    uint32_t height, int64_t number) {
+struct view view_through(const struct scene *scene, const struct glint_sample_options *options, uint32_t width,
+                         uint32_t height, int64_t number, uint32_t place) {
     struct view view = {.width = width, .height = height};
     double time = (double)number - 1, target[3];
     const vec3 starts[2] = {scene->eye, scene->target}, steps[2] = {scene->eye_step, scene->target_step};
     for (int i = 0; i < 2; i++) {
         const float start[3] = {starts[i].x, starts[i].y, starts[i].z}, step[3] = {steps[i].x, steps[i].y, steps[i].z};
         const double *given = i ? options->target : options->eye;
-        for (int k = 0; k < 3; k++)
-            (i ? target : view.eye)[k] = (options->camera_given ? given[k] : (double)start[k]) + time * (double)step[k];
+        for (int k = 0; k < 3; k++) {
+            double moves = options->travel_given ? options->travel[k] : options->camera_given ? 0 : (double)step[k];
+            (i ? target : view.eye)[k] = (options->camera_given ? given[k] : (double)start[k]) + time * moves;
+        }
     }
     struct axes axes = look(view.eye, target);
     double *m = view.camera.world_to_view;
@@ -73,13 +75,20 @@ struct view view_at(const struct scene *scene, const struct glint_sample_options
     for (int row = 0; row < 3; row++)
         m[4 * row + 3] = -(m[4 * row] * view.eye[0] + m[4 * row + 1] * view.eye[1] + m[4 * row + 2] * view.eye[2]);
     m[15] = 1;
-    uint32_t phase = (uint32_t)(number & 15); /* of a Halton sequence */
-    view.jitter_px[0] = radical_inverse(phase, 2) - 0.5;
-    view.jitter_px[1] = radical_inverse(phase, 3) - 0.5;
+    if (place < VIEW_PLACES) {
+        view.jitter_px[0] = radical_inverse(place, 2) - 0.5;
+        view.jitter_px[1] = radical_inverse(place, 3) - 0.5;
+    }
     double fov = options->fov_y_rad > 0 ? options->fov_y_rad : (double)scene->fov_y_rad;
     projection(&view, options->encodings.depth, fov);
     view.pixel_rad = (float)(2 * tan(fov / 2) / height);
     return view;
+}
+
+struct view view_at(const struct scene *scene, const struct glint_sample_options *options, uint32_t width,
+                    uint32_t height, int64_t number) {
+    uint32_t place = options->unjittered ? VIEW_PLACES : (uint32_t)(number & (VIEW_PLACES - 1));
+    return view_through(scene, options, width, height, number, place);
 }
 
 vec3 view_ray(const struct view *view, uint32_t x, uint32_t y) {

@@ -16,7 +16,13 @@ struct view {
     float pixel_rad; /* between neighbouring pixels in the middle */
 };
 
-/* The camera of frame `number`, which also gives the jitter; frames before the first are there too. */
+/* Places in a pixel that a camera is jittered through: a Halton sequence, a power of two of it. */
+enum { VIEW_PLACES = 16 };
+
+/* The camera of frame `number` through a place of its pixels; VIEW_PLACES: their centres. */
+struct view view_through(const struct scene *scene, const struct glint_sample_options *options, uint32_t width,
+                         uint32_t height, int64_t number, uint32_t place);
+/* With the jitter of that frame; frames before the first are there too. */
 struct view view_at(const struct scene *scene, const struct glint_sample_options *options, uint32_t width,
                     uint32_t height, int64_t number);
 /* Direction through the centre of a pixel, one unit deep: its length along the view axis is 1. */

@@ -25,8 +25,11 @@ enum {
     KEY_PROBES,
     KEY_ENCODING,
     KEY_TRUTH,
+    KEY_TRUTH_OF_PIXELS,
     KEY_LIGHT,
     KEY_CAMERA,
+    KEY_TRAVEL,
+    KEY_UNJITTERED,
     KEY_FOV,
     KEY_OFFSET,
     KEY_COMPRESSION,
@@ -50,8 +53,11 @@ static const struct argp_option options[] = {
     {"probes",      KEY_PROBES,      "KIND",  0, "What the cube maps hold. imperfect, as games have them: static "
         "objects only, simplified, metals as diffuse; perfect: the very scene; auto: placed by the sampler, for glTF files", 0},
     {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays a pixel into truth.* (default 0: leave it out)", 0},
+    {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "The mean over each pixel's area, as a still camera sees it over its jitter, and not of the frame's one sample", 0},
     {"light",       KEY_LIGHT,       "N",     0, "Rays a point for indirect light (default: the scene's)", 0},
-    {"camera",      KEY_CAMERA,      "ex,ey,ez,tx,ty,tz", 0, "Where the camera is, and a point that it looks at", 0},
+    {"camera",      KEY_CAMERA,      "ex,ey,ez,tx,ty,tz", 0, "Where the camera stands, and a point that it looks at (default: the scene's, which moves in a shot)", 0},
+    {"travel",      KEY_TRAVEL,      "x,y,z", 0, "How far the camera moves each frame, in metres", 0},
+    {"unjittered",  KEY_UNJITTERED,  NULL,    0, "Look through the centres of the pixels in every frame", 0},
     {"fov",         KEY_FOV,         "DEG",   0, "Vertical field of view in degrees (default: the scene's)", 0},
     {"offset",      KEY_OFFSET,      "x,y,z", 0, "Move every stored position, in double; the scene is not rendered again", 0},
     {"encoding",    KEY_ENCODING,    "WHAT=NAME,...", 0, "Several encodings at once: depth, normal, vertex_normal, normal_space, roughness, motion, color", 0},
@@ -197,6 +203,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     case KEY_TRUTH:
         s->truth_samples = arg_uint("truth", arg, 0, 1 << 20, state);
         return 0;
+    case KEY_TRUTH_OF_PIXELS:
+        s->truth_of_pixels = true;
+        return 0;
     case KEY_LIGHT:
         s->light_samples = arg_uint("light", arg, 1, 1 << 20, state);
         return 0;
@@ -205,6 +214,13 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         s->camera_given = true;
         memcpy(s->eye, numbers, sizeof s->eye);
         memcpy(s->target, numbers + 3, sizeof s->target);
+        return 0;
+    case KEY_TRAVEL:
+        arg_numbers("travel", arg, s->travel, 3, state);
+        s->travel_given = true;
+        return 0;
+    case KEY_UNJITTERED:
+        s->unjittered = true;
         return 0;
     case KEY_FOV:
         arg_numbers("fov", arg, numbers, 1, state);

@@ -1,4 +1,4 @@
-/* street: a wet road at dusk. Puddles of varying roughness, lit windows, thin rails and poles, a car that drives away
+/* street: a wet road at dusk. Puddles of varying roughness, lit windows, thin rails and poles, shrubs that fade by stipple, a car that drives away
    and that no cube map holds, open sky at the end of the street. The street runs along -Z between house fronts at
    x = ±7. Windows lie on a grid of 2.5 m by 3.2 m, so that paints find them from the position alone. */
 #include "../noise.h"
@@ -294,6 +294,11 @@ static void furniture(struct scene *scene) {
     prop_railing(scene, 9);
     scene_place(scene, v3(-CURB - 0.25f, 0.15f, -8.5f), 0.5f * PI_F);
     prop_railing(scene, 6);
+    const vec3 tubs[] = {{-4.7f, 0.15f, -2.3f}, {-4.7f, 0.15f, -6.6f}, {4.75f, 0.15f, -5}, {4.75f, 0.15f, -8.3f}};
+    for (int i = 0; i < 4; i++) {
+        scene_place(scene, tubs[i], 0.3f * (float)i);
+        prop_shrub(scene, 1.35f + 0.1f * (float)(i & 1));
+    }
     const float bin[][2] = {{0.2f, 0}, {0.25f, 0.85f}, {0.28f, 0.87f}, {0.18f, 1.0f}, {0, 1.02f}};
     const struct material tin = {
         .albedo = {0.10f, 0.16f, 0.12f}, .roughness = 0.3f, .specular = 0.5f, .stencil = STENCIL_WORLD};

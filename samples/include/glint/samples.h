@@ -25,10 +25,14 @@ struct glint_sample_options {
     /* Rays a pixel for truth.*; 0: none of these parts. The parts of a lobe say it in `truthSamples`, and in
        `truthNoise` the median over the pixels of the mean's standard error, relative. */
     uint32_t truth_samples;
+    bool truth_of_pixels; /* of their whole areas, as a still camera sees them over its jitter; false: of the samples */
     uint32_t light_samples; /* rays a point for indirect light; 0: the scene's default */
     double fov_y_rad;       /* 0: the scene's */
-    bool camera_given;      /* position, then a point looked at, in world units */
+    bool camera_given;      /* position, then a point looked at, in world units; false: the scene's */
     double eye[3], target[3];
+    bool travel_given; /* metres a frame; false: as the scene's camera moves, a given one stands still */
+    double travel[3];
+    bool unjittered;  /* rays through the centres of the pixels in every frame */
     double offset[3]; /* added to every position in double before it is stored (the scene is not rendered again) */
     enum glint_compression compression;
     uint32_t threads;
