@@ -14,15 +14,18 @@
 enum { SIZE = 128, HALF = SIZE / 2, PIXELS = HALF * HALF };
 static const double variance = 1 / 3.0; /* of the stand-in's noise, even in [0, 2) */
 
-static void frame(struct gpu *gpu, uint32_t number, float roughness, bool cut) {
+static void run_frame(struct gpu *gpu, struct plain plain) {
     char path[256], name[32];
-    snprintf(name, sizeof name, "frame%u", number);
-    plain_capture(
-        gpu_path(gpu, name, path),
-        &(struct plain){
-            .width = SIZE, .height = SIZE, .roughness = roughness, .fov_y_degrees = 60, .frame = number, .cut = cut});
+    snprintf(name, sizeof name, "frame%u", plain.frame);
+    plain.width = plain.height = SIZE;
+    plain.fov_y_degrees = 60;
+    plain_capture(gpu_path(gpu, name, path), &plain);
     gpu_load(gpu, name);
     gpu_run(gpu);
+}
+
+static void frame(struct gpu *gpu, uint32_t number, float roughness, bool cut) {
+    run_frame(gpu, (struct plain){.roughness = roughness, .frame = number, .cut = cut});
 }
 
 static void start(struct gpu *gpu, const char *scale) {
@@ -66,6 +69,30 @@ static void noise_falls_by_the_root_of_the_frames_to_its_floor(void **state) {
               *mean = gpu_floats(gpu, "reflection_temporal", NULL, NULL);
         for (int i = 0; i < 4 * PIXELS; ++i) assert_true(now[i] == mean[i]);
         free(now), free(mean);
+    }
+}
+
+/* A jittered camera that stands still has its history on its own texels: resampled, noise would fall faster, and the picture
+   would be blurred. With motion vectors, which hold the jitter, and by the cameras alone. */
+static void jitter_resamples_no_history(void **state) {
+    static const double places[4][2] = {{0, -0.17}, {-0.25, 0.17}, {0.25, -0.39}, {-0.375, -0.06}};
+    struct gpu *gpu = *state;
+    for (int motion = 0; motion < 2; ++motion) {
+        start(gpu, "resolve.texel_scale=1");
+        gpu_set(gpu, "temporal.extra=false");
+        gpu_set(gpu, motion ? "temporal.motion=true" : "temporal.motion=false");
+        for (uint32_t n = 1; n <= 4; ++n) {
+            struct plain plain = {.roughness = 0.5f, .frame = n, .cut = n == 1};
+            for (int k = 0; k < 2; ++k) {
+                plain.jitter_px[k] = places[n - 1][k];
+                plain.previous_jitter_px[k] = places[n > 1 ? n - 2 : 0][k];
+            }
+            run_frame(gpu, plain);
+        }
+        double found = variance_of(gpu, "reflection_temporal") / variance;
+        print_message("# jittered, %s: variance after four frames %.4f of one frame's\n", motion ? "motion" : "cameras",
+                      found);
+        assert_true(fabs(4 * found - 1) < 0.052); /* as above */
     }
 }
 
@@ -139,6 +166,7 @@ static void smooth_history_is_held_within_the_neighbours(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise_falls_by_the_root_of_the_frames_to_its_floor),
+        cmocka_unit_test(jitter_resamples_no_history),
         cmocka_unit_test(no_history_is_one_frame),
         cmocka_unit_test(bad_colours_leave_no_trace),
         cmocka_unit_test(smooth_history_is_held_within_the_neighbours),

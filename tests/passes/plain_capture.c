@@ -32,6 +32,8 @@ static void fill(const struct plain *plain, float *values) {
         float pixel[PLAIN_CHANNELS];
         for (int k = 0; k < PLAIN_CHANNELS; ++k) pixel[k] = ordinary[k];
         pixel[PLAIN_ROUGHNESS] = plain->roughness;
+        pixel[PLAIN_MOTION_X] = (float)((plain->previous_jitter_px[0] - plain->jitter_px[0]) / plain->width);
+        pixel[PLAIN_MOTION_Y] = (float)((plain->previous_jitter_px[1] - plain->jitter_px[1]) / plain->height);
         if (plain->floor) pixel[PLAIN_LIT_R] = (float)(0.5 + 0.4 * sin(0.1 * x));
         if (on_floor) {
             pixel[PLAIN_DEPTH] = (float)(floor_m / down);
@@ -127,6 +129,14 @@ void plain_capture(const char *path, const struct plain *plain) {
     frame.camera.view_to_clip[10] = far / (near - far);
     frame.camera.view_to_clip[11] = near * far / (near - far);
     frame.camera.view_to_clip[14] = -1;
+    frame.has_previous = true;
+    frame.previous = frame.camera;
+    for (int i = 0; i < 2; ++i) { /* to the right, and down */
+        frame.jitter_px[i] = plain->jitter_px[i];
+        double clip = (i ? 2.0 : -2.0) / (i ? plain->height : plain->width);
+        frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
+        frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
+    }
     check(glint_writer_set_frame(writer, &frame, &err), &err);
     add_part(writer, "gbuffer", plain, names, values, PLAIN_LIT_R);
     add_part(writer, "lit", plain, names + PLAIN_LIT_R, values + (size_t)PLAIN_LIT_R * plain->width * plain->height,

@@ -38,6 +38,7 @@ struct plain {
     void (*spoil)(const struct plain *plain, float *values);
     uint32_t frame; /* number; 0: 1 */
     bool cut;
+    double jitter_px[2], previous_jitter_px[2]; /* of the projection; the wall's motion says both */
     /* Cube maps, cube_size wide: R G B A and distance in a unit direction. NULL: none. */
     uint32_t cube_size, cube_count;
     struct glint_cubemap cubes[4];
