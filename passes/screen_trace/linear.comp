@@ -6,58 +6,9 @@
 #include "shared/push_begin.glsl"
 #include "linear.pass.h"
 };
-#include "shared/camera.glsl"
-#include "shared/end_reasons.glsl"
+#include "screen_trace/screen_ray.glsl"
 #include "shared/random.glsl"
 #include "shared/work_list.glsl"
-
-// A ray in the picture. At parameter s its place is start + s · across (full-resolution pixels) and its inverse depth
-// is inverse + s · inverse_rate: with w for depth and P, D for projected origin and direction, the ray parameter is
-// t = s P.w/(1 - s D.w), so 1/w = (1 - s D.w)/P.w is linear in s, like the place.
-struct ScreenRay {
-    vec3 origin, direction; // view
-    vec2 start, across;
-    float depth_m, rate; // P.w and D.w
-    float end;           // the last s inside picture, near plane and length
-    uint limit;          // which of them, as an end reason
-    bool vanishes;       // nothing lies between the end and its vanishing point
-};
-
-precise float travelled_at(ScreenRay ray, float s) { return s * ray.depth_m / (1.0 - s * ray.rate); }
-precise float inverse_depth_at(ScreenRay ray, float s) { return (1.0 - s * ray.rate) / ray.depth_m; }
-
-// How far a coordinate may go until it leaves [0, size].
-precise float exit(float start, float across, float size) {
-    if (across > 0.0) return max(size - start, 0.0) / across;
-    return across < 0.0 ? start / -across : LARGEST;
-}
-
-ScreenRay screen_ray(vec2 start, vec3 position, vec3 direction) {
-    float front = frame.depth_range.z;
-    ScreenRay ray;
-    ray.origin = position;
-    ray.direction = direction;
-    ray.start = start;
-    ray.depth_m = position.z * front;
-    ray.rate = direction.z * front;
-    precise vec2 across = direction.xy - position.xy / ray.depth_m * ray.rate;
-    ray.across = across * frame.uv_from_view.xy * vec2(frame.size.xy);
-    ray.end = min(exit(start.x, ray.across.x, float(frame.size.x)), exit(start.y, ray.across.y, float(frame.size.y)));
-    ray.limit = END_left_screen;
-    float near = min(frame.depth_range.x, ray.depth_m), in_front = (ray.depth_m - near) / (-ray.rate * near);
-    if (ray.rate < 0.0 && in_front < ray.end) {
-        ray.end = in_front;
-        ray.limit = END_faced_viewer;
-    }
-    bool shows_vanishing_point = ray.rate > 0.0 && 1.0 / ray.rate <= ray.end;
-    float at_length = ray.depth_m + length_m * ray.rate, in_length = length_m / at_length;
-    if (at_length > 0.0 && in_length < ray.end) {
-        ray.end = in_length;
-        ray.limit = END_steps_exhausted;
-    }
-    ray.vanishes = shows_vanishing_point && (1.0 / ray.rate - ray.end) * length(ray.across) < reduction(frame.size);
-    return ray;
-}
 
 // Texels hold pixels that lie `offset` into their block.
 struct Grid {
@@ -97,12 +48,6 @@ Facet facet_at(vec2 place, Grid grid) {
     return Facet(view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z),
                  mat3(frame.view_from_world) * texelFetch(normal_half, texel, 0).xyz);
 }
-
-struct Result {
-    float travelled_m;
-    bool finished;
-    uint end, steps, fetches;
-};
 
 // The parameter at which the ray meets the surface of the sample behind it: on the facet, when that is within a texel of
 // the last step, else between the two samples. gap: 1/ray depth - 1/seen depth, negative behind.

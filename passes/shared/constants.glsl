@@ -5,4 +5,5 @@ const float PI = 3.14159265358979324;
 const float HALF_PI = 1.57079632679489662;
 const float INFINITE = 1.0 / 0.0;
 const float LARGEST = 3.0e38;      // anything above is treated as infinite
+const float EVERYTHING_M = 1.0e6;  // a thickness of it and more: all is solid
 #endif

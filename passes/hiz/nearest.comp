@@ -1,0 +1,36 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "nearest.pass.h"
+#include "shared/push_begin.glsl"
+#include "nearest.pass.h"
+};
+#include "shared/facet_at.glsl"
+
+void store_facet(ivec2 at) {
+    if (any(greaterThanEqual(at, imageSize(depth_slopes)))) return;
+    float depth_m = texelFetch(depth_half, at, 0).x;
+    vec2 slopes = facet_slopes_at(at, depth_m);
+    imageStore(depth_slopes, at, vec4(slopes, 0.0, 0.0));
+    // The slopes are rounded to half, which moves the rise by less than a thousandth of it.
+    imageStore(hiz, at, vec4(depth_m / (1.0 + 1.001 * facet_rise(slopes))));
+}
+
+// Two cells of the finer level along each axis, and a third where the finer level is odd and ends.
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (dispatch_phase == 0u) {
+        store_facet(at);
+        return;
+    }
+    ivec2 size = imageSize(hiz);
+    if (any(greaterThanEqual(at, size))) return;
+    int level = int(dispatch_level) - 1;
+    ivec2 last = textureSize(finer, level) - 1, first = 2 * at;
+    ivec2 end = min(first + 1 + ivec2(equal(at, size - 1)), last);
+    float nearest = INFINITE;
+    for (int y = first.y; y <= end.y; ++y)
+        for (int x = first.x; x <= end.x; ++x) nearest = min(nearest, texelFetch(finer, ivec2(x, y), level).x);
+    imageStore(hiz, at, vec4(nearest));
+}

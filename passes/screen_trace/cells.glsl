@@ -1,0 +1,71 @@
+// A ray through the texels of the depth buffer, in integer cells: level 0 are the texels, a cell of level k covers 2ᵏ of
+// them along each axis, and the last one of a row what is left over. Next include of a pass with the rows of cell_rows.h.
+#include "screen_trace/screen_ray.glsl"
+
+struct CellRay {
+    vec2 start, across, per_across; // texels; 1/across, or +inf for a component that never reaches an edge
+    ivec2 forward;                  // 1 for a component that grows
+    float inverse, inverse_rate;    // 1/z = inverse + s · inverse_rate
+    float end;
+};
+
+// The sample of a texel lies in its middle: other texels of a reduced picture may hold another pixel of their block.
+CellRay cell_ray(ScreenRay ray, ivec2 texel) {
+    CellRay cells;
+    cells.start = vec2(texel) + 0.5;
+    cells.across = ray.across / reduction(frame.size);
+    cells.forward = ivec2(greaterThan(cells.across, vec2(0.0)));
+    cells.per_across = mix(1.0 / cells.across, vec2(INFINITE), lessThan(abs(cells.across), vec2(1e-30)));
+    cells.inverse = 1.0 / ray.depth_m;
+    cells.inverse_rate = -ray.rate / ray.depth_m;
+    cells.end = ray.end;
+    return cells;
+}
+
+precise float inverse_at(CellRay ray, float s) { return ray.inverse + s * ray.inverse_rate; }
+
+// Where the ray leaves a cell, one value an axis, by its far edges. +inf along an axis that it runs across.
+precise vec2 cell_exits(CellRay ray, ivec2 cell, int level) {
+    vec2 edge = vec2((cell + ray.forward) << level) - ray.start;
+    return mix(edge * ray.per_across, vec2(INFINITE), isinf(ray.per_across));
+}
+// Where it came in, by the near edges.
+precise float cell_entry(CellRay ray, ivec2 cell) {
+    vec2 edge = vec2(cell + 1 - ray.forward) - ray.start;
+    vec2 entries = mix(edge * ray.per_across, vec2(0.0), isinf(ray.per_across));
+    return max(max(entries.x, entries.y), 0.0);
+}
+
+// What a texel makes of a ray that crosses it from s_in to s_out.
+const uint CELL_FRONT = 0u, CELL_HIT = 1u, CELL_BEHIND = 2u;
+struct Crossing {
+    uint what;
+    float s; // of a hit
+};
+
+// The ray's inverse depth less the facet's is linear within the texel: positive in front, negative behind. A surface that
+// a viewer sees is crossed from front to behind. A ray that is behind where it comes in and goes deeper either slipped
+// through a seam between two texels of one surface, by less than the tolerance, or passed a rim.
+precise Crossing cross(CellRay ray, ivec2 cell, float s_in, float s_out, float depth_m, vec2 slopes) {
+    float inverse = 1.0 / depth_m;
+    vec2 rate = inverse * slopes * ray.across, from = (ray.start - vec2(cell) - 0.5) * inverse * slopes;
+    float at_start = ray.inverse - inverse - from.x - from.y, rise = ray.inverse_rate - rate.x - rate.y;
+    float gap_in = at_start + s_in * rise, gap_out = at_start + s_out * rise;
+    if (gap_out >= -bias * inverse) return Crossing(CELL_FRONT, s_out);
+    // Behind by d: a part thickness of the surface's depth, as 1/z - 1/(z + d) has it.
+    float depth = thickness + thickness_m * inverse + thickness_slope * (abs(slopes.x) + abs(slopes.y));
+    float tolerance = inverse * depth / (1.0 + depth);
+    bool solid_all = thickness_m >= EVERYTHING_M;
+    if (!solid_all && (gap_in < -tolerance || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
+    float texel = 1.0 / max(abs(ray.across.x), abs(ray.across.y));
+    float s = rise < 0.0 ? clamp(-at_start / rise, s_in - texel, s_out) : s_in;
+    return Crossing(CELL_HIT, max(s, 0.0));
+}
+
+// Behind a surface an object is taken to be as deep as it is wide, times `solid`: a ray that has passed more of its width
+// than it lies behind it has met a side that the picture does not show.
+bool blocked(CellRay ray, float s_front, float s, float depth_m) {
+    float texel_m = depth_m * abs(frame.view_from_uv.x) / float(frame.size.z);
+    float width_m = (s - s_front) * length(ray.across) * texel_m;
+    return 1.0 / inverse_at(ray, s) - depth_m < solid * width_m;
+}

@@ -1,0 +1,60 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "dda.pass.h"
+#include "shared/push_begin.glsl"
+#include "dda.pass.h"
+};
+#include "screen_trace/cells.glsl"
+#include "shared/facet_at.glsl"
+
+Result march(ScreenRay ray, ivec2 texel) {
+    CellRay cells = cell_ray(ray, texel);
+    Result result = Result(0.0, false, END_steps_exhausted, 0u, 0u);
+    ivec2 cell = texel, stride = 2 * cells.forward - 1, last = ivec2(frame.size.zw) - 1;
+    precise float s_front = 0.0, s_in = 0.0;
+    bool been_behind = false;
+    for (int i = 0; i < steps; ++i) {
+        precise vec2 exits = cell_exits(cells, cell, 0);
+        precise float s_out = min(min(exits.x, exits.y), cells.end);
+        if (i > 0) { // its own texel cannot stop a ray
+            float depth_m = texelFetch(depth_half, cell, 0).x;
+            result.steps++;
+            result.fetches++;
+            Crossing crossing = Crossing(CELL_FRONT, s_out);
+            // In front of all that a facet of this depth can be: it rises to twice its inverse depth at most.
+            if (min(inverse_at(cells, s_in), inverse_at(cells, s_out)) * depth_m < 1.0 + STEEPEST) {
+                result.fetches += 5u;
+                crossing = cross(cells, cell, s_in, s_out, depth_m, facet_slopes_at(cell, depth_m));
+            }
+            if (crossing.what == CELL_HIT)
+                return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
+            if (crossing.what == CELL_BEHIND) {
+                been_behind = true;
+                if (!pass_behind || blocked(cells, s_front, s_out, depth_m)) {
+                    result.end = END_behind;
+                    break;
+                }
+            } else {
+                s_front = s_out;
+            }
+        } else {
+            s_front = s_out;
+        }
+        if (s_out >= cells.end) {
+            result.end = ray.limit;
+            break;
+        }
+        if (exits.x <= exits.y) cell.x += stride.x;
+        else cell.y += stride.y;
+        s_in = s_out;
+        if (any(lessThan(cell, ivec2(0))) || any(greaterThan(cell, last))) {
+            result.end = END_left_screen;
+            break;
+        }
+    }
+    result.travelled_m = travelled_at(ray, min(s_front, ray.end));
+    return result;
+}
+#include "screen_trace/trace.glsl"

@@ -1,0 +1,9 @@
+/* Cells of the pyramid that a ray lies in front of are crossed at once; what decides is as in dda. */
+PASS("Pyramid of the nearest depth", "002, HZB Optimization; Uludag, GPU Pro 5")
+#include "slot.h"
+#include "cell_rows.h"
+#line 302
+READ(texture2D, hiz)
+READ(texture2D, depth_slopes)
+SPEC(int,   steps,       512,   1,   65536, "cells", "002, HZB Optimization", "cells looked at, at most")
+SPEC(int,   first_level, 1,     0,   12,    "1", "chosen by measuring", "level of the first cell that is looked at")

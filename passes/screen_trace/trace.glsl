@@ -1,0 +1,34 @@
+// From a texel to its ray's end, for a variant that defines Result march(ScreenRay ray, ivec2 texel). Next include of a
+// pass with the parameters length_m, viewer_limit and sky.
+Result trace(ivec2 pixel, float depth_m, vec3 normal) {
+    vec2 start = picked_position(pixel, texelFetch(pick, pixel, 0).x, frame.size);
+    vec3 view = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);
+    precise vec3 direction = mirror_direction(view, mat3(frame.view_from_world) * normal);
+    if (length_m <= 0.0) return Result(0.0, false, END_steps_exhausted, 0u, 0u);
+    if (dot(direction, -normalize(view)) > viewer_limit) return Result(0.0, false, END_faced_viewer, 0u, 0u);
+    ScreenRay ray = screen_ray(start, view, direction);
+    Result result = march(ray, pixel);
+    if (sky && ray.vanishes && result.end == ray.limit) {
+        result.fetches++;
+        vec2 end = clamp(vec2(pixel) + 0.5 + ray.end * ray.across / reduction(frame.size), vec2(0.0), vec2(frame.size.zw) - 0.5);
+        if (!(texelFetch(depth_half, ivec2(end), 0).x < LARGEST))
+            return Result(INFINITE, true, END_sky, result.steps, result.fetches);
+    }
+    return result;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(screen_travelled)))) return;
+    float depth_m = texelFetch(depth_half, pixel, 0).x;
+    vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
+    Result result = Result(0.0, false, END_not_traced, 0u, 0u);
+    if (reflects(depth_m, normal)) result = trace(pixel, depth_m, normal);
+    imageStore(screen_travelled, pixel, vec4(result.travelled_m));
+    imageStore(screen_finished, pixel, uvec4(result.finished ? 1u : 0u));
+    if (diagnostics) {
+        imageStore(screen_end, pixel, uvec4(result.end));
+        imageStore(screen_steps, pixel, uvec4(result.steps));
+        imageStore(screen_fetches, pixel, uvec4(result.fetches));
+    }
+}

@@ -1,0 +1,207 @@
+#include "walk.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static double dot3(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void walk_grid_init(struct walk_grid *grid, const struct glint_frame *frame, uint32_t width, uint32_t height,
+                    const float *depth_m, const float *normal) {
+    const double *v = frame->camera.world_to_view, *p = frame->camera.view_to_clip;
+    *grid = (struct walk_grid){.width = width, .height = height, .depth_m = depth_m, .normal = normal, .front = p[14]};
+    for (int r = 0; r < 3; ++r)
+        for (int k = 0; k < 3; ++k) grid->rows[r][k] = v[4 * r + k];
+    for (int k = 0; k < 2; ++k) {
+        double sign = k ? -0.5 : 0.5;
+        grid->scale[k] = sign * p[5 * k];
+        grid->shift[k] = 0.5 + sign * p[4 * k + 2] * grid->front;
+    }
+    /* clip z/w is 0 or 1 there: view z from (p10 z + p11)/(p14 z), the nearer of the two that lie in front */
+    double zero = -p[11] / p[10] * grid->front, one = p[11] / (p[14] - p[10]) * grid->front;
+    grid->near_m = zero > 0 && (!(one > 0) || zero < one) ? zero : one;
+}
+
+double walk_texel_angle(const struct walk_grid *grid) {
+    return 1 / (fabs(grid->scale[0]) * grid->width);
+}
+
+static void view_ray(const struct walk_grid *grid, double x, double y, double out[3]) {
+    out[0] = (x / grid->width - grid->shift[0]) / grid->scale[0];
+    out[1] = (y / grid->height - grid->shift[1]) / grid->scale[1];
+    out[2] = grid->front;
+}
+
+static void view_normal(const struct walk_grid *grid, uint32_t x, uint32_t y, double out[3]) {
+    const float *n = grid->normal + 4 * ((size_t)y * grid->width + x);
+    const double world[3] = {(double)n[0], (double)n[1], (double)n[2]};
+    for (int r = 0; r < 3; ++r) out[r] = dot3(grid->rows[r], world);
+}
+
+bool walk_ray_init(struct walk_ray *ray, const struct walk_grid *grid, uint32_t x, uint32_t y) {
+    double depth = (double)grid->depth_m[(size_t)y * grid->width + x], normal[3], view[3];
+    view_normal(grid, x, y, normal);
+    double length2 = dot3(normal, normal);
+    if (!(depth > 0 && depth < 3e38 && length2 > 0.25 && length2 < 4)) return false;
+    view_ray(grid, x + 0.5, y + 0.5, view);
+    double length = sqrt(dot3(view, view)), along = dot3(view, normal) / length2;
+    for (int k = 0; k < 3; ++k) {
+        ray->origin[k] = depth * view[k];
+        ray->direction[k] = (view[k] - 2 * along * normal[k]) / length;
+    }
+    ray->x = x;
+    ray->y = y;
+    return true;
+}
+
+bool walk_project(const struct walk_grid *grid, const struct walk_ray *ray, double t, double place[2],
+                  double *depth_m) {
+    *depth_m = (ray->origin[2] + t * ray->direction[2]) * grid->front;
+    if (!(*depth_m > 0)) return false;
+    const double size[2] = {grid->width, grid->height};
+    for (int k = 0; k < 2; ++k)
+        place[k] = size[k] * ((ray->origin[k] + t * ray->direction[k]) / *depth_m * grid->scale[k] + grid->shift[k]);
+    return true;
+}
+
+static double depth_at(const struct walk_grid *grid, int64_t x, int64_t y) {
+    return (double)grid->depth_m[(size_t)y * grid->width + (size_t)x];
+}
+
+void walk_slopes(const struct walk_grid *grid, uint32_t x, uint32_t y, double slopes[2]) {
+    const double depth = depth_at(grid, x, y);
+    const uint32_t at[2] = {x, y}, size[2] = {grid->width, grid->height};
+    slopes[0] = slopes[1] = 0;
+    if (!(depth < 3e38)) return;
+    double normal[3], view[3];
+    view_normal(grid, x, y, normal);
+    view_ray(grid, x + 0.5, y + 0.5, view);
+    const double along = dot3(normal, view);
+    for (int k = 0; k < 2; ++k) {
+        const int64_t dx = k == 0, dy = k == 1;
+        double side[2], flatter = INFINITY, by_normal = INFINITY;
+        bool have[2] = {at[k] > 0, at[k] + 1 < size[k]};
+        for (int i = 0; i < 2; ++i)
+            if (have[i])
+                side[i] = (2 * i - 1) * (depth / depth_at(grid, x + (2 * i - 1) * dx, y + (2 * i - 1) * dy) - 1);
+        if (!have[0] && !have[1]) continue;
+        for (int i = 0; i < 2; ++i)
+            if (have[i] && fabs(side[i]) <= fabs(flatter)) flatter = side[i];
+        if (along < 0) by_normal = normal[k] / (grid->scale[k] * size[k]) / along;
+        slopes[k] = fabs(flatter) <= 2 * fabs(by_normal) + 0.002 ? flatter : by_normal;
+        slopes[k] = fmax(-1, fmin(1, slopes[k]));
+    }
+}
+
+/* Distance at which the ray's place along an axis is `edge`; infinity when it never is, in front of the viewer. */
+static double reaches(const struct walk_grid *grid, const struct walk_ray *ray, int axis, double edge) {
+    const double size = axis ? grid->height : grid->width;
+    const double plane = (edge / size - grid->shift[axis]) / grid->scale[axis] * grid->front;
+    /* view[axis] = plane · view z */
+    double t = (plane * ray->origin[2] - ray->origin[axis]) / (ray->direction[axis] - plane * ray->direction[2]);
+    bool in_front = (ray->origin[2] + t * ray->direction[2]) * grid->front > 0;
+    return t > 0 && in_front ? t : INFINITY;
+}
+
+/* Relative: depth of the ray over that of the texel's plane, less 1. */
+static double gap_at(const struct walk_grid *grid, const struct walk_ray *ray, const struct walk_cell *cell,
+                     const double slopes[2], double t) {
+    double place[2], depth;
+    if (!walk_project(grid, ray, t, place, &depth)) return -1;
+    double rise = 1 + slopes[0] * (place[0] - cell->x - 0.5) + slopes[1] * (place[1] - cell->y - 0.5);
+    return depth / cell->depth_m * rise - 1;
+}
+
+double walk(const struct walk_grid *grid, const struct walk_ray *ray, double length_m,
+            bool (*visit)(void *user, const struct walk_cell *cell), void *user) {
+    int64_t at[2] = {ray->x, ray->y};
+    const int64_t size[2] = {grid->width, grid->height};
+    double end = length_m, toward = ray->direction[2] * grid->front;
+    if (toward < 0) end = fmin(end, fmax(0, (ray->origin[2] * grid->front - grid->near_m) / -toward));
+    double vanishing[2], drift[2], depth = ray->origin[2] * grid->front;
+    for (int k = 0; k < 2; ++k) { /* where the place moves: its derivative's sign does not change along a ray */
+        vanishing[k] = ray->direction[k] - ray->origin[k] / depth * toward;
+        drift[k] = vanishing[k] * grid->scale[k];
+    }
+    double t = 0;
+    for (bool first = true;; first = false) {
+        double exits[2] = {INFINITY, INFINITY};
+        for (int k = 0; k < 2; ++k)
+            if (drift[k] != 0) exits[k] = reaches(grid, ray, k, (double)(at[k] + (drift[k] > 0)));
+        int axis = exits[0] <= exits[1] ? 0 : 1;
+        double out = fmin(exits[axis], end);
+        if (!first) {
+            struct walk_cell cell = {.x = (uint32_t)at[0], .y = (uint32_t)at[1], .t_in = t, .t_out = out};
+            cell.depth_m = depth_at(grid, at[0], at[1]);
+            cell.gap_in = cell.gap_out = -1;
+            if (cell.depth_m < 3e38) {
+                double slopes[2];
+                walk_slopes(grid, cell.x, cell.y, slopes);
+                cell.steep = fabs(slopes[0]) + fabs(slopes[1]);
+                cell.gap_in = gap_at(grid, ray, &cell, slopes, t);
+                cell.gap_out = gap_at(grid, ray, &cell, slopes, out);
+            }
+            if (!visit(user, &cell)) return out;
+        }
+        if (!(out < end)) return end;
+        t = out;
+        at[axis] += drift[axis] > 0 ? 1 : -1;
+        if (at[axis] < 0 || at[axis] >= size[axis]) return t;
+    }
+}
+
+const struct walk_rules walk_rules_default = {0.01, 0, 0.5, 1, 0.0005, 1000};
+
+struct tracing {
+    const struct walk_grid *grid;
+    const struct walk_ray *ray;
+    const struct walk_rules *rules;
+    double t_front, hit;
+    bool found;
+};
+
+/* Distance that takes the place on screen from there to here, as width at a depth. */
+static double width_m(const struct tracing *tracing, double from, double to, double depth_m) {
+    double a[2], b[2], unused;
+    walk_project(tracing->grid, tracing->ray, from, a, &unused);
+    walk_project(tracing->grid, tracing->ray, to, b, &unused);
+    return hypot(b[0] - a[0], b[1] - a[1]) * walk_texel_angle(tracing->grid) * depth_m;
+}
+
+static bool decide(void *user, const struct walk_cell *cell) {
+    struct tracing *tracing = user;
+    const struct walk_rules *rules = tracing->rules;
+    /* Along a ray the inverse depth less a plane's is linear in the place, so the crossing is found in these. */
+    const double z_in = (tracing->ray->origin[2] + cell->t_in * tracing->ray->direction[2]) * tracing->grid->front,
+                 z_out = (tracing->ray->origin[2] + cell->t_out * tracing->ray->direction[2]) * tracing->grid->front;
+    const double in = -cell->gap_in / z_in, out = -cell->gap_out / z_out; /* 1/z less the plane's: positive in front */
+    if (!(out < -rules->bias / cell->depth_m)) {
+        tracing->t_front = cell->t_out;
+        return true;
+    }
+    const double deep = rules->thickness + rules->thickness_m / cell->depth_m + rules->thickness_slope * cell->steep;
+    if (in >= -deep / (1 + deep) / cell->depth_m && out < in) {
+        double a[2], b[2], za, zb;
+        walk_project(tracing->grid, tracing->ray, cell->t_in, a, &za);
+        walk_project(tracing->grid, tracing->ray, cell->t_out, b, &zb);
+        double across = fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1])); /* texels */
+        double part = in / (in - out);
+        if (across > 0) part = fmax(part, -1 / across);
+        /* t is linear in place over (1/z), as 1/z is linear in place */
+        double inverse = (1 - part) / za + part / zb;
+        double t = ((1 - part) * cell->t_in / za + part * cell->t_out / zb) / inverse;
+        tracing->hit = fmax(0, t);
+        tracing->found = true;
+        return false;
+    }
+    double behind = z_out - cell->depth_m;
+    return !(behind < rules->solid * width_m(tracing, tracing->t_front, cell->t_out, cell->depth_m));
+}
+
+bool walk_trace(const struct walk_grid *grid, const struct walk_ray *ray, const struct walk_rules *rules, double *t) {
+    struct tracing tracing = {grid, ray, rules, 0, 0, false};
+    walk(grid, ray, rules->length_m, decide, &tracing);
+    *t = tracing.found ? tracing.hit : tracing.t_front;
+    return tracing.found;
+}
