@@ -6,12 +6,13 @@
 #include "shared/push_begin.glsl"
 #include "score.pass.h"
 };
+#include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/work_list.glsl"
 
 // Each term lies in [0, 1].
 float score(vec3 position, vec3 ray, uint place) {
-    vec4 center = texelFetch(active_center, ivec2(place, 0), 0);
+    vec4 center = active_centers[place];
     vec3 offset = position - center.xyz;
     float distance_m = length(offset), sum = fade * center.w + distance * near_m / (near_m + distance_m);
     if (visibility > 0.0) {
@@ -35,12 +36,14 @@ uint best_place(vec3 position, vec3 ray) {
 }
 
 bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
+    if (texelFetch(screen_finished, pixel, 0).x != 0u) return false;
     depth_m = texelFetch(depth_half, pixel, 0).x;
     normal = texelFetch(normal_jittered, pixel, 0).xyz;
-    return texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal);
+    return reflects(depth_m, normal);
 }
 
 void main() {
+    load_active_centers();
     ivec2 size = imageSize(cubemap_best), pixel = own_pixel(size);
     float depth_m;
     vec3 normal;

@@ -17,14 +17,14 @@ const uint NO_PLACE = 255u;
 float seen_distance(vec3 from_center, uint place) {
     int size = int(frame.counts.z);
     if (!interpolate || size < 2)
-        return textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(from_center, place), 0.0).x;
+        return texelFetch(cubemap_distance, face_texel(from_center, place, size), 0).x;
     vec3 face = face_from_direction(from_center), a = abs(from_center);
     vec2 texel = face.xy * float(size) - 0.5;
     ivec2 corner = clamp(ivec2(floor(texel)), ivec2(0), ivec2(size - 2));
     vec2 part = texel - vec2(corner);
-    vec3 between = direction_from_face(vec3((vec2(corner) + 1.0) / float(size), face.z));
+    vec3 between = vec3((vec2(corner) + 1.0) / float(size), 6.0 * float(place) + face.z);
     // Gather's order: (0,1) (1,1) (1,0) (0,0).
-    vec4 distance_m = textureGather(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(between, place));
+    vec4 distance_m = textureGather(sampler2DArray(cubemap_distance, nearest_clamp), between);
     vec2 low = 2.0 * (vec2(corner) + 0.5) / float(size) - 1.0, high = low + 2.0 / float(size);
     vec4 u = vec4(low.x, high.x, high.x, low.x), v = vec4(high.y, high.y, low.y, low.y);
     vec4 q = sqrt(1.0 + u * u + v * v) / distance_m;

@@ -6,6 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "march.pass.h"
 };
+#include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/cocoon.glsl"
 #include "shared/cubemap.glsl"
@@ -19,9 +20,73 @@ const uint NO_PLACE = 255u;
 const int COCOON_STEPS = 8, COCOON_REFINEMENTS = 3;
 
 struct Quality {
-    int steps, refinements;
-    float first_m, ratio, level, roughness;
+    int steps, refinements, level;
+    float first_m, ratio, roughness;
 };
+
+bool through_cocoon() { return depth == depth_capped && has_cocoon_distance; }
+
+// Four texels of a face between which a direction lies, in gather's order (0,1) (1,1) (1,0) (0,0), and where between. Near
+// the border the face's last two rows are continued. Interpolated here, because what a sampler makes of them may depend
+// on the neighbouring invocations, which are others when a list is worked on.
+struct Patch {
+    vec4 distance_m;
+    vec2 part;
+};
+
+Patch patch_of(texture2DArray faces, vec3 direction, uint place, int level) {
+    int size = max(int(frame.counts.z) >> level, 1);
+    vec3 face = face_from_direction(direction);
+    vec2 texel = face.xy * float(size) - 0.5, corner = clamp(floor(texel), vec2(0.0), vec2(max(size - 2, 0)));
+    float layer = 6.0 * float(place) + face.z;
+    Patch p;
+    p.part = texel - corner;
+    if (level == 0) {
+        p.distance_m = textureGather(sampler2DArray(faces, nearest_clamp), vec3((corner + 1.0) / float(size), layer));
+        return p;
+    }
+    ivec3 low = ivec3(corner, layer), high = min(low + ivec3(1, 1, 0), ivec3(size - 1, size - 1, low.z));
+    p.distance_m = vec4(texelFetch(faces, ivec3(low.x, high.y, low.z), level).x, texelFetch(faces, high, level).x,
+                        texelFetch(faces, ivec3(high.x, low.y, low.z), level).x, texelFetch(faces, low, level).x);
+    return p;
+}
+
+float nearest_of(Patch p) {
+    return p.part.x < 0.5 ? (p.part.y < 0.5 ? p.distance_m.w : p.distance_m.x)
+                          : (p.part.y < 0.5 ? p.distance_m.z : p.distance_m.y);
+}
+float mean_of(Patch p) {
+    return mix(mix(p.distance_m.w, p.distance_m.z, p.part.x), mix(p.distance_m.x, p.distance_m.y, p.part.x), p.part.y);
+}
+
+// Distance of the surface that a cube map sees in a direction; +inf for sky. Interpolation with a sky texel is inf or
+// NaN, and stays out: the nearest texel counts there, so that nothing but finite values or +inf comes back.
+float seen_in(texture2DArray faces, vec3 direction, uint place, int level) {
+    if (!bilinear) {
+        float texel_m = texelFetch(faces, face_texel(direction, place, int(frame.counts.z) >> level), level).x;
+        return texel_m < LARGEST ? texel_m : INFINITE;
+    }
+    Patch texels = patch_of(faces, direction, place, level);
+    float nearest_m = nearest_of(texels), smooth_m = mean_of(texels);
+    if (!(nearest_m < LARGEST)) return INFINITE;
+    if (!(abs(smooth_m) < LARGEST)) return nearest_m;
+    return clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
+}
+
+// A level of a chain, if there is one for it.
+int level_for(float roughness) {
+    if (rough_level == 0.0 || roughness <= hq_roughness || !(through_cocoon() || has_cubemap_distance_mips)) return 0;
+    return min(int(rough_level * roughness), findMSB(frame.counts.z));
+}
+
+float seen_distance(vec3 from_center, uint place, int level) {
+    if (through_cocoon()) return seen_in(cocoon_distance, from_center, place, level);
+    if (has_cubemap_distance_mips && level > 0) return seen_in(cubemap_distance_mips, from_center, place, level);
+    return seen_in(cubemap_distance, from_center, place, 0);
+}
+
+// Texture fetches that seen_distance() makes.
+uint fetches_of(int level) { return bilinear && level > 0 ? 4u : 1u; }
 
 Quality quality_of(float roughness, uvec2 pixel) {
     bool smooth_surface = roughness <= hq_roughness;
@@ -38,77 +103,8 @@ Quality quality_of(float roughness, uvec2 pixel) {
         q.ratio = smooth_surface ? mix(scale_min, scale_max, part) : mix(scale_min_lq, scale_max_lq, part);
         q.first_m = geometric_first_step(total_m, q.ratio, q.steps);
     }
-    q.level = smooth_surface ? 0.0 : floor(rough_level * roughness);
+    q.level = level_for(roughness);
     return q;
-}
-
-int face_size(textureCubeArray map) { return textureSize(samplerCubeArray(map, nearest_clamp), 0).x; }
-int last_level(textureCubeArray map) { return textureQueryLevels(samplerCubeArray(map, nearest_clamp)) - 1; }
-
-// A chain that no pass makes is one texel with one level.
-bool through_cocoon() { return depth == depth_capped && face_size(cocoon_distance) == int(frame.counts.z); }
-
-// Four texels of a face between which a direction lies, in gather's order (0,1) (1,1) (1,0) (0,0), and where between. Near
-// the border the face's last two rows are continued. Interpolated here, because what a sampler makes of them may depend
-// on the neighbouring invocations, which are others when a list is worked on.
-struct Patch {
-    vec4 distance_m;
-    vec2 part;
-};
-
-Patch patch_of(textureCubeArray map, vec4 at, float level) {
-    int size = max(face_size(map) >> int(level), 1);
-    vec3 face = face_from_direction(at.xyz);
-    vec2 texel = face.xy * float(size) - 0.5, corner = clamp(floor(texel), vec2(0.0), vec2(max(size - 2, 0)));
-    Patch p;
-    p.part = texel - corner;
-    if (level == 0.0 && size > 1) {
-        vec3 between = direction_from_face(vec3((corner + 1.0) / float(size), face.z));
-        p.distance_m = textureGather(samplerCubeArray(map, nearest_clamp), vec4(between, at.w));
-        return p;
-    }
-    for (int i = 0; i < 4; ++i) {
-        vec2 place = min(corner + vec2(i == 1 || i == 2, i < 2), vec2(size - 1)) + 0.5;
-        vec3 direction = direction_from_face(vec3(place / float(size), face.z));
-        p.distance_m[i] = textureLod(samplerCubeArray(map, nearest_clamp), vec4(direction, at.w), level).x;
-    }
-    return p;
-}
-
-float nearest_of(Patch p) {
-    return p.part.x < 0.5 ? (p.part.y < 0.5 ? p.distance_m.w : p.distance_m.x)
-                          : (p.part.y < 0.5 ? p.distance_m.z : p.distance_m.y);
-}
-float mean_of(Patch p) {
-    return mix(mix(p.distance_m.w, p.distance_m.z, p.part.x), mix(p.distance_m.x, p.distance_m.y, p.part.x), p.part.y);
-}
-
-// Distance of the surface that a cube map sees in a direction; +inf for sky. Interpolation with a sky texel is inf or
-// NaN, and stays out: the nearest texel counts there, so that nothing but finite values or +inf comes back.
-float seen_in(textureCubeArray map, vec4 at, float level) {
-    if (!bilinear) {
-        float texel_m = textureLod(samplerCubeArray(map, nearest_clamp), at, level).x;
-        return texel_m < LARGEST ? texel_m : INFINITE;
-    }
-    Patch texels = patch_of(map, at, level);
-    float nearest_m = nearest_of(texels), smooth_m = mean_of(texels);
-    if (!(nearest_m < LARGEST)) return INFINITE;
-    if (!(abs(smooth_m) < LARGEST)) return nearest_m;
-    return clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
-}
-
-float seen_distance(vec3 from_center, uint place, float level) {
-    vec4 at = vec4(from_center, place);
-    if (through_cocoon()) return seen_in(cocoon_distance, at, min(level, float(last_level(cocoon_distance))));
-    if (level > 0.0 && last_level(cubemap_distance_mips) > 0)
-        return seen_in(cubemap_distance_mips, at, min(level, float(last_level(cubemap_distance_mips))));
-    return seen_in(cubemap_distance, at, 0.0);
-}
-
-// Texture fetches that seen_distance() makes.
-uint fetches_of(float level) {
-    bool coarse = level > 0.0 && (through_cocoon() || last_level(cubemap_distance_mips) > 0);
-    return bilinear && coarse ? 4u : 1u;
 }
 
 float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
@@ -121,12 +117,12 @@ struct Result {
     uint place, end, steps, fetches;
 };
 
-vec3 center_of(uint place) { return texelFetch(active_center, ivec2(place, 0), 0).xyz; }
+vec3 center_of(uint place) { return active_centers[place].xyz; }
 
 bool sees_sky(vec3 from_center, inout Result result) {
     result.fetches++;
-    vec4 at = vec4(from_center, result.place);
-    return !(textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x < LARGEST);
+    ivec3 texel = face_texel(from_center, result.place, int(frame.counts.z));
+    return !(texelFetch(cubemap_distance, texel, 0).x < LARGEST);
 }
 
 void end_in_sky(inout Result result) {
@@ -168,7 +164,7 @@ struct Sample {
     float t, gap, distance_m, seen_m;
 };
 
-Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, float level) {
+Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, int level) {
     precise vec3 at = from_center + direction * t;
     precise float distance_m = length(at), seen_m = seen_distance(at, place, level);
     return Sample(t, distance_m - seen_m, distance_m, seen_m);
@@ -197,13 +193,14 @@ float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
     const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0);
     int longest = min(chain, int(frame.flags.z));
+    bool volumes = skip_volume && textureSize(active_volume, 0).x > 1;
     uint fetches = fetches_of(quality.level);
     Result result = Result(start_m, best, END_steps_exhausted, 0u, 0u);
     vec3 from_center = origin - center_of(best);
     precise float step_m = quality.first_m;
     Sample front = NONE, behind = NONE, now = NONE;
     int used = 0, refined = 0;
-    if (skip_volume) now.t = skipped(now.t, step_m, best, origin, direction);
+    if (volumes) now.t = skipped(now.t, step_m, best, origin, direction);
     for (int i = 0; i < quality.steps; ++i) {
         result.steps++;
         result.fetches += fetches;
@@ -237,7 +234,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         from_center = origin - center_of(result.place);
         if (step_back) now.t -= step_m;
         else step_m *= quality.ratio;
-        if (skip_volume) now.t = skipped(now.t, step_m, result.place, origin, direction);
+        if (volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);
         front = NONE; // what the last cube map saw says nothing about this one
         refined = 0;
     }
@@ -277,12 +274,14 @@ void store(ivec2 pixel, Result result) {
 }
 
 bool has_ray(ivec2 pixel, out float depth_m, out vec4 normal) {
+    if (texelFetch(screen_finished, pixel, 0).x != 0u) return false;
     depth_m = texelFetch(depth_half, pixel, 0).x;
     normal = texelFetch(normal_jittered, pixel, 0);
-    return texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal.xyz);
+    return reflects(depth_m, normal.xyz);
 }
 
 void main() {
+    load_active_centers();
     ivec2 size = imageSize(travelled), pixel = own_pixel(size);
     float depth_m;
     vec4 normal;

@@ -3,8 +3,8 @@
 PASS("March along the chain", "000, Cube-map tracing pseudo-code")
 #include "slot.h"
 #line 202
-OPTIONAL_READ(textureCubeArray, cubemap_distance_mips, R32F, CUBEMAPS_MIPS, INFINITY)
-OPTIONAL_READ(textureCubeArray, cocoon_distance, R32F, CUBEMAPS_MIPS, INFINITY)
+OPTIONAL_READ(texture2DArray, cubemap_distance_mips, R32F, CUBEMAPS_MIPS, INFINITY)
+OPTIONAL_READ(texture2DArray, cocoon_distance, R32F, CUBEMAPS_MIPS, INFINITY)
 OPTIONAL_READ(texture2DArray, cocoon, R16F, COCOON, 0)
 OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
 DISPATCH_LIST(cubemap_list)
@@ -25,6 +25,7 @@ CHOICE3(fallback, cocoon, black, lookup, cocoon, "000, Tracing fallback solution
 CHOICE2(fallback_start, surface, stopped, surface, "000 leaves it open; chosen by measuring", "lookup: by the ray's direction, or towards where the ray stopped; cocoon: traced from the surface, or from there")
 CHOICE2(depth, capped, captured, capped, "000, Generating cocoon MIP (optimization for rays ending up at sky)", "distance that rays are marched through: as it is, or the cocoon's chain, in which rays to the sky soon meet its cap")
 SPEC(bool,  skip_volume,  true,  0,  1,    "1", "000, Cube-map tracing optimizations", "rays start where they leave a cube map's inner volume; off: all of it is marched")
+SPEC(float, rough_level, 0.0,   0.0, 16.0, "levels", "000, Cube-map tracing optimizations", "level of the distance chain at roughness 1; less rough surfaces take a part of it, smooth ones level 0; 0: off")
 PUSH(float, length_m,       300.0, 0.001, 1e6, "m", "000, Cube-map tracing", "sum of the steps")
 PUSH(float, length_lq_m,    100.0, 0.001, 1e6, "m", "000, Cube-map tracing", "the same on rougher surfaces")
 PUSH(float, scale_min,      1.18,  1.0, 4.0, "1", "000, Cube-map tracing", "smallest ratio of a step to the one before")
@@ -39,4 +40,3 @@ PUSH(float, mass_m,         0.1,   0.0, 1e6, "m", "000, ComputeMassDepth (not pr
 PUSH(float, mass_step,      3.0,   0.0, 100.0, "1", "000, ComputeMassDepth (not printed); chosen by measuring", "part of the step that adds to it")
 PUSH(float, clamp_part,     0.05,  0.0, 100.0, "1", "000, threshold (not printed); chosen by measuring", "part of the nearest texel's distance within which interpolation stays")
 PUSH(float, verify_part,    0.02,  0.0, 100.0, "1", "chosen by measuring", "part of the distance within which verify accepts")
-PUSH(float, rough_level,    0.0,   0.0, 16.0, "levels", "000, Cube-map tracing optimizations", "level of the distance chain at roughness 1; less rough surfaces take a part of it, smooth ones level 0; 0: off")

@@ -5,10 +5,19 @@
 // xy: place on the face in [0, 1]² from its top left corner; z: face 0 … 5 for +X -X +Y -Y +Z -Z.
 vec3 face_from_direction(vec3 d) {
     vec3 a = abs(d);
-    if (a.z >= a.x && a.z >= a.y)
-        return vec3(0.5 + 0.5 * vec2(d.z < 0.0 ? -d.x : d.x, -d.y) / a.z, d.z < 0.0 ? 5.0 : 4.0);
-    if (a.y >= a.x) return vec3(0.5 + 0.5 * vec2(d.x, d.y < 0.0 ? -d.z : d.z) / a.y, d.y < 0.0 ? 3.0 : 2.0);
-    return vec3(0.5 + 0.5 * vec2(d.x < 0.0 ? d.z : -d.z, -d.y) / a.x, d.x < 0.0 ? 1.0 : 0.0);
+    bool z = a.z >= a.x && a.z >= a.y, y = !z && a.y >= a.x;
+    float major = z ? d.z : y ? d.y : d.x;
+    bool back = major < 0.0;
+    vec2 across = z   ? vec2(back ? -d.x : d.x, -d.y)
+                  : y ? vec2(d.x, back ? -d.z : d.z)
+                      : vec2(back ? d.z : -d.z, -d.y);
+    return vec3(0.5 + 0.5 * across / abs(major), (z ? 4.0 : y ? 2.0 : 0.0) + (back ? 1.0 : 0.0));
+}
+
+// The texel in a direction, in cube map `place` of an array of faces.
+ivec3 face_texel(vec3 direction, uint place, int size) {
+    vec3 face = face_from_direction(direction);
+    return ivec3(clamp(ivec2(face.xy * float(size)), ivec2(0), ivec2(size - 1)), 6 * int(place) + int(face.z));
 }
 
 // The inverse; the largest component is ±1.
