@@ -163,7 +163,7 @@ struct tracing {
 
 /* Distance that takes the place on screen from there to here, as width at a depth. */
 static double width_m(const struct tracing *tracing, double from, double to, double depth_m) {
-    double a[2], b[2], unused;
+    double a[2] = {0}, b[2] = {0}, unused;
     walk_project(tracing->grid, tracing->ray, from, a, &unused);
     walk_project(tracing->grid, tracing->ray, to, b, &unused);
     return hypot(b[0] - a[0], b[1] - a[1]) * walk_texel_angle(tracing->grid) * depth_m;
@@ -182,7 +182,7 @@ static bool decide(void *user, const struct walk_cell *cell) {
     }
     const double deep = rules->thickness + rules->thickness_m / cell->depth_m + rules->thickness_slope * cell->steep;
     if (in >= -deep / (1 + deep) / cell->depth_m && out < in) {
-        double a[2], b[2], za, zb;
+        double a[2] = {0}, b[2] = {0}, za, zb;
         walk_project(tracing->grid, tracing->ray, cell->t_in, a, &za);
         walk_project(tracing->grid, tracing->ray, cell->t_out, b, &zb);
         double across = fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1])); /* texels */
