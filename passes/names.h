@@ -25,6 +25,7 @@
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LIST(list)
 #define WORKGROUP(width, height)
+#define FACT(fact)
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)

@@ -17,6 +17,7 @@
 #undef DISPATCH_LEVELS
 #undef DISPATCH_LIST
 #undef WORKGROUP
+#undef FACT
 #undef PER_RAY
 #undef ACCUMULATE
 #undef NEEDS
@@ -67,6 +68,7 @@
      .order = GLINT_ORDER_##order_},
 #define DISPATCH_LIST(list) {.kind = GLINT_ROW_DISPATCH_LIST, .id = __LINE__, .name = #list},
 #define WORKGROUP(width, height) {.kind = GLINT_ROW_WORKGROUP, .id = __LINE__, .name = "", .first = width, .last = height},
+#define FACT(fact) {.kind = GLINT_ROW_FACT, .id = __LINE__, .name = #fact},
 #define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__, .name = ""},
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},

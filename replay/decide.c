@@ -18,14 +18,15 @@ static void check_slots(const struct graph *graph, const char *option, const cha
     }
 }
 
-/* Whether the frame gives the pass something to do; the reason states the figures. */
+/* Whether the frame gives the pass something to do, and which of its facts do not hold; the reason states the figures. */
 static bool decide_by_facts(struct graph_pass *pass, const struct facts *facts, struct faults *faults,
                             struct glint_error *err) {
     char reason[192];
+    uint32_t fact = 0;
     pass->runs = true;
     for (size_t r = 0; r < pass->pass->row_count; r++) {
         const struct glint_row *row = &pass->pass->rows[r];
-        if (row->kind != GLINT_ROW_NEEDS) continue;
+        if (row->kind != GLINT_ROW_NEEDS && row->kind != GLINT_ROW_FACT) continue;
         bool known = true;
         struct glint_error own = {0};
         bool holds = facts->holds(facts->user, row->name, reason, sizeof reason, &known, &own);
@@ -35,7 +36,8 @@ static bool decide_by_facts(struct graph_pass *pass, const struct facts *facts, 
                        pass->pass->variant, row->name);
             continue;
         }
-        if (holds && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
+        if (row->kind == GLINT_ROW_FACT) pass->lacks |= (uint32_t)!holds << fact++;
+        else if (holds && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
         else if (!holds) {
             if (pass->runs) pass->reason[0] = 0;
             pass->runs = false;

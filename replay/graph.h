@@ -35,6 +35,7 @@ struct graph_pass {
     const struct glint_pass *pass;
     enum rank rank;
     bool runs;
+    uint32_t lacks;   /* a bit for each FACT row, in order: the fact does not hold */
     bool cached_work; /* it reads cube maps and nothing that changes with every frame */
     char reason[192];
 };

@@ -33,17 +33,21 @@ struct workgroup pass_workgroup(const struct glint_pass *pass) {
     return (struct workgroup){8, 8};
 }
 
-bool constants_init(struct constants *constants, const struct graph *graph, const struct pipeline_pass *entry,
+bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
                     bool diagnostics, struct glint_error *err) {
     *constants = (struct constants){.push_count = 2};
-    const struct glint_pass *pass = entry->pass;
+    const struct glint_pass *pass = graph_pass->pass;
+    const double *values = graph_pass->entry->values;
+    uint32_t facts = 0;
     const struct workgroup group = pass_workgroup(pass);
     bool fits = add_constant(constants, 0, diagnostics) && add_constant(constants, 1, group.width) &&
                 add_constant(constants, 2, group.height);
     for (size_t i = 0; i < pass->row_count && fits; i++) {
-        uint32_t bits = row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], entry->values[i]) : 0;
+        uint32_t bits = row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], values[i]) : 0;
         if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
             fits = add_constant(constants, pass->rows[i].id, bits);
+        else if (pass->rows[i].kind == GLINT_ROW_FACT)
+            fits = add_constant(constants, pass->rows[i].id, !(graph_pass->lacks >> facts++ & 1));
         else if (pass->rows[i].optional) /* has_NAME in bindings.glsl */
             fits = add_constant(constants, 1000 + pass->rows[i].id,
                                 graph_bound(graph, &pass->rows[i])->source != SOURCE_NOTHING);

@@ -23,7 +23,7 @@ struct constants {
     uint32_t push[PUSH_BYTES_MAX / 4]; /* the dispatch's level and phase first */
     uint32_t push_count;
 };
-bool constants_init(struct constants *constants, const struct graph *graph, const struct pipeline_pass *pass,
+bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
                     bool diagnostics, struct glint_error *err);
 
 struct program {

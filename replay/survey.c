@@ -88,8 +88,11 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
 }
 
 void survey_capture_parts(const struct glint_capture *capture, struct glint_survey *survey) {
-    for (size_t i = 0; i < glint_capture_part_count(capture); i++)
-        survey->cubemaps += glint_capture_part(capture, i)->has_cubemap;
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        survey->cubemaps += part->has_cubemap;
+        survey->volumes += part->has_cubemap && part->cubemap.inner != GLINT_VOLUME_NONE;
+    }
     survey->has_sky = glint_capture_find(capture, "sky") != NULL;
     survey->has_previous = glint_capture_frame(capture)->has_previous;
 }
@@ -122,6 +125,10 @@ bool survey_fact(const struct glint_survey *survey, const char *fact, char *reas
     if (strcmp(fact, "cubemaps") == 0) {
         snprintf(reason, size, "%u cube map%s", survey->cubemaps, survey->cubemaps == 1 ? "" : "s");
         return survey->cubemaps > 0;
+    }
+    if (strcmp(fact, "volumes") == 0) {
+        snprintf(reason, size, "%u cube map%s with an inner volume", survey->volumes, survey->volumes == 1 ? "" : "s");
+        return survey->volumes > 0;
     }
     if (strcmp(fact, "sky") == 0) {
         snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels are sky", survey->sky, survey->pixels);

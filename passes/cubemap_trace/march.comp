@@ -193,14 +193,13 @@ float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
     const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0);
     int longest = min(chain, int(frame.flags.z));
-    bool volumes = skip_volume && textureSize(active_volume, 0).x > 1;
     uint fetches = fetches_of(quality.level);
     Result result = Result(start_m, best, END_steps_exhausted, 0u, 0u);
     vec3 from_center = origin - center_of(best);
     precise float step_m = quality.first_m;
     Sample front = NONE, behind = NONE, now = NONE;
     int used = 0, refined = 0;
-    if (volumes) now.t = skipped(now.t, step_m, best, origin, direction);
+    if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, best, origin, direction);
     for (int i = 0; i < quality.steps; ++i) {
         result.steps++;
         result.fetches += fetches;
@@ -234,7 +233,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         from_center = origin - center_of(result.place);
         if (step_back) now.t -= step_m;
         else step_m *= quality.ratio;
-        if (volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);
+        if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);
         front = NONE; // what the last cube map saw says nothing about this one
         refined = 0;
     }

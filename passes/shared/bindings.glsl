@@ -18,6 +18,8 @@
 // have at least as many workgroups as HALF has tiles. See work_list.glsl.
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 //
+// FACT(name) gives a constant fact_NAME: false when the survey has found that the frame has nothing of the kind, so that the
+// code for it is left out (see survey.c for the names).
 // OPTIONAL_READ gives a constant has_NAME: false when no pass makes the image and its "nothing" value is bound.
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when
 // frame.flags.x is 1; otherwise they are stand-ins of one texel with the image's "nothing" value.
@@ -50,6 +52,7 @@ layout(constant_id = 0) const bool diagnostics = false;
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LIST(list)
 #define WORKGROUP(width, height)
+#define FACT(fact) layout(constant_id = __LINE__) const bool fact_##fact = true;
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)

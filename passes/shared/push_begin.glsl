@@ -11,6 +11,7 @@
 #undef CHOICE3
 #undef CHOICE4
 #undef PUSH
+#undef FACT
 #define READ(kind, name)
 #define OPTIONAL_READ(kind, name, format, size, nothing)
 #define SELF(kind, name, image)
@@ -21,6 +22,7 @@
 #define CHOICE2(name, initial, a, b, source, help)
 #define CHOICE3(name, initial, a, b, c, source, help)
 #define CHOICE4(name, initial, a, b, c, d, source, help)
+#define FACT(fact)
 #define PUSH(type, name, initial, lowest, highest, unit, source, help) type name;
 layout(push_constant, std430) uniform Parameters {
     uint dispatch_level;

@@ -21,6 +21,7 @@ enum glint_row_kind {
     GLINT_ROW_CHOICE,          /* a specialization constant with named values */
     GLINT_ROW_PUSH,            /* a push constant */
     GLINT_ROW_DISPATCH,        /* one invocation for each pixel of an image, for cube maps in each face */
+    GLINT_ROW_FACT,            /* a constant: false when the capture shows that this fact does not hold */
     GLINT_ROW_NEEDS,           /* a fact the capture must show for the pass to be needed */
     GLINT_ROW_SELF,            /* all levels of an image that this pass writes; `name` is the binding's */
     GLINT_ROW_HISTORY,         /* what an image held at the end of the previous frame; `name` is the binding's */

@@ -64,7 +64,7 @@ struct glint_survey {
     uint64_t smooth;                       /* of those, with roughness up to 0.1 */
     uint64_t roughness[GLINT_SURVEY_BINS]; /* reflecting pixels by roughness, bins of 0.1 */
     float depth_m[2], roughness_range[2], specular_range[2], metalness_range[2]; /* lowest and highest without sky */
-    uint32_t cubemaps;
+    uint32_t cubemaps, volumes; /* volumes: cube maps with an inner volume */
     bool has_sky, has_previous;
 };
 /* Reads the G-buffer. */
