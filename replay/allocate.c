@@ -25,9 +25,10 @@ void replay_drop_images(struct glint_replay *replay, bool all) {
     }
 }
 
+/* What is made from cube maps alone serves the next frame too. */
 static bool is_transient(const struct run *run, const struct graph_image *image) {
     return run->options->outputs && image->source == SOURCE_MADE && !image->wanted && !image->kept &&
-           !image->pass->host;
+           !image->pass->host && !run->graph.passes[image->maker].cached_work;
 }
 
 struct shared_block {

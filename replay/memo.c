@@ -62,12 +62,12 @@ static bool sky_key(const struct run *run, const struct graph_image *image, uint
 }
 
 /* What a shot's frames may share keeps its key, so that work on it is done once. Everything else is another with every
-   load. */
+   load, or where its work may be found again, with another capture. */
 static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph.images[i];
     if (image->source == SOURCE_CAPTURE && image->row->size == GLINT_SIZE_SKY) return sky_key(run, image, key, err);
     if (image->source != SOURCE_CAPTURE || !size_is_array(image->row->size) || !sibling_key(run, key))
-        *key = mix_number(*key, run->replay->serial);
+        *key = run->content[0] ? mix_text(*key, run->content) : mix_number(*key, run->replay->serial);
     return true;
 }
 
@@ -118,6 +118,7 @@ static void decide(struct run *run, struct step *step, size_t place) {
             (outdated(run, i) || run->options->no_cache))
             step->execute = true;
     }
+    if (run_restore(run, step)) step->execute = false;
     /* What a pass of the loop reads from another one is there for one ray at a time. */
     for (size_t later = place + 1; later < run->graph.loop_end && place >= run->graph.loop_first; later++)
         step->execute |= run->steps[later].execute && pass_depends(run->steps[later].pass->pass, step->pass->pass);

@@ -23,6 +23,10 @@ struct glint_replay *glint_replay_create(struct glint_device *device, struct gli
 static void forget_results(struct glint_replay *replay) {
     free(replay->results);
     replay->results = NULL;
+    free(replay->cache_keys);
+    replay->cache_keys = NULL;
+    free(replay->cache);
+    replay->cache = NULL;
     replay->result_count = 0;
     json_decref(replay->record);
     replay->record = NULL;
@@ -55,10 +59,22 @@ bool glint_replay_load(struct glint_replay *replay, struct glint_capture *captur
     replay->serial++;
     replay->surveyed = false;
     replay->sky_hash = 0;
+    replay->hash[0] = 0;
     channels_finish(&replay->gbuffer);
     channels_finish(&replay->sky);
     forget_results(replay);
     memset(replay->seconds, 0, sizeof replay->seconds);
+    return true;
+}
+
+bool replay_hash(struct glint_replay *replay, char hash[33], struct glint_error *err) {
+    const double start = now_seconds();
+    if (!replay->hash[0] && !glint_capture_hash(replay->capture, replay->hash, err)) {
+        replay->hash[0] = 0;
+        return false;
+    }
+    memcpy(hash, replay->hash, sizeof replay->hash);
+    replay->seconds[PHASE_READ] += now_seconds() - start;
     return true;
 }
 
@@ -78,7 +94,10 @@ static bool store_results(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     size_t count = run->graph.pass_count;
     replay->results = calloc(count + 1, sizeof *replay->results);
-    if (!replay->results) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    replay->cache_keys = calloc(count + 1, sizeof *replay->cache_keys);
+    replay->cache = run->content[0] ? strdup(run->options->cache) : NULL;
+    if (!replay->results || !replay->cache_keys || (run->content[0] && !replay->cache))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t p = 0; p < count; p++) {
         const struct graph_pass *pass = &run->graph.passes[p];
         struct glint_pass_result *result = &replay->results[p];
@@ -90,6 +109,8 @@ static bool store_results(struct run *run, struct glint_error *err) {
             result->time = time_statistics(&ns, 1);
         } else {
             result->cached = !run->steps[p].execute;
+            if (!run->options->outputs) /* a file of all its images */
+                memcpy(replay->cache_keys[p], run->steps[p].cache_key, CACHE_KEY_SIZE);
             result->time = time_statistics(run->steps[p].ns, run->steps[p].timed);
         }
     }
@@ -108,9 +129,10 @@ static bool run_all(struct run *run, struct glint_error *err) {
         !run_sizes(run, err) || !run_history(run, err))
         return false;
     frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
-    if (!run_allocate(run, err) || !run_keys(run, err)) return false;
+    if (!run_allocate(run, err)) return false;
+    if (options->cache && !replay_hash(replay, run->content, NULL)) run->content[0] = 0;
     run->touched = true;
-    if (!run_upload(run, err)) return false;
+    if (!run_keys(run, err) || !run_upload(run, err)) return false;
     start = now_seconds();
     bool ok = run_prepare(run, err) && run_execute(run, err);
     replay->seconds[PHASE_PASSES] += now_seconds() - start;

@@ -23,7 +23,7 @@ struct job {
     size_t count;
     char path[PATH_SIZE];
     pthread_t thread;
-    bool started, ok;
+    bool busy, threaded, ok;
     struct glint_error err;
     double seconds;
 };
@@ -107,16 +107,17 @@ static void *write_file(void *argument) {
 }
 
 static bool job_finish(struct job *job, struct glint_replay *replay, struct glint_error *err) {
-    if (!job->started) return true;
-    pthread_join(job->thread, NULL);
-    job->started = false;
+    if (!job->busy) return true;
+    if (job->threaded) pthread_join(job->thread, NULL);
+    job->busy = false;
     replay->seconds[PHASE_WRITE] += job->seconds;
     return job->ok || glint_fail(err, job->err.code, "%s", job->err.message);
 }
 
 static void job_start(struct job *job) {
-    job->started = pthread_create(&job->thread, NULL, write_file, job) == 0;
-    if (!job->started) write_file(job);
+    job->busy = true;
+    job->threaded = pthread_create(&job->thread, NULL, write_file, job) == 0;
+    if (!job->threaded) write_file(job);
 }
 
 static json_t *image_record(const struct image_part *part, const char *file) {
@@ -177,9 +178,7 @@ static bool write_json(const char *folder, const json_t *root, struct glint_erro
 
 static bool finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err) {
     char hash[33];
-    double start = now_seconds();
-    if (!glint_capture_hash(replay->capture, hash, err)) return false;
-    replay->seconds[PHASE_READ] += now_seconds() - start;
+    if (!replay_hash(replay, hash, err)) return false;
     json_object_set_new(root, "capture",
                         json_pack("{ssss}", "path", glint_capture_path(replay->capture), "xxh3_128", hash));
     json_object_set_new(root, "seconds",
@@ -190,22 +189,35 @@ static bool finish_record(struct glint_replay *replay, json_t *root, struct glin
     return true;
 }
 
-/* One pass: read back while the pass before it is still being written, then handed to the worker. */
+static bool file_of_pass(const struct glint_replay *replay, size_t p, const char *folder, char path[PATH_SIZE]) {
+    return snprintf(path, PATH_SIZE, "%s/%02zu-%s.exr", folder, p + 1, replay->results[p].pass->slot) < PATH_SIZE;
+}
+
+/* One pass: read back while the pass before it is still being written, then handed to the worker. What lies in the cache
+   folder is copied from there. */
 static bool write_pass(struct glint_replay *replay, size_t p, const char *folder, struct job *job, struct job *before,
                        json_t *root, struct glint_error *err) {
     const struct glint_pass_result *result = &replay->results[p];
-    char file[128];
     job->pass = result->pass;
     job->count = parts_of_pass(replay, result->pass, job->parts, PASS_PARTS_MAX);
-    snprintf(file, sizeof file, "%02zu-%s.exr", p + 1, result->pass->slot);
-    if (snprintf(job->path, sizeof job->path, "%s/%s", folder, file) >= (int)sizeof job->path)
+    if (!file_of_pass(replay, p, folder, job->path))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     json_t *images = json_object_get(json_array_get(json_object_get(root, "passes"), p), "images");
-    for (size_t i = 0; i < job->count; i++) json_array_append_new(images, image_record(&job->parts[i], file));
+    for (size_t i = 0; i < job->count; i++)
+        json_array_append_new(images, image_record(&job->parts[i], job->path + strlen(folder) + 1));
+    if (result->cached && replay->cache_keys[p][0] && cache_give(replay->cache, replay->cache_keys[p], job->path))
+        return true;
     bool read = readback_images(replay, job->parts, job->count, &job->buffer, job->offsets, err);
     if (!job_finish(before, replay, read ? err : NULL) || !read) return false;
     job_start(job);
     return true;
+}
+
+/* For other processes. A folder that cannot be written keeps nothing. */
+static void keep_pass(const struct glint_replay *replay, size_t p, const char *folder) {
+    char path[PATH_SIZE];
+    if (replay->results[p].cached || !replay->cache_keys[p][0]) return;
+    if (file_of_pass(replay, p, folder, path)) cache_store(replay->cache, replay->cache_keys[p], path, CACHE_BYTES_MAX);
 }
 
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
@@ -224,12 +236,13 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
         ok = report_progress(progress, user, replay->results[p].pass->slot, (double)p / (double)replay->result_count,
                              err) &&
              write_pass(replay, p, folder, &jobs[turn], &jobs[1 - turn], root, err);
-        turn = 1 - turn;
+        if (jobs[turn].busy) turn = 1 - turn;
     }
     for (size_t j = 0; jobs && j < 2; j++) {
         ok = job_finish(&jobs[j], replay, ok ? err : NULL) && ok;
         host_buffer_finish(&jobs[j].buffer, replay->device);
     }
+    for (size_t p = 0; ok && p < replay->result_count; p++) keep_pass(replay, p, folder);
     ok = ok && finish_record(replay, root, err) && write_json(folder, root, err);
     free(jobs);
     json_decref(root);

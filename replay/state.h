@@ -4,6 +4,7 @@
 
 #include <jansson.h>
 
+#include "cache.h"
 #include "frame_block.h"
 #include "graph.h"
 #include "image.h"
@@ -39,7 +40,10 @@ struct glint_replay {
     struct glint_pass_result *results;
     size_t *result_places; /* in the whole pipeline's order, counted from 1 */
     size_t result_count;
-    json_t *record; /* of the last run, for run.json; NULL before the first */
+    char *cache;                        /* the folder of the last run's, or NULL */
+    char (*cache_keys)[CACHE_KEY_SIZE]; /* beside results; "": the pass's file is not kept there */
+    char hash[33];                      /* of the capture; "": not known yet */
+    json_t *record;                     /* of the last run, for run.json; NULL before the first */
     double seconds[PHASES];
 };
 
@@ -59,6 +63,7 @@ struct step {
     struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
     size_t dispatch_count;
     uint64_t key;
+    char cache_key[CACHE_KEY_SIZE]; /* of its file in the cache folder; "": none */
     bool execute;
     uint32_t stamp;    /* written when it ended, in the commands under way; 0: it is not in them */
     uint64_t round_ns; /* so far */
@@ -74,6 +79,7 @@ struct run {
     struct graph graph;
     struct tables tables;
     double *host_seconds; /* one for each pass */
+    char content[33];     /* hash of the capture; "": nothing of it is found again by other processes */
     struct frame_sizes sizes;
     struct frame_block block;
     uint32_t *active;      /* the capture's cube maps that take part, sizes.active of them */
@@ -121,6 +127,9 @@ void replay_drop_images(struct glint_replay *replay, bool all);
 /* memo.c: keys of images and steps, and which steps have to execute. */
 bool run_keys(struct run *run, struct glint_error *err);
 
+/* restore.c: work that an earlier process left; false when the step has to execute. */
+bool run_restore(struct run *run, struct step *step);
+
 /* upload.c: fills the images that no shader makes. */
 bool run_upload(struct run *run, struct glint_error *err);
 
@@ -143,6 +152,8 @@ void run_release(struct run *run);
 /* record.c: what run.json says of a run. */
 json_t *run_record(const struct run *run);
 
+/* The capture's hash, found once. */
+bool replay_hash(struct glint_replay *replay, char hash[33], struct glint_error *err);
 bool replay_staging(struct glint_replay *replay, VkDeviceSize size, struct glint_error *err);
 
 #endif

@@ -14,6 +14,8 @@ import sys
 
 import formulas
 
+os.environ["GLINT_CACHE"] = "none"  # each run is to take its own time
+
 WORK = pathlib.Path("out/docs")
 SIZE, CUBE, TRUTH = "480x270", "128", "64"
 SHOT_SIZE, SHOT_TRUTH, FRAMES = "320x180", "32", 16

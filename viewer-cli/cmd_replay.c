@@ -13,12 +13,12 @@
 struct arguments {
     struct pipeline_args pipeline;
     struct list captures;
-    const char *out, *device;
+    const char *out, *device, *cache;
     bool json;
     struct against against;
 };
 
-enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_AGAINST };
+enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_CACHE, KEY_AGAINST };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -32,6 +32,9 @@ static const struct argp_option options[] = {
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
     {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches; changes no other bit", 0},
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed, and every frame although it is complete", 0},
+    {"cache",       KEY_CACHE,       "DIR",  0, "Folder in which work on cube maps that a run holds is kept for later calls, 4 GiB at most; "
+        "none: nowhere. Not looked up with --no-cache and --repeat (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, "
+        "else ~/.cache/glint)", 0},
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better answer. truth: the true reflection and the mirror rays "
         "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
         "preset reference on the same capture, or its run: reference=RUN", 0},
@@ -81,6 +84,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_NO_CACHE:
         r->no_cache = true;
+        return 0;
+    case KEY_CACHE:
+        a->cache = arg;
         return 0;
     case KEY_AGAINST:
         against_parse(&a->against, arg, state);
@@ -299,9 +305,24 @@ static enum status replay_all(const struct job *job) {
     return status;
 }
 
+/* The folder asked for, or the usual one; NULL: none. The caller frees it. */
+static char *cache_folder(const char *asked) {
+    const char *named = asked ? asked : getenv("GLINT_CACHE");
+    const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    char *folder = NULL;
+    int length = 0;
+    if (named && strcmp(named, "none") == 0) return NULL;
+    if (named && named[0]) length = asprintf(&folder, "%s", named);
+    else if (base && base[0] == '/') length = asprintf(&folder, "%s/glint", base);
+    else if (home && home[0] == '/') length = asprintf(&folder, "%s/.cache/glint", home);
+    return length > 0 ? folder : NULL;
+}
+
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_replay, argc, argv, &a);
+    char *cache = cache_folder(a.cache);
+    a.pipeline.replay.cache = cache;
     struct job job = {.a = &a, .against = &a.against};
     struct glint_error err = {0};
     struct glint_device_options device_options = {.select = a.device};
@@ -320,6 +341,7 @@ static enum status run(int argc, char **argv) {
     glint_pipeline_destroy(&job.pipeline);
     pipeline_args_finish(&a.pipeline);
     list_free(&a.captures);
+    free(cache);
     return status;
 }
 

@@ -77,6 +77,7 @@ void print_man_page(void) {
            ".Sh COMMANDS\n");
     for (size_t i = 0; i < command_count; i++) print_command(commands[i]);
     printf(".Sh ENVIRONMENT\n.Bl -tag -width GLINT_VALIDATION\n"
+           ".It Ev GLINT_CACHE\nThe folder in which work on cube maps is kept; none: nowhere.\n"
            ".It Ev GLINT_DEVICE\nThe device to use: its index or a part of its name.\n"
            ".It Ev GLINT_PRESETS\nA folder with presets, searched before the installed one.\n"
            ".It Ev GLINT_VALIDATION\n1 switches the Khronos validation layer on.\n"

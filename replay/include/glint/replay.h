@@ -89,6 +89,9 @@ struct glint_replay_options {
     uint32_t repeat;                        /* timed rounds after a warm-up; 0: one round, first use included */
     uint32_t warmup;                        /* rounds before the timed ones; 0: 1 */
     bool no_cache;                          /* run every pass although nothing changed */
+    /* A folder, or NULL: files of passes that read cube maps and nothing of the frame are kept there when a run is written
+       (4 GiB at most), and found again by other processes, unless no_cache or repeat ask for execution. */
+    const char *cache;
 };
 
 struct glint_plan_entry {

@@ -1,0 +1,145 @@
+/* The cache folder: what comes back from it, what does not, and how much stays. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "cache.h"
+
+static const char *const keys[] = {"00000000000000000000000000000000", "11111111111111111111111111111111",
+                                   "22222222222222222222222222222222"};
+struct place {
+    char top[64], folder[96], file[96], back[96];
+};
+
+static void begin(struct place *place) {
+    snprintf(place->top, sizeof place->top, "/tmp/glint-cache-XXXXXX");
+    assert_non_null(mkdtemp(place->top));
+    snprintf(place->folder, sizeof place->folder, "%s/a/b", place->top); /* neither exists */
+    snprintf(place->file, sizeof place->file, "%s/file", place->top);
+    snprintf(place->back, sizeof place->back, "%s/back", place->top);
+}
+
+static void end(const struct place *place) {
+    char command[128];
+    snprintf(command, sizeof command, "rm -r '%s'", place->top);
+    assert_int_equal(system(command), 0);
+}
+
+static void write_text(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void expect_text(const char *path, const char *text) {
+    char found[64] = "";
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_non_null(fgets(found, sizeof found, file));
+    fclose(file);
+    assert_string_equal(found, text);
+}
+
+static size_t count_files(const char *folder) {
+    size_t count = 0;
+    DIR *entries = opendir(folder);
+    assert_non_null(entries);
+    for (struct dirent *entry; (entry = readdir(entries));) count += entry->d_name[0] != '.';
+    closedir(entries);
+    return count;
+}
+
+static void what_was_stored_comes_back(void **state) {
+    struct place place;
+    char path[256];
+    (void)state;
+    begin(&place);
+    assert_false(cache_find(place.folder, keys[0], path, sizeof path)); /* no folder yet */
+    write_text(place.file, "first");
+    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    write_text(place.file, "changed"); /* in place: the entry is a copy */
+    assert_true(cache_give(place.folder, keys[0], place.back));
+    expect_text(place.back, "first");
+    write_text(place.back, "changed");
+    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    expect_text(path, "first");
+    assert_false(cache_find(place.folder, keys[1], path, sizeof path));
+    write_text(place.file, "second");
+    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    assert_true(cache_give(place.folder, keys[0], place.back));
+    expect_text(place.back, "second");
+    assert_int_equal(count_files(place.folder), 1); /* nothing half written, nothing old */
+    end(&place);
+}
+
+/* Catches: bytes that went bad handed out as if they were the stored ones. */
+static void a_damaged_entry_is_none(void **state) {
+    struct place place;
+    char path[256];
+    (void)state;
+    begin(&place);
+    for (int give = 0; give < 2; give++) {
+        write_text(place.file, "first");
+        cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+        assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+        write_text(path, give ? "firs" : "worst");
+        if (give) assert_false(cache_give(place.folder, keys[0], place.back));
+        else assert_false(cache_find(place.folder, keys[0], path, sizeof path));
+        assert_int_equal(access(place.back, F_OK), -1);
+    }
+    end(&place);
+}
+
+/* Catches: a bound that does not hold, or one that drops what was used last. */
+static void what_was_not_used_for_longest_goes(void **state) {
+    struct place place;
+    char path[256];
+    (void)state;
+    begin(&place);
+    write_text(place.file, "ten bytes.");
+    for (int i = 0; i < 2; i++) {
+        cache_store(place.folder, keys[i], place.file, 25);
+        usleep(20000); /* times of files come in ticks */
+    }
+    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    usleep(20000);
+    cache_store(place.folder, keys[2], place.file, 25);
+    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    assert_false(cache_find(place.folder, keys[1], path, sizeof path));
+    assert_true(cache_find(place.folder, keys[2], path, sizeof path));
+    end(&place);
+}
+
+/* Catches: a cache that makes its user fail. */
+static void a_folder_that_cannot_be_written_keeps_nothing(void **state) {
+    struct place place;
+    char path[256];
+    (void)state;
+    begin(&place);
+    write_text(place.file, "first");
+    cache_store(place.file, keys[0], place.file, UINT64_MAX); /* a file is there already */
+    assert_false(cache_find(place.file, keys[0], path, sizeof path));
+    assert_false(cache_give(place.file, keys[0], place.back));
+    expect_text(place.file, "first");
+    end(&place);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_was_stored_comes_back),
+        cmocka_unit_test(a_damaged_entry_is_none),
+        cmocka_unit_test(what_was_not_used_for_longest_goes),
+        cmocka_unit_test(a_folder_that_cannot_be_written_keeps_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
