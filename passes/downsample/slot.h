@@ -3,6 +3,7 @@
 SLOT("G-buffer at the pipeline's resolution, normals jittered by the NDF")
 READ(texture2D, depth_full)
 READ(texture2D, normal_full)
+WRITE(image2D, inverse_half, R32F, "1/m", HALF, "Z", 0, "1 / depth_half, which is linear on planes; 0 where sky")
 WRITE(image2D, depth_half, R32F, "m", HALF, "Z", INFINITY, "view-linear depth of the picked pixel; +inf where sky")
 WRITE(image2D, normal_jittered, RGBA16F, "1", HALF, "X Y Z roughness", 0, "normal drawn from the NDF around normal_half, world axes; w: roughness")
 WRITE(image2D, normal_half, RGBA16F, "1", HALF, "X Y Z roughness", 0, "unit normal as it was, world axes; w: roughness")

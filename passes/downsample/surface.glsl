@@ -54,6 +54,7 @@ void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen) {
         cone = cone_factor * (ndf == ndf_ggx ? ggx_cone(roughness * roughness, sampled, threshold)
                                              : blinn_phong_cone(roughness, sampled, threshold));
     }
+    imageStore(inverse_half, pixel, vec4(depth_m > 0.0 && depth_m < LARGEST ? 1.0 / depth_m : 0.0));
     imageStore(depth_half, pixel, vec4(depth_m > 0.0 ? depth_m : INFINITE));
     imageStore(normal_half, pixel, vec4(normal, roughness));
     imageStore(normal_jittered, pixel, vec4(ray_normal, roughness));

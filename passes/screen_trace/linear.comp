@@ -10,25 +10,25 @@
 #include "shared/random.glsl"
 #include "shared/work_list.glsl"
 
-// Texels hold pixels that lie `offset` into their block.
+// Half-resolution texels: texel `from` holds the pixel at the ray's start, and the others pixels as far into their blocks.
 struct Grid {
-    vec2 offset;
-    float scale;
+    vec2 from, across; // the ray's place in texels is from + s · across
+    vec2 offset;       // of a texel's pixel in its block, in full-resolution pixels
+    float scale;       // full-resolution pixels of a texel
 };
 
-ivec2 nearest_texel(vec2 place, Grid grid) {
-    return clamp(ivec2(floor((place - grid.offset) / grid.scale + 0.5)), ivec2(0), ivec2(frame.size.zw) - 1);
-}
+precise vec2 texel_at(Grid grid, float s) { return grid.from + s * grid.across; }
+
+ivec2 nearest_texel(vec2 texel) { return clamp(ivec2(floor(texel + 0.5)), ivec2(0), ivec2(frame.size.zw) - 1); }
 
 // Inverse depth that the buffer shows at a place; 0: sky. Between four texels of one surface 1/z is bilinear, which is
 // exact on planes; over a discontinuity the nearest one counts.
-precise float seen_inverse(vec2 place, Grid grid) {
-    if (!interpolate) return 1.0 / texelFetch(depth_half, nearest_texel(place, grid), 0).x;
-    vec2 texel = (place - grid.offset) / grid.scale;
-    ivec2 corner = clamp(ivec2(floor(texel)), ivec2(0), max(ivec2(frame.size.zw) - 2, 0));
-    vec2 part = clamp(texel - vec2(corner), 0.0, 1.0);
+precise float seen_inverse(vec2 texel) {
+    if (!interpolate) return texelFetch(inverse_half, nearest_texel(texel), 0).x;
+    vec2 corner = clamp(floor(texel), vec2(0.0), max(vec2(frame.size.zw) - 2.0, 0.0));
+    vec2 part = clamp(texel - corner, 0.0, 1.0);
     // Gather's order: (0,1) (1,1) (1,0) (0,0).
-    vec4 z = 1.0 / textureGather(sampler2D(depth_half, nearest_clamp), (vec2(corner) + 1.0) / vec2(frame.size.zw));
+    vec4 z = textureGather(sampler2D(inverse_half, nearest_clamp), (corner + 1.0) / vec2(frame.size.zw));
     float low = min(min(z.x, z.y), min(z.z, z.w)), high = max(max(z.x, z.y), max(z.z, z.w));
     // One surface: opposite sides change alike, as 1/z does on a plane, and by no great part.
     if (abs(z.x - z.w - (z.y - z.z)) <= 0.02 * low && high < 2.0 * low)
@@ -42,7 +42,7 @@ struct Facet {
 };
 
 Facet facet_at(vec2 place, Grid grid) {
-    ivec2 texel = nearest_texel(place, grid);
+    ivec2 texel = nearest_texel(place);
     vec2 uv = (vec2(texel) * grid.scale + grid.offset) / vec2(frame.size.xy);
     float depth_m = texelFetch(depth_half, texel, 0).x;
     return Facet(view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z),
@@ -61,34 +61,34 @@ precise float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front
 
 // Whether the picture shows, where the ray is at s, a surface that is no farther from it than the thickness.
 bool shows(ScreenRay ray, float s, Grid grid) {
-    float depth_m = 1.0 / inverse_depth_at(ray, s), seen_m = 1.0 / seen_inverse(ray.start + s * ray.across, grid);
+    float depth_m = 1.0 / inverse_depth_at(ray, s), seen_m = 1.0 / seen_inverse(texel_at(grid, s));
     return abs(depth_m - seen_m) <= thickness * depth_m + thickness_m; // false for the sky's +inf
 }
 
 Result march(ScreenRay ray, Grid grid, float shift) {
     Result result = Result(0.0, false, ray.limit, 0u, 0u);
-    precise float s_front = 0.0, gap_front = 0.0, s_before = 0.0;
+    precise float s_front = 0.0, gap_front = 0.0, s_before = 0.0, s_clear = 0.0;
     bool been_behind = false;
     for (int i = 1; i <= steps; ++i) {
         precise float s = ray.end * pow((float(i) - shift) / float(steps), growth);
         precise float inverse = inverse_depth_at(ray, s);
-        precise vec2 place = ray.start + s * ray.across;
-        precise float seen = seen_inverse(place, grid);
+        precise vec2 texel = texel_at(grid, s);
+        precise float seen = seen_inverse(texel);
         precise float gap = inverse - seen;
         result.steps++;
         result.fetches++;
+        if (gap >= -bias * inverse) {
+            s_before = s_front = s;
+            gap_front = gap;
+            if (!been_behind) s_clear = s;
+            continue;
+        }
         // The ray's nearest depth within the step, against the far side of what is seen.
         float least_m = 1.0 / max(inverse, inverse_depth_at(ray, s_before)), seen_m = 1.0 / seen;
         s_before = s;
-        if (gap >= -bias * inverse) {
-            s_front = s;
-            gap_front = gap;
-            if (!been_behind) result.travelled_m = travelled_at(ray, s);
-            continue;
-        }
         uint reason = END_behind;
         if (least_m - seen_m <= thickness * seen_m + thickness_m) {
-            Facet facet = facet_at(place, grid);
+            Facet facet = facet_at(texel, grid);
             result.fetches += 2u;
             if (!back_faces || dot(facet.normal, ray.direction) < 0.0) {
                 float s_end = refine ? meeting(ray, facet, s_front, gap_front, s, gap, grid.scale) : s;
@@ -103,6 +103,7 @@ Result march(ScreenRay ray, Grid grid, float shift) {
         result.end = reason;
         if (!pass_behind) break;
     }
+    result.travelled_m = travelled_at(ray, s_clear);
     return result;
 }
 
@@ -114,12 +115,12 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     if (dot(direction, -normalize(view)) > viewer_limit) return Result(0.0, false, END_faced_viewer, 0u, 0u);
     ScreenRay ray = screen_ray(start, view, direction);
     float scale = reduction(frame.size);
-    Grid grid = Grid(start - scale * vec2(pixel), scale);
+    Grid grid = Grid(vec2(pixel), ray.across / scale, start - scale * vec2(pixel), scale);
     float shift = dither ? random4(uvec2(pixel), random_frame(), RANDOM_SCREEN_START).x : 0.0;
     Result result = march(ray, grid, shift);
     if (sky && ray.vanishes && result.end == ray.limit) {
         result.fetches++;
-        if (seen_inverse(ray.start + ray.end * ray.across, grid) == 0.0)
+        if (seen_inverse(texel_at(grid, ray.end)) == 0.0)
             return Result(INFINITE, true, END_sky, result.steps, result.fetches);
     }
     return result;

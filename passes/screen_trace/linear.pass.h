@@ -3,6 +3,7 @@ PASS("Linear march", "002, Linear ray march; 000, Screen-space tracing")
 #include "slot.h"
 #line 202
 READ(texture2D, normal_half)
+READ(texture2D, inverse_half)
 OPTIONAL_READ(utextureBuffer, screen_list, R32UI, LIST, 0xFFFFFFFFu)
 DISPATCH_LIST(screen_list)
 SPEC(int,   steps,       32,    1,   1024,  "samples", "002, Linear ray march", "samples along the ray")

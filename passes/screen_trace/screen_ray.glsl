@@ -8,13 +8,14 @@ struct ScreenRay {
     vec3 origin, direction; // view
     vec2 start, across;
     float depth_m, rate; // P.w and D.w
+    float inverse, inverse_rate;
     float end;           // the last s inside picture, near plane and length
     uint limit;          // which of them, as an end reason
     bool vanishes;       // nothing lies between the end and its vanishing point
 };
 
 precise float travelled_at(ScreenRay ray, float s) { return s * ray.depth_m / (1.0 - s * ray.rate); }
-precise float inverse_depth_at(ScreenRay ray, float s) { return (1.0 - s * ray.rate) / ray.depth_m; }
+precise float inverse_depth_at(ScreenRay ray, float s) { return ray.inverse + s * ray.inverse_rate; }
 
 // How far a coordinate may go until it leaves [0, size].
 precise float exit(float start, float across, float size) {
@@ -30,6 +31,8 @@ ScreenRay screen_ray(vec2 start, vec3 position, vec3 direction) {
     ray.start = start;
     ray.depth_m = position.z * front;
     ray.rate = direction.z * front;
+    ray.inverse = 1.0 / ray.depth_m;
+    ray.inverse_rate = -ray.rate / ray.depth_m;
     precise vec2 across = direction.xy - position.xy / ray.depth_m * ray.rate;
     ray.across = across * frame.uv_from_view.xy * vec2(frame.size.xy);
     ray.end = min(exit(start.x, ray.across.x, float(frame.size.x)), exit(start.y, ray.across.y, float(frame.size.y)));
