@@ -10,23 +10,22 @@
 #include "shared/camera.glsl"
 #include "shared/work_list.glsl"
 
-// Each term lies in [0, 1].
-float score(vec3 position, vec3 ray, uint place) {
+// Each term lies in [0, 1]. What cannot beat `least` is not looked at in the cube map.
+float score(vec3 position, vec3 ray, uint place, float least) {
     vec4 center = active_centers[place];
     vec3 offset = position - center.xyz;
     float distance_m = length(offset), sum = fade * center.w + distance * near_m / (near_m + distance_m);
-    if (visibility > 0.0) {
-        float seen_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(offset, place), 0.0).x;
-        if (distance_m <= seen_m * (1.0 + tolerance)) sum += visibility;
-    }
-    return sum + direction * (0.5 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));
+    sum += direction * (0.5 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));
+    if (!(visibility > 0.0 && sum + visibility > least)) return sum;
+    float seen_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(offset, place), 0.0).x;
+    return distance_m <= seen_m * (1.0 + tolerance) ? sum + visibility : sum;
 }
 
 uint best_place(vec3 position, vec3 ray) {
     uint best = 255u;
     float best_score = -INFINITE;
     for (uint i = 0u; i < frame.counts.x; ++i) {
-        float found = score(position, ray, i);
+        float found = score(position, ray, i, best_score);
         if (found > best_score) {
             best_score = found;
             best = i;
