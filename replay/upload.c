@@ -174,29 +174,39 @@ static bool upload_values(struct run *run, size_t i, const void *values, struct 
     return ok;
 }
 
-static bool upload_from_engine(struct run *run, size_t i, struct glint_error *err) {
+/* A level is a part of its own, named as run folders name it. */
+static bool read_engine_level(struct run *run, size_t i, uint32_t l, void *data, struct glint_error *err) {
     const struct graph_image *image = &run->graph.images[i];
-    const struct image_desc *desc = &run->images[i]->desc;
-    char name[128];
+    const struct glint_image *level = &run->images[i]->levels[l].info;
+    char name[160];
     struct glint_row row = *image->row;
     row.source = image->row->channels; /* the engine names them as the declaration does */
     struct channels channels = {0};
-    snprintf(name, sizeof name, "engine.%.48s.%.48s", image->pass->slot, image->name);
+    snprintf(name, sizeof name, "engine.%.48s.%.80s", image->pass->slot, level->name);
     channels.part = glint_capture_find(run->replay->capture, name);
-    if (desc->levels > 1)
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "part %s: an image with levels cannot come from a capture",
-                          name);
-    size_t values = image_values(desc, 0);
-    void *data = malloc(values * 4);
-    bool ok = data || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
-    ok = ok && channels_add_row(&channels, &row, err);
-    if (ok && channels.count != format_components(desc->format))
+    if (!channels.part || channels.part->width != level->width || channels.part->height != level->height)
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %u x %u, found %u x %u",
+                          glint_capture_path(run->replay->capture), name, level->width, level->height,
+                          channels.part ? channels.part->width : 0, channels.part ? channels.part->height : 0);
+    bool ok = channels_add_row(&channels, &row, err);
+    if (ok && channels.count != level->components)
         ok = glint_fail(err, GLINT_ERROR_FORMAT, "part %s: image %s declares %zu channels for %u components", name,
-                        image->name, channels.count, format_components(desc->format));
+                        image->name, channels.count, level->components);
     ok = ok && glint_capture_read_raw(run->replay->capture, channels.part, channels.names, channels.count,
-                                      format_is_uint(desc->format) ? GLINT_U32 : GLINT_F32, data, 0, err);
-    ok = ok && upload_values(run, i, data, err);
+                                      format_is_uint(level->format) ? GLINT_U32 : GLINT_F32, data, 0, err);
     channels_finish(&channels);
+    return ok;
+}
+
+static bool upload_from_engine(struct run *run, size_t i, struct glint_error *err) {
+    const struct image_desc *desc = &run->images[i]->desc;
+    size_t values = 0;
+    for (uint32_t l = 0; l < desc->levels; l++) values += image_values(desc, l);
+    uint32_t *data = malloc(values * sizeof *data), *at = data;
+    bool ok = data || glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", run->images[i]->name);
+    for (uint32_t l = 0; ok && l < desc->levels; at += image_values(desc, l++))
+        ok = read_engine_level(run, i, l, at, err);
+    ok = ok && upload_values(run, i, data, err);
     free(data);
     return ok;
 }

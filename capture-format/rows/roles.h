@@ -83,7 +83,7 @@ ROLE(truth_mirror, "truth.mirror", FRAME, false, false, false, false, "the exact
     CHANNEL("distance.Z", true, "m", "", "distance of its hit; +inf where it sees sky")
     CHANNEL("visible",    true, "1", "", "1 where that point is visible on screen")
 END(truth_mirror)
-ROLE(engine, "engine.", ANY, false, false, false, false, "the engine's own intermediate of a slot; any channels, kept as stored")
+ROLE(engine, "engine.", ANY, false, false, false, false, "the engine's own intermediate of a slot, `engine.SLOT.IMAGE`, coarser levels `engine.SLOT.IMAGE.level1` …; any channels, kept as stored")
 END(engine)
 ROLE(shadow, "shadow.", ANY, false, false, false, true, "shadow maps") END(shadow)
 ROLE(ao, "ao", ANY, false, false, false, true, "ambient occlusion") END(ao)

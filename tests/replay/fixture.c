@@ -128,7 +128,8 @@ bool fixture_write_capture(const char *path, const struct fixture_options *optio
     for (int i = 0; ok && i < FIXTURE_CUBEMAPS && !(options && options->no_cubemaps); i++)
         ok = add_cubemap(writer, i, i, options ? options->cubemaps : NULL, err);
     ok = ok && add_sky(writer, err);
-    if (options && options->extra) ok = ok && glint_writer_add_part(writer, options->extra, err);
+    for (size_t i = 0; ok && options && i < options->extra_count; i++)
+        ok = glint_writer_add_part(writer, &options->extra[i], err);
     ok = ok && glint_writer_finish(writer, err);
     glint_writer_destroy(&writer);
     free(g);

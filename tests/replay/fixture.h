@@ -23,8 +23,9 @@ enum {
 struct fixture_options {
     bool matte; /* nothing reflects */
     bool no_cubemaps;
-    const struct glint_part *extra; /* one more part, or NULL */
-    uint32_t number;                /* of the frame, 0: 7; each has other depths */
+    const struct glint_part *extra; /* more parts, or NULL */
+    size_t extra_count;
+    uint32_t number; /* of the frame, 0: 7; each has other depths */
     bool cut;
     const char *cubemaps; /* a file beside the capture that holds the cube maps, or NULL */
 };

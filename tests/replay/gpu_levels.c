@@ -164,6 +164,53 @@ static void a_missing_level_is_named(void **state) {
     fixture_says(&err, "image chain.level3");
 }
 
+/* Catches: an engine's chain taken for its finest level, or one that lacks a level. */
+static void an_engines_chain_stands_in_for_a_pass(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    const char *const last[] = {"reader", NULL};
+    struct glint_part parts[LEVELS];
+    struct glint_channel channels[LEVELS];
+    char names[LEVELS][64], path[128];
+    struct made made;
+    MADE(&made, &made_chain, &made_reader);
+    made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
+    float *seen = made_read(fixture, "seen");
+    for (int l = 0; l < LEVELS; l++) {
+        snprintf(names[l], sizeof names[l], l ? "engine.chain.chain.level%d" : "engine.chain.chain", l);
+        channels[l] = (struct glint_channel){
+            .name = "Z", .type = GLINT_F32, .data = made_read(fixture, names[l] + strlen("engine.chain."))};
+        parts[l] = (struct glint_part){.name = names[l],
+                                       .width = (uint32_t)level_size(W, l),
+                                       .height = (uint32_t)level_size(H, l),
+                                       .channels = &channels[l],
+                                       .channel_count = 1};
+    }
+    snprintf(path, sizeof path, "%s/engine.exr", fixture->folder);
+    for (int missing = 0; missing < 2; missing++) {
+        const struct fixture_options options = {.extra = parts, .extra_count = LEVELS - (size_t)missing};
+        if (!fixture_write_capture(path, &options, &err)) fail_msg("%s", err.message);
+        struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+        assert_non_null(capture);
+        assert_true(glint_replay_load(fixture->replay, capture, &err));
+        if (missing) {
+            assert_false(glint_replay_run(fixture->replay, &made.pipeline,
+                                          &(struct glint_replay_options){.passes = last}, NULL, NULL, &err));
+            fixture_says(&err, "part engine.chain.chain.level5: expected 1 x 1, found 0 x 0");
+        } else {
+            made_run(fixture, &made, &(struct glint_replay_options){.passes = last});
+            float *again = made_read(fixture, "seen");
+            assert_memory_equal(seen, again, sizeof(float) * W * H * 4);
+            free(again);
+        }
+        assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
+        glint_capture_close(&capture);
+    }
+    for (int l = 0; l < LEVELS; l++) free((void *)channels[l].data);
+    free(seen);
+    fixture_check_messages(fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_level_comes_from_the_one_before),
@@ -171,6 +218,7 @@ int main(void) {
         cmocka_unit_test(every_cut_of_levels_gives_the_bits_of_the_whole),
         cmocka_unit_test(levels_are_kept_and_share_memory_as_images_do),
         cmocka_unit_test(a_missing_level_is_named),
+        cmocka_unit_test(an_engines_chain_stands_in_for_a_pass),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
 }

@@ -37,7 +37,8 @@ static void an_engines_image_stands_in_for_a_pass(void **state) {
                                     .channels = channels,
                                     .channel_count = 4};
     snprintf(path, sizeof path, "%s/engine.exr", fixture->folder);
-    if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part}, &err)) fail_msg("%s", err.message);
+    if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err))
+        fail_msg("%s", err.message);
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
     assert_non_null(capture);
     assert_true(glint_replay_load(fixture->replay, capture, &err));
