@@ -14,7 +14,8 @@ void store_facet(ivec2 at) {
     vec2 slopes = facet_slopes_at(at, depth_m);
     imageStore(depth_slopes, at, vec4(slopes, 0.0, 0.0));
     // The slopes are rounded to half, which moves the rise by less than a thousandth of it.
-    imageStore(hiz, at, vec4(depth_m / (1.0 + 1.001 * facet_rise(slopes))));
+    float rise = 1.001 * facet_rise(slopes), fall = 2.0 * rise;
+    imageStore(hiz, at, vec4(depth_m / (1.0 + rise), fall < 1.0 ? depth_m / (1.0 - fall) : INFINITE, 0.0, 0.0));
 }
 
 // Two cells of the finer level along each axis, and a third where the finer level is odd and ends.
@@ -29,8 +30,11 @@ void main() {
     int level = int(dispatch_level) - 1;
     ivec2 last = textureSize(finer, level) - 1, first = 2 * at;
     ivec2 end = min(first + 1 + ivec2(equal(at, size - 1)), last);
-    float nearest = INFINITE;
+    vec2 range = vec2(INFINITE, 0.0);
     for (int y = first.y; y <= end.y; ++y)
-        for (int x = first.x; x <= end.x; ++x) nearest = min(nearest, texelFetch(finer, ivec2(x, y), level).x);
-    imageStore(hiz, at, vec4(nearest));
+        for (int x = first.x; x <= end.x; ++x) {
+            vec2 cell = texelFetch(finer, ivec2(x, y), level).xy;
+            range = vec2(min(range.x, cell.x), max(range.y, cell.y));
+        }
+    imageStore(hiz, at, vec4(range, 0.0, 0.0));
 }

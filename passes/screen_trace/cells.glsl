@@ -44,8 +44,8 @@ struct Crossing {
 };
 
 // The ray's inverse depth less the facet's is linear within the texel: positive in front, negative behind. A surface that
-// a viewer sees is crossed from front to behind. A ray that is behind where it comes in and goes deeper either slipped
-// through a seam between two texels of one surface, by less than the tolerance, or passed a rim.
+// a viewer sees is crossed from front to behind. A ray that is behind where it comes in and goes deeper met the surface's
+// plane before: within the last texel or so, where two surfaces meet, or by less than the thickness; or it passed a rim.
 precise Crossing cross(CellRay ray, ivec2 cell, float s_in, float s_out, float depth_m, vec2 slopes) {
     float inverse = 1.0 / depth_m;
     vec2 rate = inverse * slopes * ray.across, from = (ray.start - vec2(cell) - 0.5) * inverse * slopes;
@@ -53,19 +53,29 @@ precise Crossing cross(CellRay ray, ivec2 cell, float s_in, float s_out, float d
     float gap_in = at_start + s_in * rise, gap_out = at_start + s_out * rise;
     if (gap_out >= -bias * inverse) return Crossing(CELL_FRONT, s_out);
     // Behind by d: a part thickness of the surface's depth, as 1/z - 1/(z + d) has it.
-    float depth = thickness + thickness_m * inverse + thickness_slope * (abs(slopes.x) + abs(slopes.y));
-    float tolerance = inverse * depth / (1.0 + depth);
-    bool solid_all = thickness_m >= EVERYTHING_M;
-    if (!solid_all && (gap_in < -tolerance || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
-    float texel = 1.0 / max(abs(ray.across.x), abs(ray.across.y));
-    float s = rise < 0.0 ? clamp(-at_start / rise, s_in - texel, s_out) : s_in;
+    float depth = thickness + thickness_m * inverse, texel = 1.0 / max(abs(ray.across.x), abs(ray.across.y));
+    float tolerance = inverse * depth / (1.0 + depth) - seam * texel * rise;
+    if (thickness_m < EVERYTHING_M && (gap_in < -tolerance || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
+    float s = rise < 0.0 ? clamp(-at_start / rise, s_in - seam * texel, s_out) : s_in;
     return Crossing(CELL_HIT, max(s, 0.0));
 }
 
-// Behind a surface an object is taken to be as deep as it is wide, times `solid`: a ray that has passed more of its width
-// than it lies behind it has met a side that the picture does not show.
-bool blocked(CellRay ray, float s_front, float s, float depth_m) {
-    float texel_m = depth_m * abs(frame.view_from_uv.x) / float(frame.size.z);
-    float width_m = (s - s_front) * length(ray.across) * texel_m;
-    return 1.0 / inverse_at(ray, s) - depth_m < solid * width_m;
+// What a ray has gone hidden behind surfaces, without a break of more than the texels that a stippled surface leaves out.
+const float STIPPLE = 4.5; // texels; no whole number, which rays along an axis would meet
+struct Hidden {
+    float s_first, s_last;
+};
+
+// One more texel behind whose surface a ray went, from s_in to s_out.
+void hide(inout Hidden hidden, CellRay ray, float s_in, float s_out) {
+    if ((s_in - hidden.s_last) * max(abs(ray.across.x), abs(ray.across.y)) > STIPPLE) hidden.s_first = s_in;
+    hidden.s_last = s_out;
+}
+
+// Behind a surface an object is taken to be `solid` times as deep as the way that a ray has gone hidden by it: one that
+// lies less far behind has met a side that the picture does not show. With t = s P.w/(1 - s D.w) the way is
+// (s_last - s_first) (1/P.w)/(u_first u_last) for inverse depths u, so that z - depth < solid · way needs no division.
+precise bool blocked(Hidden hidden, CellRay ray, float depth_m) {
+    float behind = (1.0 - depth_m * inverse_at(ray, hidden.s_last)) * inverse_at(ray, hidden.s_first);
+    return behind < solid * (hidden.s_last - hidden.s_first) * ray.inverse;
 }

@@ -14,7 +14,7 @@ Result march(ScreenRay ray, ivec2 texel) {
     Result result = Result(0.0, false, END_steps_exhausted, 0u, 0u);
     ivec2 cell = texel, stride = 2 * cells.forward - 1, last = ivec2(frame.size.zw) - 1;
     precise float s_front = 0.0, s_in = 0.0;
-    bool been_behind = false;
+    Hidden hidden = Hidden(0.0, 0.0);
     for (int i = 0; i < steps; ++i) {
         precise vec2 exits = cell_exits(cells, cell, 0);
         precise float s_out = min(min(exits.x, exits.y), cells.end);
@@ -31,8 +31,8 @@ Result march(ScreenRay ray, ivec2 texel) {
             if (crossing.what == CELL_HIT)
                 return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
             if (crossing.what == CELL_BEHIND) {
-                been_behind = true;
-                if (!pass_behind || blocked(cells, s_front, s_out, depth_m)) {
+                hide(hidden, cells, s_in, s_out);
+                if (!pass_behind || blocked(hidden, cells, depth_m)) {
                     result.end = END_behind;
                     break;
                 }

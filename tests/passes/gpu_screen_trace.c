@@ -207,7 +207,7 @@ static void at_1919_by_1079_as_texel_by_texel(void **state) {
     hiz_as_dda(*state, "street");
 }
 
-/* Every texel of a level is the nearest of all texels of level 0 that lie within it, left-overs included. */
+/* Every cell of a level is the nearest and the farthest of all texels of level 0 within it, left-overs included. */
 static void parents_cover_all_children(void **state) {
     struct gpu *gpu = *state;
     gpu_sample(gpu, "street", "odd4", &(struct glint_sample_options){.width = 130, .height = 65, .cube_size = 8});
@@ -216,8 +216,9 @@ static void parents_cover_all_children(void **state) {
     uint32_t width, height, size[2];
     float *texels = gpu_floats(gpu, "hiz", &width, &height), *depth_m = gpu_floats(gpu, "depth_half", NULL, NULL);
     for (uint32_t i = 0; i < width * height; ++i)
-        assert_true(depth_m[i] == INFINITY ? texels[i] == INFINITY
-                                           : texels[i] <= depth_m[i] && 2.01f * texels[i] >= depth_m[i]);
+        assert_true(depth_m[i] == INFINITY ? texels[2 * i] == INFINITY && texels[2 * i + 1] == INFINITY
+                                           : texels[2 * i] <= depth_m[i] && 2.01f * texels[2 * i] >= depth_m[i] &&
+                                                 texels[2 * i + 1] >= depth_m[i]);
     for (uint32_t level = 1; level <= 4; ++level) { /* 8 × 4 is the first level whose smaller side is under 8 */
         char name[32];
         snprintf(name, sizeof name, "hiz.level%u", level);
@@ -225,14 +226,16 @@ static void parents_cover_all_children(void **state) {
         assert_int_equal(size[0], width >> level);
         assert_int_equal(size[1], height >> level);
         for (uint32_t c = 0; c < size[0] * size[1]; ++c) {
-            float nearest = INFINITY;
+            float nearest = INFINITY, farthest = 0;
             for (uint32_t i = 0; i < width * height; ++i) {
                 uint32_t x = i % width >> level, y = i / width >> level;
                 x = x < size[0] ? x : size[0] - 1;
                 y = y < size[1] ? y : size[1] - 1;
-                if (y * size[0] + x == c && texels[i] < nearest) nearest = texels[i];
+                if (y * size[0] + x != c) continue;
+                nearest = fminf(nearest, texels[2 * i]);
+                farthest = fmaxf(farthest, texels[2 * i + 1]);
             }
-            assert_true(cells[c] == nearest);
+            assert_true(cells[2 * c] == nearest && cells[2 * c + 1] == farthest);
         }
         free(cells);
     }

@@ -151,56 +151,61 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
     }
 }
 
-const struct walk_rules walk_rules_default = {0.01, 0, 0.5, 1, 0.0005, 1000};
+const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 1, 0.0005, 1000};
 
 struct tracing {
     const struct walk_grid *grid;
     const struct walk_ray *ray;
     const struct walk_rules *rules;
     double t_front, hit;
+    double hidden_first, hidden_last;
     bool found;
 };
 
-/* Distance that takes the place on screen from there to here, as width at a depth. */
-static double width_m(const struct tracing *tracing, double from, double to, double depth_m) {
+/* Texels from one place to another on screen, along the axis of more. */
+static double texels_between(const struct tracing *tracing, double from, double to) {
     double a[2] = {0}, b[2] = {0}, unused;
-    walk_project(tracing->grid, tracing->ray, from, a, &unused);
-    walk_project(tracing->grid, tracing->ray, to, b, &unused);
-    return hypot(b[0] - a[0], b[1] - a[1]) * walk_texel_angle(tracing->grid) * depth_m;
+    if (!walk_project(tracing->grid, tracing->ray, from, a, &unused) ||
+        !walk_project(tracing->grid, tracing->ray, to, b, &unused))
+        return INFINITY;
+    return fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1]));
+}
+
+/* Where the ray meets the plane of a texel that it is behind of at both ends: as a part of the way between them,
+   counted on screen, on which 1/z is linear; negative before the texel. */
+static double meeting(const struct walk_cell *cell, double z_in, double z_out) {
+    const double in = -cell->gap_in / z_in, out = -cell->gap_out / z_out; /* 1/z less the plane's */
+    return in / (in - out);
 }
 
 static bool decide(void *user, const struct walk_cell *cell) {
     struct tracing *tracing = user;
     const struct walk_rules *rules = tracing->rules;
-    /* Along a ray the inverse depth less a plane's is linear in the place, so the crossing is found in these. */
-    const double z_in = (tracing->ray->origin[2] + cell->t_in * tracing->ray->direction[2]) * tracing->grid->front,
-                 z_out = (tracing->ray->origin[2] + cell->t_out * tracing->ray->direction[2]) * tracing->grid->front;
-    const double in = -cell->gap_in / z_in, out = -cell->gap_out / z_out; /* 1/z less the plane's: positive in front */
+    const double *origin = tracing->ray->origin, *direction = tracing->ray->direction, front = tracing->grid->front;
+    const double z_in = (origin[2] + cell->t_in * direction[2]) * front;
+    const double z_out = (origin[2] + cell->t_out * direction[2]) * front;
+    const double in = -cell->gap_in / z_in, out = -cell->gap_out / z_out; /* 1/z less the plane's */
     if (!(out < -rules->bias / cell->depth_m)) {
         tracing->t_front = cell->t_out;
         return true;
     }
-    const double deep = rules->thickness + rules->thickness_m / cell->depth_m + rules->thickness_slope * cell->steep;
-    if (in >= -deep / (1 + deep) / cell->depth_m && out < in) {
-        double a[2] = {0}, b[2] = {0}, za, zb;
-        walk_project(tracing->grid, tracing->ray, cell->t_in, a, &za);
-        walk_project(tracing->grid, tracing->ray, cell->t_out, b, &zb);
-        double across = fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1])); /* texels */
-        double part = in / (in - out);
-        if (across > 0) part = fmax(part, -1 / across);
-        /* t is linear in place over (1/z), as 1/z is linear in place */
-        double inverse = (1 - part) / za + part / zb;
-        double t = ((1 - part) * cell->t_in / za + part * cell->t_out / zb) / inverse;
-        tracing->hit = fmax(0, t);
+    const double deep = rules->thickness + rules->thickness_m / cell->depth_m;
+    const double across = texels_between(tracing, cell->t_in, cell->t_out);
+    const double texel = across > 0 ? 1 / across : 0; /* as a part of the way through this one */
+    if (out < in && in >= -deep / (1 + deep) / cell->depth_m - rules->seam * texel * (in - out)) {
+        const double part = fmax(meeting(cell, z_in, z_out), -rules->seam * texel);
+        const double inverse = (1 - part) / z_in + part / z_out; /* t over z is linear in the place too */
+        tracing->hit = fmax(0, ((1 - part) * cell->t_in / z_in + part * cell->t_out / z_out) / inverse);
         tracing->found = true;
         return false;
     }
-    double behind = z_out - cell->depth_m;
-    return !(behind < rules->solid * width_m(tracing, tracing->t_front, cell->t_out, cell->depth_m));
+    if (texels_between(tracing, tracing->hidden_last, cell->t_in) > 4.5) tracing->hidden_first = cell->t_in;
+    tracing->hidden_last = cell->t_out;
+    return z_out - cell->depth_m >= rules->solid * (tracing->hidden_last - tracing->hidden_first);
 }
 
 bool walk_trace(const struct walk_grid *grid, const struct walk_ray *ray, const struct walk_rules *rules, double *t) {
-    struct tracing tracing = {grid, ray, rules, 0, 0, false};
+    struct tracing tracing = {.grid = grid, .ray = ray, .rules = rules};
     walk(grid, ray, rules->length_m, decide, &tracing);
     *t = tracing.found ? tracing.hit : tracing.t_front;
     return tracing.found;

@@ -45,7 +45,7 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
 
 /* The rules of screen_trace/dda, as its parameters say them. */
 struct walk_rules {
-    double thickness, thickness_m, thickness_slope, solid, bias, length_m;
+    double thickness, thickness_m, seam, solid, bias, length_m;
 };
 extern const struct walk_rules walk_rules_default;
 /* True for a hit; then *t is its distance. */
