@@ -28,6 +28,7 @@ RAYS = ("mirror rays that end elsewhere, %", lambda a: 100 * (1 - surface(a["dis
 MEDIAN = ("median error of mirror rays' distance, %",
           lambda a: 100 * surface(a["distances"], "mirror-like")["median_error"])
 
+FALLEN = ("error over the rays that fell back", lambda a: fallen(a)[1])
 COST = ("texture fetches a ray", lambda a: surface(a["distances"], "all")["fetches"])
 TIME = ("ms of all passes", lambda a: a["ms"])
 MIRROR = ["set downsample.jitter=false"]
@@ -85,7 +86,8 @@ ROWS = [
     ("cube-map trace", "HQ/LQ split", "room", [], LQ_AS_HQ, COST),
     ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", COST),
     ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", SMOOTH),
-    ("cocoon", "weighted maximum", "room", MIRROR, "set cocoon.reach=0", SMOOTH),
+    ("cocoon", "weighted maximum", "room", [*CUBES, "set cubemap_trace.depth=captured"], "set cocoon.reach=0", FALLEN),
+    ("cocoon", "maximum of pairs", "street", [*CUBES, "set cubemap_trace.depth=captured"], "set cocoon.maximum=samples", FALLEN),
     ("cocoon", "sky capped in finer levels", "street", CAPPED, "set cocoon.cap_sky=false", COST),
     ("classification", "lists of pixels with a ray", "street", ["use classify=tiles"], "use classify=none", TIME),
     ("classification", "lists of unfinished pixels", "room", ["use classify_unfinished=tiles"], "use classify_unfinished=none",
@@ -247,14 +249,19 @@ def ray_counts(bench, docs):
     return rows
 
 
+def fallen(against):
+    """Rays that no cube map could follow, and the error over them."""
+    fell = [r for r in against["rays"] if r["tracer"] == "cube map" and r["reason"] in FELL_BACK]
+    count = sum(r["rays"] for r in fell)
+    return count, sum(r["rays"] * r["radiance_error"] for r in fell) / max(count, 1)
+
+
 def fallbacks(bench):
     """Over the pixels whose ray no cube map could follow: which they are does not depend on the fallback."""
     rows = []
     for fallback in FALLBACKS:
         against = bench.replay("room", [*MIRROR, f"set cubemap_trace.fallback={fallback}"])[0]
-        fell = [r for r in against["rays"] if r["tracer"] == "cube map" and r["reason"] in FELL_BACK]
-        count = sum(r["rays"] for r in fell)
-        error = sum(r["rays"] * r["radiance_error"] for r in fell) / max(count, 1)
+        count, error = fallen(against)
         rows.append((fallback, count, number(error), number(PICTURE[1](against)), f"{against['ms']:.1f}"))
     return rows
 

@@ -37,22 +37,35 @@ float farthest_of_map(int layer, int level) {
     return most < 0.0 ? INFINITE : most;
 }
 
+float seen(vec3 v, float cube, int level) {
+    return textureLod(samplerCubeArray(chain, linear_clamp), vec4(v, cube), float(level)).x;
+}
+
 // Weighted MAX over the coarser level, which has no sky left unless all is. The pivot is the sample in the texel's own
-// direction; others count less the farther they are from it. Deviation: a dot below 0, whose power is NaN, weighs 0.
+// direction; others count less the farther they are from it. Deviation: in pairs on either side of the pivot, which count by
+// their mean of |v| / distance. On a plane that is the pivot's own, so that a wall stays where it is, however steeply it
+// is seen; of a pole, both lie on what is behind.
 float weighted_max(vec4 direction, int level) {
-    float coarser = float(level + 1), pivot = textureLod(samplerCubeArray(chain, linear_clamp), direction, coarser).x;
+    int coarser = level + 1;
+    float pivot = seen(direction.xyz, direction.w, coarser);
     if (!(pivot < LARGEST)) return INFINITE;
     vec3 axis = normalize(direction.xyz), tangent, bitangent;
     tangent_frame(axis, tangent, bitangent);
-    float rim = cone_tangent_of_level(0.0, float(face_size(faces, level + 1)), kernel);
-    float power = cone_power(rim, threshold), depth_m = 0.0;
-    for (int y = -reach; y <= reach; ++y) {
+    float rim = cone_tangent_of_level(0.0, float(face_size(faces, coarser)), kernel);
+    float power = cone_power(rim, threshold), depth_m = pivot;
+    for (int y = 0; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
-            if (!is_tap(ivec2(x, y), reach)) continue;
+            if (!is_tap(ivec2(x, y), reach) || (y == 0 && x <= 0)) continue; // the other one of its pair
             vec2 offset = vec2(x, y) * rim / (float(reach) + 0.5);
-            vec3 tap = normalize(axis + offset.x * tangent + offset.y * bitangent);
-            float seen_m = textureLod(samplerCubeArray(chain, linear_clamp), vec4(tap, direction.w), coarser).x;
-            depth_m = max(depth_m, pivot + (seen_m - pivot) * pow(max(dot(tap, axis), 0.0), power));
+            vec3 aside = offset.x * tangent + offset.y * bitangent;
+            float length_of_both = sqrt(1.0 + dot(offset, offset)), weight = pow(length_of_both, -power);
+            float one = seen(axis + aside, direction.w, coarser), other = seen(axis - aside, direction.w, coarser);
+            if (maximum == maximum_pairs) {
+                float mean = 0.5 * (length_of_both / one + length_of_both / other);
+                depth_m = max(depth_m, 1.0 / mix(1.0 / pivot, mean, weight));
+            } else {
+                depth_m = max(depth_m, pivot + (max(one, other) - pivot) * weight);
+            }
         }
     }
     return depth_m;
@@ -63,7 +76,7 @@ int cocoon_level() { return int(ceil(log2(max(float(face_size(faces, 0)) / float
 void keep_cocoon(ivec3 at) {
     if (any(greaterThanEqual(at.xy, ivec2(COCOON_SIZE)))) return;
     vec3 direction = direction_of_sample(at.xy, at.z % 6);
-    float distance_m = textureLod(samplerCubeArray(chain, linear_clamp), vec4(direction, at.z / 6), float(cocoon_level())).x;
+    float distance_m = seen(direction, float(at.z / 6), cocoon_level());
     imageStore(cocoon, at, vec4(distance_m < LARGEST ? length(direction) / distance_m : 0.0)); // filtered, +inf may be NaN
 }
 
@@ -87,7 +100,8 @@ void main() {
     if (level == coarsest) distance_m = is_sky ? farthest_of_map(at.z, level) : texel_of(at, level);
     else if (level >= cocoon_at) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
     else if (cap_sky)
-        distance_m = textureLod(samplerCubeArray(chain, linear_clamp), texel_direction(at.xy, width, at.z), float(cocoon_at)).x;
+        distance_m = seen(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_at);
     else return;
+    if (level < cocoon_at && distance_m < LARGEST) distance_m = -distance_m;
     imageStore(cocoon_distance, at, vec4(distance_m));
 }

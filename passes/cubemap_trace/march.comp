@@ -59,18 +59,20 @@ float mean_of(Patch p) {
     return mix(mix(p.distance_m.w, p.distance_m.z, p.part.x), mix(p.distance_m.x, p.distance_m.y, p.part.x), p.part.y);
 }
 
-// Distance of the surface that a cube map sees in a direction; +inf for sky. Interpolation with a sky texel is inf or
+// Distance of the surface that a cube map sees in a direction; +inf for sky, negative: of the cap over it. Interpolation with a sky texel is inf or
 // NaN, and stays out: the nearest texel counts there, so that nothing but finite values or +inf comes back.
 float seen_in(texture2DArray faces, vec3 direction, uint place, int level) {
     if (!bilinear) {
         float texel_m = texelFetch(faces, face_texel(direction, place, int(frame.counts.z) >> level), level).x;
-        return texel_m < LARGEST ? texel_m : INFINITE;
+        return abs(texel_m) < LARGEST ? texel_m : INFINITE;
     }
     Patch texels = patch_of(faces, direction, place, level);
-    float nearest_m = nearest_of(texels), smooth_m = mean_of(texels);
+    float own_m = nearest_of(texels), nearest_m = abs(own_m);
     if (!(nearest_m < LARGEST)) return INFINITE;
-    if (!(abs(smooth_m) < LARGEST)) return nearest_m;
-    return clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
+    texels.distance_m = abs(texels.distance_m);
+    float smooth_m = mean_of(texels);
+    if (abs(smooth_m) < LARGEST) nearest_m = clamp(smooth_m, nearest_m * (1.0 - clamp_part), nearest_m * (1.0 + clamp_part));
+    return own_m < 0.0 ? -nearest_m : nearest_m;
 }
 
 // A level of a chain, if there is one for it.
@@ -162,12 +164,13 @@ void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, floa
 // A sample of the ray: its parameter and how far it lies behind the surface that is seen in its direction, < 0 in front.
 struct Sample {
     float t, gap, distance_m, seen_m;
+    bool cap; // what is seen is the sky, behind the cap that the cocoon's chain puts over it
 };
 
 Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, int level) {
     precise vec3 at = from_center + direction * t;
-    precise float distance_m = length(at), seen_m = seen_distance(at, place, level);
-    return Sample(t, distance_m - seen_m, distance_m, seen_m);
+    precise float distance_m = length(at), found = seen_distance(at, place, level), seen_m = abs(found);
+    return Sample(t, distance_m - seen_m, distance_m, seen_m, found < 0.0);
 }
 
 // Between a sample in front and one behind, where the straight line between their gaps is 0. A sample in front of the sky
@@ -178,11 +181,6 @@ precise float secant_between(Sample front, Sample behind) {
     return mix(front.t, behind.t, gap / (gap - behind.gap));
 }
 
-Result capped(Result result, vec3 from_center, vec3 direction, float roughness) {
-    if (through_cocoon() && sees_sky(from_center + direction * result.travelled_m, result)) end_on_cap(result, roughness);
-    return result;
-}
-
 // The next sample is where the ray leaves the cube map's inner volume, so that a wall there lies between two samples.
 float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
     return max(leaves_volume(active_volume, place, origin, direction, t) - step_m, t);
@@ -191,7 +189,7 @@ float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
 // the cube maps' spaces, so that nothing adds up; and the step grows only while no hit is being closed in on.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
-    const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0);
+    const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0, false);
     int longest = min(chain, int(frame.flags.z));
     uint fetches = fetches_of(quality.level);
     Result result = Result(start_m, best, END_steps_exhausted, 0u, 0u);
@@ -209,6 +207,11 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             if (refined == 0) step_m *= quality.ratio;
             continue;
         }
+        if (now.cap) { // nothing to close in on
+            result.travelled_m = secant_between(front, now);
+            end_on_cap(result, quality.roughness);
+            return result;
+        }
         vec3 at = from_center + direction * now.t;
         if (now.gap < mass_depth(at, now.distance_m, direction, step_m)) {
             behind = now;
@@ -219,10 +222,11 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             }
             result.travelled_m = secant ? secant_between(front, behind) : behind.t;
             result.end = END_hit;
-            if (!verify) return capped(result, from_center, direction, quality.roughness);
+            if (!verify) return result;
             result.fetches += fetches;
             Sample end = sample_at(from_center, direction, result.travelled_m, result.place, quality.level);
-            if (abs(end.gap) <= verify_part * end.seen_m) return capped(result, from_center, direction, quality.roughness);
+            if (end.cap) end_on_cap(result, quality.roughness);
+            if (end.cap || abs(end.gap) <= verify_part * end.seen_m) return result;
         }
         if (++used >= longest) {
             result.travelled_m = now.t;
@@ -242,10 +246,12 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     if (refined > 0) {
         result.travelled_m = secant ? secant_between(front, behind) : behind.t;
         result.end = END_hit;
-        return capped(result, from_center, direction, quality.roughness);
+        return result;
     }
     if (now.seen_m == INFINITE) {
         end_in_sky(result);
+    } else if (now.cap) {
+        end_on_cap(result, quality.roughness);
     } else if (exhausted == exhausted_fallback) {
         fall_back(result, origin, direction, best, quality.roughness, END_steps_exhausted);
     } else if (exhausted == exhausted_direction) {
