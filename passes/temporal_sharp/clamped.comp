@@ -9,18 +9,31 @@
 #include "shared/reproject.glsl"
 #include "shared/reuse.glsl"
 
-vec4 current_color(ivec2 pixel) {
-    return has_reflection_sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
+// The colours of a workgroup's pixels and of one more around them.
+const int SIDE = 16 + 2;
+shared vec4 tile[SIDE * SIDE];
+
+void load_tile(ivec2 first, ivec2 last) {
+    for (int i = int(gl_LocalInvocationIndex); i < SIDE * SIDE; i += int(gl_WorkGroupSize.x * gl_WorkGroupSize.y)) {
+        ivec2 pixel = clamp(first + ivec2(i % SIDE, i / SIDE), ivec2(0), last);
+        tile[i] = has_reflection_sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
+    }
+    barrier();
+}
+
+// Of this invocation's pixel, or one beside it.
+vec4 current_color(ivec2 beside) {
+    ivec2 at = ivec2(gl_LocalInvocationID.xy) + 1 + beside;
+    return tile[at.y * SIDE + at.x];
 }
 
 // M. Salvi, An Excursion in Temporal Supersampling, GDC 2016: mean and deviation of the 3 x 3 neighbours. The window opens as
 // 1/(1 - roughness/limit).
-vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
+vec4 clamped(vec4 past, float roughness) {
     vec4 sum = vec4(0.0), squares = vec4(0.0);
     float count = 0.0;
     for (int i = 0; i < 9; ++i) {
-        ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), imageSize(reflection_stable) - 1);
-        vec4 color = current_color(at);
+        vec4 color = current_color(ivec2(i % 3, i / 3) - 1);
         if (!finite(color)) continue;
         sum += color;
         squares += color * color;
@@ -34,9 +47,10 @@ vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(reflection_stable)))) return;
-    vec4 color = current_color(pixel), surface = texelFetch(normal_full, pixel, 0);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(reflection_stable);
+    load_tile(16 * ivec2(gl_WorkGroupID.xy) - 1, size - 1);
+    if (any(greaterThanEqual(pixel, size))) return;
+    vec4 color = current_color(ivec2(0)), surface = texelFetch(normal_full, pixel, 0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     bool remembers = frame.flags.x != 0u && frame.flags.y == 0u && history > 0.0;
@@ -49,7 +63,7 @@ void main() {
         bool inside = all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0)));
         vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(-1.0);
         if (longest >= 1.0 && finite(past) && past.a >= 0.0) {
-            if (clamp_history) past = clamped(past, pixel, roughness);
+            if (clamp_history) past = clamped(past, roughness);
             color = finite(color) ? mix(past, color, 1.0 / (longest + 1.0)) : past;
         }
     }
