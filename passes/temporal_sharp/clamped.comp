@@ -48,7 +48,7 @@ vec4 clamped(vec4 past, float roughness) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(reflection_stable);
-    load_tile(16 * ivec2(gl_WorkGroupID.xy) - 1, size - 1);
+    load_tile(pixel - ivec2(gl_LocalInvocationID.xy) - 1, size - 1);
     if (any(greaterThanEqual(pixel, size))) return;
     vec4 color = current_color(ivec2(0)), surface = texelFetch(normal_full, pixel, 0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
