@@ -25,23 +25,27 @@ Past past_at(vec2 place, Surface center, Reprojection where) {
     float total = 0.0, front = frame.depth_range.w;
     vec3 normal = mat3(frame.previous_view_from_world) * center.normal.xyz;
     ivec2 corner = ivec2(floor(place - 0.5));
-    vec2 part = place - 0.5 - vec2(corner);
+    vec2 part = place - 0.5 - vec2(corner), between = vec2(corner + 1) / vec2(frame.size.zw);
+    // Gather's order is (0,1) (1,1) (1,0) (0,0), the loop's (0,0) (1,0) (0,1) (1,1).
+    vec4 depths_m = textureGather(sampler2D(previous_depth_half, nearest_clamp), between).wzxy;
+    vec4 ages = textureGather(sampler2D(previous_age, nearest_clamp), between).wzxy;
+    uvec4 picks = textureGather(usampler2D(previous_pick, nearest_clamp), between).wzxy;
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = corner + ivec2(i & 1, i >> 1);
         vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
         float weight = side.x * side.y;
         // What is left of a place on the very texel centre by rounding would only bring in neighbours that are not wanted.
         if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;
-        float depth_m = texelFetch(previous_depth_half, texel, 0).x;
+        float depth_m = depths_m[i];
         vec4 surface = texelFetch(previous_normal_half, texel, 0);
         if (!reflects(depth_m, surface.xyz) || dot(surface.xyz, center.normal.xyz) < history_normal) continue;
-        vec2 uv = picked_uv(texel, texelFetch(previous_pick, texel, 0).x, frame.size);
+        vec2 uv = picked_uv(texel, picks[i], frame.size);
         vec3 seen = vec3((uv - frame.previous_uv_from_view.zw) / frame.previous_uv_from_view.xy, front) * depth_m;
         if (!in_plane(seen - where.expected, normal, depth_m, history_depth)) continue;
         vec4 color = texelFetch(previous_reflection, texel, 0);
         if (!finite(color) || color.a < 0.0) continue;
         past.color += weight * color;
-        past.age += weight * texelFetch(previous_age, texel, 0).x;
+        past.age += weight * ages[i];
         total += weight;
     }
     return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(0.0), 0.0);
