@@ -124,6 +124,19 @@ static void wrong_declarations_are_refused(void **state) {
     err = (struct glint_error){0};
     assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
     fixture_says(&err, "list list_a: expected R32UI, and 0xFFFFFFFF for nothing");
+    struct glint_row wide = {.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16};
+    MADE(&made, pass_with(&made_worker, rows, "list_b", none, &pass));
+    rows[pass.row_count++] = wide;
+    MADE(&made, &pass);
+    err = (struct glint_error){0};
+    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
+    fixture_says(&err, "list list_a: expected workgroups of 8 x 8");
+    none = made_worker.rows[2];
+    none.glsl = "utexture2D";
+    MADE(&made, &made_sieve, pass_with(&made_worker, rows, "list_a", none, &pass));
+    err = (struct glint_error){0};
+    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
+    fixture_says(&err, "worker/made reads list_a as utexture2D, but it is a list, to be read as utextureBuffer");
 }
 
 int main(void) {

@@ -183,6 +183,25 @@ static void replay_reports_times_and_leaves_a_run(void **state) {
     free(text);
 }
 
+/* Catches: a folder that is not looked up by the next call, and one that is looked up although nobody asked. */
+static void replay_finds_cube_map_work_of_an_earlier_call(void **state) {
+    (void)state;
+    char option[300], again[256];
+    snprintf(option, sizeof option, "--cache=%s", in_folder("cache"));
+    snprintf(again, sizeof again, "%s", in_folder("again"));
+    for (int call = 0; call < 4; call++) {
+        char *text = glint_ok("replay", capture, "-o", again, "--json", call == 2 ? "--cache=none" : option,
+                              call == 3 ? "--no-cache" : "--json");
+        json_t *json = parse_json(text);
+        const json_t *passes = json_object_get(json_array_get(json_object_get(json, "runs"), 0), "passes");
+        const json_t *mips = named(passes, "slot", "cubemap_mips");
+        assert_true(json_is_true(json_object_get(mips, "ran")));
+        assert_int_equal(json_is_true(json_object_get(mips, "cached")), call == 1);
+        json_decref(json);
+        free(text);
+    }
+}
+
 /* In the closed box with a mirror floor nearly every ray that starts on screen ends where the path tracer's does. */
 static void replay_compares_with_the_truth(void **state) {
     (void)state;
@@ -432,6 +451,7 @@ int main(void) {
         cmocka_unit_test(validate_accepts_it_and_refuses_a_damaged_one),
         cmocka_unit_test(plan_lists_every_pass_with_a_reason),
         cmocka_unit_test(replay_reports_times_and_leaves_a_run),
+        cmocka_unit_test(replay_finds_cube_map_work_of_an_earlier_call),
         cmocka_unit_test(replay_compares_with_the_truth),
         cmocka_unit_test(several_captures_get_a_folder_each),
         cmocka_unit_test(info_shows_a_run),
