@@ -79,32 +79,63 @@ def slides_cone(power, share):
     return (1 - share) * angle_of_power(power)
 
 
-def variance_cone(power, share):
-    """The cone whose filter cosᵐ, with the threshold at its rim, has the variance that the cut takes from the rays."""
-    angle = angle_of_power(power)
-    lost = rms(reflected(lobe(power, angle))) ** 2 - rms(reflected(lobe(power, share * angle))) ** 2
+def mean_cosine(nodes):
+    return sum(w * math.cos(a) for a, w in nodes)
+
+
+def filling_cone(rays, target):
+    """The cone whose filter cosᵐ, with the threshold at its rim, has the mean cosine that the rays' mean direction lacks."""
+    lacking = mean_cosine(target) / mean_cosine(rays)
     low, high = 1e-4, 1.5
-    for _ in range(50):  # rms of the filter rises with the angle
+    for _ in range(50):  # the filter's mean cosine falls with the angle
         middle = (low + high) / 2
-        if rms(lobe(power_of_angle(middle))) ** 2 < lost:
+        if mean_cosine(lobe(power_of_angle(middle))) > lacking:
             low = middle
         else:
             high = middle
     return low
 
 
+def compared(rays, cone, target):
+    both = convolved(rays, lobe(power_of_angle(cone), nodes=40))
+    return {"cone": cone, "mean": mean_cosine(both), "rms": rms(both), "apart": farthest_apart(both, target)}
+
+
+HORIZON = math.pi / 4  # of normals, seen along the surface normal: rays turn by twice the angle
+
+
 def combined_rows(powers, shares):
-    """Of each power and share: the lobe cut at its angle, the slides' sum of rays and cone, and the one by variance."""
+    """Of each power and share: the whole lobe above the horizon, the slides' sum of rays and cone, and ours."""
     for power in powers:
         angle = angle_of_power(power)
-        target = reflected(lobe(power, angle))
+        target = reflected(lobe(power, HORIZON))
         for share in shares:
-            rays = reflected(lobe(power, share * angle, 60))
-            row = {"power": power, "share": share, "angle": angle, "target": rms(target)}
-            for name, cone in (("slides", slides_cone(power, share)), ("variance", variance_cone(power, share))):
-                both = convolved(rays, lobe(power_of_angle(cone), nodes=40))
-                row[name] = {"cone": cone, "rms": rms(both), "apart": farthest_apart(both, target)}
-            yield row
+            rays = reflected(lobe(power, min(share * angle, HORIZON), 60))
+            yield {"power": power, "share": share, "angle": angle, "target": rms(target),
+                   "slides": compared(rays, slides_cone(power, share), target),
+                   "ours": compared(rays, filling_cone(rays, target), target)}
+
+
+def ggx_rays(roughness, part, nodes=60):
+    """Rays of the nearest `part` of GGX's normals, which lie below tan² = α² u/(1 - u) with a probability of u."""
+    alpha = roughness**2
+    us = [part * (i + 0.5) / nodes for i in range(nodes)]
+    return [(2 * math.atan(alpha * math.sqrt(u / (1 - u))), 1 / nodes) for u in us]
+
+
+def ggx_rows(roughnesses, held_parts=(0.7, 0.8, 0.9, 0.95, 1), share=0.5, threshold=THRESHOLD):
+    """How far rays and cone are from the whole lobe when the cone holds a part of it, of what is above the horizon."""
+    for roughness in roughnesses:
+        a2 = roughness**4
+        above = 1 / (1 + a2)
+        target = ggx_rays(roughness, above, 400)
+        sine2 = min((threshold**-0.5 - 1) * a2 / (1 - a2), 1)
+        t2 = math.tan(share * math.asin(math.sqrt(sine2))) ** 2
+        kept = min(t2 / (a2 + t2), above)
+        rays = ggx_rays(roughness, kept)
+        held = [compared(rays, filling_cone(rays, ggx_rays(roughness, min(part, above), 400)), target)
+                for part in held_parts]
+        yield {"roughness": roughness, "kept": kept, "held": held}
 
 
 def first_step(length, ratio, count):
@@ -143,10 +174,14 @@ def self_test():
     for power in (2, 30, 1000):
         nodes = lobe(power)
         check(f"mean cosine of power {power}", sum(w * math.cos(a) for a, w in nodes), (power + 1) / (power + 2), 2e-5)
-    # the combined lobe by variance spreads as the target does; the slides' is far narrower
+    # the combined lobe keeps the mean direction of the whole one; the slides' is far narrower
+    target = reflected(lobe(30, HORIZON))
     row = next(combined_rows([30], [0.5]))
-    check("cone by variance keeps the spread", row["variance"]["rms"] / row["target"], 1, 0.03)
-    check("the slides' cone loses it", row["slides"]["rms"], 0.29, 0.015)
+    check("the cone gives the lobe's mean direction back", row["ours"]["mean"], mean_cosine(target), 1e-3)
+    check("the slides' cone loses spread", row["slides"]["rms"], 0.29, 0.015)
+    for row in combined_rows((14, 126, 1022), (0.25, 0.5, 0.75)):
+        better = row["slides"]["apart"] / row["ours"]["apart"]
+        check(f"{row['share']:g} of power {row['power']}: closer than the slides'", min(better, 2), 2, 1e-9)
     check("24 steps of ratio 1.2 to 300 m begin with", first_step(300, 1.2, 24), 0.76, 0.005)
     check("closed form of the series", first_step(300, 1.2, 24), 300 * 0.2 / (1.2**24 - 1), 1e-12)
     check("a cone with a base of 3.5 texels is level 0", cube_level(math.atan(3.5 / 256), 4, 4, 512), 0, 1e-12)

@@ -282,18 +282,22 @@ def formula_tables():
                    [(f"{r:g}", f"{formulas.power_of_roughness(r):.6g}",
                      f"{formulas.angle_of_power(formulas.power_of_roughness(r)):.4f}")
                     for r in (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)])
-    lobes = table(("power", "share by rays", "lobe cut at its angle: rms, rad", "slides' cone, rad", "rms", "apart",
-                   "cone by variance, rad", "rms", "apart"),
+    lobes = table(("power", "share by rays", "whole lobe: rms, rad", "slides' cone, rad", "rms", "apart",
+                   "cone by mean direction, rad", "rms", "apart"),
                   [(r["power"], f"{round(100 * r['share'])} %", f"{r['target']:.3f}",
-                    *(t for k in ("slides", "variance")
+                    *(t for k in ("slides", "ours")
                       for t in (f"{r[k]['cone']:.3f}", f"{r[k]['rms']:.3f}", f"{r[k]['apart']:.3f}")))
                    for r in formulas.combined_rows((2, 6, 14, 30, 62, 126, 254, 1022, 4094, 16382), (0.25, 0.5, 0.75))])
+    held = (0.7, 0.8, 0.9, 0.95, 1)
+    ggx = table(("roughness", "normals kept", *(f"{part:g} held: cone, rad; apart" for part in held)),
+                [(f"{r['roughness']:g}", f"{r['kept']:.2f}", *(f"{h['cone']:.3f}; {h['apart']:.3f}" for h in r["held"]))
+                 for r in formulas.ggx_rows((0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7), held)])
     series = table(("length, m", "ratio", "steps", "first step, m", "last step, m"),
                    [(length, ratio, n, f"{formulas.first_step(length, ratio, n):.4g}",
                      f"{formulas.first_step(length, ratio, n) * ratio ** (n - 1):.4g}")
                     for length, ratio, n in ((300, 1.2, 24), (300, 1.18, 24), (300, 1.22, 24), (100, 1.17, 16),
                                              (100, 1.25, 16), (300, 1.2, 256))])
-    return angles, lobes, series
+    return angles, lobes, ggx, series
 
 
 def attempt(title, text, titles, make, *arguments):
@@ -310,7 +314,7 @@ def write(bench, docs, only):
     rows, left_out = mechanisms(bench, only)
     for reason in left_out:
         print("left out:", reason, file=sys.stderr)
-    angles, lobes, series = formula_tables()
+    angles, lobes, ggx, series = formula_tables()
     text = f"""# What each mechanism is worth
 
 Written by `./dev docs`; do not edit. Sample scenes at {SIZE} with {TRUTH} rays a pixel of truth, shots of {FRAMES} frames
@@ -345,9 +349,13 @@ Power of a roughness, and its angle:
 
 {angles}
 Rays whose normals are cut at a share of the angle, and the cone of a pre-filtered level around them, beside the lobe that they
-stand for (its normals cut at the whole angle). Apart: the greatest difference of the shares of directions within an angle.
+stand for, Blinn-Phong seen along the normal, without what goes below the horizon. Apart: the greatest difference of the shares
+of directions within an angle.
 
 {lobes}
+GGX, half of its angle by rays. A cone that held the whole tail would blur all of it; `apart` is from the whole lobe.
+
+{ggx}
 Steps of a geometric series that sum to a length:
 
 {series}"""

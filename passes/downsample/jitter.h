@@ -4,6 +4,7 @@ SPEC(bool,  jitter,     true, 0, 1, "1", "000, G-buffer down-sampling", "draw th
 CHOICE2(ndf, ggx, blinn_phong, ggx, "000, Modified NDF; GGX is its future work", "distribution that jitters the normal: blinn_phong by half-vector density, ggx by visible normals")
 CHOICE3(pattern, plus, plus, white, blue, "000, Modified NDF; blue noise is an idea of theirs", "order of the random numbers: plus gives each of five neighbours a fifth of the azimuth, blue spreads both numbers over neighbours and frames, white is independent")
 SPEC(bool,  shuffle,    true, 0, 1, "1", "000, Modified NDF", "the pattern changes in each frame; off: a pixel keeps its fifth of the azimuth")
+SPEC(bool,  horizon,    true, 0, 1, "1", "glint", "a cone is no wider than its ray is above the surface; off: it may look through the surface")
 SPEC(int,   tries,      16,   1, 64, "draws", "chosen by measuring", "normals drawn until the ray leaves the surface; then the normal itself is taken")
 PUSH(float, share,      1.0,  0.0, 1.0, "1", "000, Importance sampling vs. pre-filtering", "part of the NDF's angle that rays cover; the rest is left to pre-filtering")
 PUSH(float, threshold,  0.1,  0.001, 0.999, "1", "000, Combining importance sampling with pre-filtering", "lobe value below which directions are ignored when share < 1")

@@ -16,26 +16,22 @@ vec2 first_numbers(uvec2 pixel) {
     return u;
 }
 
-// A half-vector in the frame of the normal, z < 0 when the draw is to be repeated.
-vec3 draw(vec2 u, float accept, vec3 view, float roughness) {
-    if (ndf == ndf_blinn_phong) return sample_blinn_phong(u, roughness, share, threshold);
-    float alpha = roughness * roughness;
-    if (share == 1.0) return sample_ggx_visible(u, view, alpha);
-    vec3 h = sample_ggx_cut(u, alpha, share, threshold);
-    // Visible normals have the density D (v · h), these D h.z: keep a part in proportion to (v · h)/h.z, which is
-    // v.z + tan θ · (sine of v) at most.
-    float tangent = sqrt(ggx_cut_tangent2(alpha, share, threshold)), sine = length(view.xy);
-    return accept * h.z * (view.z + tangent * sine) < dot(view, h) ? h : vec3(0.0, 0.0, -1.0);
+// A half-vector in the frame of the normal.
+vec3 draw(vec2 u, vec3 view, float roughness, float kept) {
+    return ndf == ndf_ggx ? sample_ggx_visible(u, view, roughness * roughness, kept)
+                          : sample_blinn_phong(u, roughness, share, threshold);
 }
 
 vec3 jittered(vec3 normal, float roughness, vec3 to_viewer, uvec2 pixel) {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
     vec3 view = vec3(dot(to_viewer, tangent), dot(to_viewer, bitangent), dot(to_viewer, normal));
-    for (int i = 0; i < tries; ++i) {
-        vec4 u = random4(pixel, random_frame(), RANDOM_NDF + uint(i));
-        vec3 h = draw(i == 0 ? first_numbers(pixel) : u.xy, u.z, view, roughness);
+    float kept = ggx_kept(roughness * roughness, share, threshold);
+    vec2 u = first_numbers(pixel);
+    for (int i = 1; i <= tries; ++i) {
+        vec3 h = draw(u, view, roughness, kept);
         if (h.z > 0.0 && 2.0 * dot(view, h) * h.z > view.z) return h.x * tangent + h.y * bitangent + h.z * normal;
+        u = random4(pixel, random_frame(), RANDOM_NDF + uint(i)).xy;
     }
     return normal;
 }
@@ -50,9 +46,12 @@ void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen) {
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
         if (jitter && roughness > 0.0) ray_normal = jittered(normal, roughness, to_viewer, uvec2(pixel));
-        float sampled = jitter ? share : 0.0;
-        cone = cone_factor * (ndf == ndf_ggx ? ggx_cone(roughness * roughness, sampled, threshold)
-                                             : blinn_phong_cone(roughness, sampled, threshold));
+        float sampled = jitter ? share : 0.0, cosine = clamp(dot(normal, to_viewer), 0.0, 1.0);
+        cone = cone_factor * (ndf == ndf_ggx ? ggx_cone(roughness * roughness, sampled, threshold, cosine)
+                                             : blinn_phong_cone(roughness, sampled, threshold, cosine));
+        // What a cone holds of the surface itself or behind it is not reflected.
+        float above = clamp(dot(reflect(-to_viewer, ray_normal), normal), 0.0, 1.0);
+        if (horizon) cone = min(cone, arc(above, sqrt(1.0 - above * above)));
     }
     imageStore(inverse_half, pixel, vec4(depth_m > 0.0 && depth_m < LARGEST ? 1.0 / depth_m : 0.0));
     imageStore(depth_half, pixel, vec4(depth_m > 0.0 ? depth_m : INFINITE));

@@ -69,6 +69,8 @@ vec4 cubemap_texel(Ray ray, vec4 at) {
 vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = texelFetch(active_center, ivec2(place, 0), 0).xyz;
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
+    // A wider lookup's share of sky is left to the rays that end in the sky: they see no surfaces beside it either.
+    if (ray.cone > 0.0 && !ray.endless && color.a > 0.0) return vec4(color.rgb / color.a, 1.0);
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
     return vec4(color.rgb, 1.0);
 }

@@ -27,7 +27,7 @@ void main() {
     if (roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && texelFetch(depth_half, texel, 0).x < LARGEST) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        float cone = min(cone_factor * blinn_phong_cone(roughness, 0.0, threshold), WIDEST_CONE);
+        float cone = min(cone_factor * blinn_phong_cone(roughness, 0.0, threshold, 1.0), WIDEST_CONE);
         Ray ray = ended_ray(mat3(frame.world_from_view) * view, surface.xyz, texelFetch(travelled, texel, 0).x, cone);
         vec4 sharp =
             color_at_end(ray, texelFetch(screen_finished, texel, 0).x != 0u, texelFetch(cubemap_index, texel, 0).x);

@@ -34,17 +34,6 @@ vec3 sample_blinn_phong(vec2 u, float roughness, float share, float threshold) {
     return vec3(sine * cos(phi), sine * sin(phi), 1.0 - away);
 }
 
-// GGX visible normal, alpha = r². J. Dupuy, A. Benyoub, Sampling Visible GGX Normals with Spherical Caps, CGF 42(8),
-// 2023: the view direction stretched, a point of the cap it sees, the half-vector unstretched. view: from the surface.
-vec3 sample_ggx_visible(vec2 u, vec3 view, float alpha) {
-    vec3 stretched = normalize(vec3(alpha * view.xy, max(view.z, 1e-6)));
-    float z = (1.0 - u.x) * (1.0 + stretched.z) - stretched.z;
-    float sine = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
-    float phi = 2.0 * PI * u.y;
-    vec3 h = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
-    return normalize(vec3(alpha * h.xy, max(h.z, 1e-20)));
-}
-
 // tan² of share · the angle at which GGX's density falls to `threshold` of its peak:
 // D(θ)/D(0) = 1/(cos²θ + sin²θ/α²)², so sin²θ = (threshold^(-1/2) - 1) / (1/α² - 1).
 float ggx_cut_tangent2(float alpha, float share, float threshold) {
@@ -54,43 +43,74 @@ float ggx_cut_tangent2(float alpha, float share, float threshold) {
     return q * (2.0 - q) / ((1.0 - q) * (1.0 - q));
 }
 
-// GGX normal with density ∝ D cosθ cut there: tan²θ = α² u/(1 - u), u scaled into [0, u(cut)). The slides' cut carried over
-// to GGX. Deviation from sample_ggx_visible: masking is left out, because the visible distribution has no such inverse.
-vec3 sample_ggx_cut(vec2 u, float alpha, float share, float threshold) {
-    float a2 = alpha * alpha;
-    float cut = ggx_cut_tangent2(alpha, share, threshold);
-    float x = u.x * (a2 > 0.0 ? cut / (a2 + cut) : 0.0);
-    float tangent2 = a2 * x / (1.0 - x);
-    float cosine = inversesqrt(1.0 + tangent2);
-    float sine = sqrt(tangent2) * cosine;
+// The part of the normals that the cut leaves, seen along the surface normal: tan²θ is below a value with a probability of
+// tan²θ / (α² + tan²θ). share = 1 cuts nothing, as in Blinn-Phong.
+float ggx_kept(float alpha, float share, float threshold) {
+    if (share >= 1.0) return 1.0;
+    float tangent2 = ggx_cut_tangent2(alpha, share, threshold);
+    return tangent2 / max(alpha * alpha + tangent2, 1e-30);
+}
+
+// GGX visible normal, alpha = r². J. Dupuy, A. Benyoub, Sampling Visible GGX Normals with Spherical Caps, CGF 42(8),
+// 2023: the view direction stretched, a point of the cap it sees, the half-vector unstretched. view: from the surface.
+// kept: the slides' cut carried over to GGX. What is kept is the cap's middle, so that rays stay in the middle of the lobe
+// that the viewer sees, which for oblique views and rough surfaces lies far from the mirror direction.
+vec3 sample_ggx_visible(vec2 u, vec3 view, float alpha, float kept) {
+    vec3 stretched = normalize(vec3(alpha * view.xy, max(view.z, 1e-6)));
+    float away = kept * u.x * (1.0 + stretched.z); // 1 - z
+    float sine = sqrt(max(away * (2.0 - away), 0.0));
     float phi = 2.0 * PI * u.y;
-    return vec3(sine * cos(phi), sine * sin(phi), cosine);
+    vec3 h = vec3(sine * cos(phi), sine * sin(phi), 1.0 - away) + stretched;
+    return normalize(vec3(alpha * h.xy, max(h.z, 1e-20)));
 }
 
-// Angle of the cone that a ray stands for when its normal is cut at share · the lobe's angle A. Variances add: rays turn by
-// twice the normal's angle, so with e(share) the mean square angle of the normals below the cut, cone and rays together
-// spread as far as the lobe cut at A when the cone's own mean square is 4 (e(1) - e(share)). A cone of angle a is filtered
-// with cosᵐ that falls to the threshold at a (shared/cone.glsl): its mean square is 2/m = a²/log(1/threshold).
-// Deviation: the slides take (1 - share) · A, the normal's angle for the ray's; it spreads a power of 30 to 0.29 of 0.44 rad.
-const float WIDEST_CONE = 1.3; // cosᵐ is nearly the cosine lobe; wider ones would look through the surface
+// Angle of the cone that a ray stands for when its normal is cut. Convolving rays with a filter multiplies the mean of their
+// directions by the filter's mean cosine; so the filter's is what the mean direction of the lobe, the part below the horizon
+// left out, lacks of the cut lobe's. spread: 1 - mean cosine, of the rays of the cut lobe and of the whole one; the filter cosᵐ
+// has the mean cosine (m + 1)/(m + 2). An oblique lobe is narrower across the plane of incidence by `cosine`, the viewer's.
+// Deviation: the slides take (1 - share) of the normal's angle for the ray's; it spreads a power of 30 to 0.29 of 0.44 rad.
+const float WIDEST_CONE = 1.45;
 
-// θ² is exponentially distributed for narrow lobes: mean below X, in units of 2/n.
-float mean_below(float x) { return x < 1e-4 ? 0.5 * x : 1.0 - x / expm1(x); }
-float blinn_phong_cone(float roughness, float share, float threshold) {
-    float cut = -log(threshold);
-    return 2.0 * lobe_angle(roughness, threshold) * sqrt(max(mean_below(cut) - mean_below(share * share * cut), 0.0));
+float filling_cone(float spread, float whole, float cosine, float threshold) {
+    float lacking = (whole - spread) / (1.0 - spread);
+    if (!(lacking > 0.0)) return 0.0;
+    float power = max(1.0 - 2.0 * lacking, 0.01) / lacking * 2.0 / (1.0 + cosine * cosine);
+    return min(angle_from_versine(-expm1(log(threshold) / power)), WIDEST_CONE);
 }
 
-// tan²θ = α² u/(1 - u): its mean for u below u(T) = T/(α² + T) is α² (-log(1 - u)/u - 1).
-float ggx_mean_tangent2(float a2, float tangent2) {
-    float u = tangent2 / (a2 + tangent2);
-    return u < 1e-3 ? 0.5 * a2 * u : a2 * (-log1p(-u) / u - 1.0);
+// Mean of 1 - cos 2θ over half-vectors ∝ cosⁿ above cos θ = c; logarithm: of c^(n + 1), 0 when all but the normal is cut.
+float blinn_phong_spread(float roughness, float logarithm) {
+    float r2 = roughness * roughness, r4 = r2 * r2;
+    float twice = 2.0 * r4 / (2.0 - r4); // 2/(n+1)
+    if (!(logarithm < 0.0)) return 0.0;
+    float part = exp(logarithm) * expm1(twice * logarithm) / expm1(logarithm); // both are negative
+    return max(2.0 * (twice - part) / (1.0 + twice), 0.0);
 }
-float ggx_cone(float alpha, float share, float threshold) {
-    float a2 = max(alpha * alpha, 1e-12);
-    float lost = ggx_mean_tangent2(a2, ggx_cut_tangent2(alpha, 1.0, threshold)) -
-                 ggx_mean_tangent2(a2, ggx_cut_tangent2(alpha, share, threshold));
-    return 2.0 * sqrt(max(-log(threshold) * lost, 0.0));
+float blinn_phong_cone(float roughness, float share, float threshold, float cosine) {
+    float r2 = roughness * roughness, r4 = r2 * r2;
+    float power = (2.0 - r4) / max(r4, 1e-30); // n + 1
+    float horizon = log(0.5) * 0.5 * power;    // rays turn by twice the angle: half a right angle
+    float cut = share >= 1.0 ? horizon : max(power * log1p(-versine(share * lobe_angle(roughness, threshold))), horizon);
+    return filling_cone(blinn_phong_spread(roughness, cut), blinn_phong_spread(roughness, horizon), cosine, threshold);
+}
+
+// The same of GGX seen along the normal, tan²θ = α² u/(1 - u) for u below `kept`: cos 2θ = (1 - tan²)/(1 + tan²).
+float ggx_spread(float a2, float kept) {
+    float b = 1.0 - a2, x = b * kept;
+    float mean = x < 1e-2 ? 0.5 + x * (1.0 / 3.0 + 0.25 * x) : (-log1p(-x) / x - 1.0) / x;
+    return 2.0 * a2 * kept * mean;
+}
+// Of the lobe's far tail a cone could hold only that it is far: it would blur all for it. The last tenth is left to what is
+// nearer: then lobe and rays with cone differ least (tests/formulas.py; so do their first ten harmonics over roughness, view, share).
+// What lies above the horizon: K. Eto, Y. Tokuyoshi, Bounded VNDF Sampling for Smith-GGX Reflections, SIGGRAPH Asia 2023.
+const float GGX_HELD = 0.9;
+
+float ggx_cone(float alpha, float share, float threshold, float cosine) {
+    float a2 = min(alpha * alpha, 0.999), s = 1.0 + sqrt(max(1.0 - cosine * cosine, 0.0)), s2 = s * s;
+    float z = cosine * inversesqrt(mix(a2, 1.0, cosine * cosine)); // of the stretched view
+    float above = (1.0 + (1.0 - a2) * s2 / (s2 + a2 * cosine * cosine) * z) / (1.0 + z);
+    float held = min(GGX_HELD, above), kept = ggx_kept(alpha, share, threshold);
+    return kept < held ? filling_cone(ggx_spread(a2, kept), ggx_spread(a2, held), cosine, threshold) : 0.0;
 }
 
 // Two unit vectors that make a right-handed frame with unit n. T. Duff et al., Building an Orthonormal Basis, Revisited,

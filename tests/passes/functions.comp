@@ -45,7 +45,7 @@ vec4 evaluate(int row, int i) {
         return vec4(roughness, u.x, length(h.xy), h.z);
     }
     if (row == ROW_GGX_CUT) {
-        vec3 h = sample_ggx_cut(u.xy, roughness, 0.5, THRESHOLD);
+        vec3 h = sample_ggx_visible(u.xy, vec3(0.0, 0.0, 1.0), roughness, ggx_kept(roughness, 0.5, THRESHOLD));
         return vec4(roughness, u.x, length(h.xy), h.z);
     }
     if (row == ROW_RATIO) {
@@ -82,8 +82,8 @@ vec4 evaluate(int row, int i) {
     }
     if (row == ROW_EXACT_MIRROR) {
         vec3 h = sample_blinn_phong(u.xy, 0.0, u.z, THRESHOLD);
-        vec3 g = sample_ggx_visible(u.xy, unit_vector(i), 0.0);
-        vec3 c = sample_ggx_cut(u.xy, 0.0, u.z, THRESHOLD);
+        vec3 g = sample_ggx_visible(u.xy, unit_vector(i), 0.0, 1.0);
+        vec3 c = sample_ggx_visible(u.xy, unit_vector(i), 0.0, ggx_kept(0.0, u.z, THRESHOLD));
         return vec4(h == vec3(0.0, 0.0, 1.0), g == vec3(0.0, 0.0, 1.0), c == vec3(0.0, 0.0, 1.0), 0.0);
     }
     if (row == ROW_GRAZING) {
@@ -106,7 +106,7 @@ vec4 evaluate(int row, int i) {
     int k = (row - ROW_VISIBLE) * COLUMNS + i;
     vec2 cell = (vec2(k % 128, k / 128) + random4(uvec2(i, row), 0u, 0u).xy) / vec2(128.0, 64.0);
     vec3 view = vec3(sin(VISIBLE_ANGLE), 0.0, cos(VISIBLE_ANGLE));
-    return vec4(sample_ggx_visible(cell, view, VISIBLE_ALPHA), 0.0);
+    return vec4(sample_ggx_visible(cell, view, VISIBLE_ALPHA, 1.0), 0.0);
 }
 
 void main() {
