@@ -9,14 +9,15 @@
 #include "shared/camera.glsl"
 #include "upscale/source.glsl"
 
-// The texels that a workgroup's pixels look at, one around its own: each is wanted by up to 36 pixels.
-const int SIDE = 16 / 2 + 2;
-shared vec4 tile_surface[SIDE * SIDE]; // normal, in world axes; w: roughness
-shared vec3 tile_place[SIDE * SIDE]; // in full-resolution pixels; z: depth in m, 0 without a ray
+// An invocation takes the four pixels of a half-resolution texel, which look at the same texels around: a workgroup's, and
+// one more on each side. When the resolution is not reduced it takes one pixel, and the texel there.
+const ivec2 GROUP = ivec2(8, 16), TILE = GROUP + 2;
+shared vec4 tile_surface[TILE.x * TILE.y]; // normal, in world axes; w: roughness
+shared vec3 tile_place[TILE.x * TILE.y];   // in full-resolution pixels; z: depth in m, 0 without a ray
 
 void load_tile(ivec2 first, ivec2 last) {
-    for (int i = int(gl_LocalInvocationIndex); i < SIDE * SIDE; i += int(gl_WorkGroupSize.x * gl_WorkGroupSize.y)) {
-        ivec2 texel = first + ivec2(i % SIDE, i / SIDE);
+    for (int i = int(gl_LocalInvocationIndex); i < TILE.x * TILE.y; i += GROUP.x * GROUP.y) {
+        ivec2 texel = first + ivec2(i % TILE.x, i / TILE.x);
         bool outside = any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, last));
         texel = clamp(texel, ivec2(0), last);
         vec4 surface = texelFetch(normal_half, texel, 0);
@@ -30,6 +31,7 @@ void load_tile(ivec2 first, ivec2 last) {
 
 struct Pixel {
     vec2 place; // in full-resolution pixels
+    bool reflects;
     float depth_m, height_m; // height: of the pixel's plane over the camera
     vec3 plane;              // a sample at `place` and depth z has the height z (plane.xy · place + plane.z)
     vec4 surface;            // world axes; w: roughness
@@ -38,6 +40,7 @@ struct Pixel {
 Pixel pixel_at(ivec2 pixel, float depth_m, vec4 surface) {
     Pixel p;
     p.place = vec2(pixel) + 0.5;
+    p.reflects = reflects(depth_m, surface.xyz);
     p.depth_m = depth_m;
     p.surface = vec4(normalize(surface.xyz), surface.w > 0.0 ? min(surface.w, 1.0) : 0.0);
     vec3 normal = mat3(frame.view_from_world) * p.surface.xyz;
@@ -48,9 +51,8 @@ Pixel pixel_at(ivec2 pixel, float depth_m, vec4 surface) {
 }
 
 // How unlike the pixel's surface a texel's is; infinite without a ray.
-float cost(Pixel p, int at) {
-    vec4 surface = tile_surface[at];
-    vec3 place = tile_place[at], apart = surface.xyz - p.surface.xyz;
+float cost(Pixel p, vec4 surface, vec3 place) {
+    vec3 apart = surface.xyz - p.surface.xyz;
     vec2 beside = place.xy - p.place;
     float height_m = place.z * (dot(p.plane.xy, place.xy) + p.plane.z) - p.height_m;
     float sum = depth_weight / p.depth_m * abs(height_m) + normal_weight * dot(apart, apart) +
@@ -58,38 +60,58 @@ float cost(Pixel p, int at) {
     return place.z > 0.0 ? sum : INFINITE;
 }
 
-// The best of the texels around, relative to the pixel's own; x > 1: none has a ray. The four nearest are the own one
-// and those on the pixel's side of it. On even surfaces two texels are often as good: what is better by less than the
-// rounding of half floats can make up does not decide, but the order does.
+void store(ivec2 pixel, Pixel p, bool found, ivec2 own, ivec2 best) {
+    bool sharp = p.reflects && p.surface.w <= sharp_roughness;
+    imageStore(reflection, pixel, p.reflects && found ? half_color(own + best) : vec4(0.0));
+    imageStore(sharp_source, pixel, uvec4(sharp ? uint(5 + best.x + 3 * best.y) : 0u));
+}
+
+// The best of the texels around, relative to the pixels' own. The four nearest are the own one and those on the pixel's side
+// of it. On even surfaces two texels are often as good: what is better by less than the rounding of half floats can make up
+// does not decide, but the order does.
 const float ALIKE = 1e-3;
-ivec2 best_around(Pixel p, ivec2 pixel) {
-    ivec2 low = around ? ivec2(-1) : (pixel & 1) - 1, high = around ? ivec2(1) : pixel & 1;
-    ivec2 own = ivec2(gl_LocalInvocationID.xy) / 2 + 1, best = ivec2(2);
-    float least = LARGEST;
-    for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
-            float c = cost(p, (own.y + y) * SIDE + own.x + x);
-            if (c < least - ALIKE) least = c, best = ivec2(x, y);
+void match_block(ivec2 own) {
+    ivec2 size = ivec2(frame.size.xy);
+    vec4 depths_m = textureGather(sampler2D(depth_full, nearest_clamp), vec2(2 * own + 1) / vec2(size)).wzxy;
+    Pixel p[4];
+    for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = 2 * own + ivec2(i & 1, i >> 1);
+        p[i] = pixel_at(pixel, depths_m[i], texelFetch(normal_full, min(pixel, size - 1), 0));
+    }
+    vec4 least = vec4(LARGEST);
+    ivec2 best[4] = ivec2[](ivec2(0), ivec2(0), ivec2(0), ivec2(0));
+    ivec2 middle = ivec2(gl_LocalInvocationID.xy) + 1;
+    for (int n = 0; n < 9; ++n) {
+        ivec2 beside = ivec2(n % 3, n / 3) - 1;
+        int at = (middle.y + beside.y) * TILE.x + middle.x + beside.x;
+        vec4 surface = tile_surface[at];
+        vec3 place = tile_place[at];
+        for (int i = 0; i < 4; ++i) {
+            ivec2 side = 2 * ivec2(i & 1, i >> 1) - 1;
+            if (!around && (beside.x == -side.x || beside.y == -side.y)) continue;
+            float c = cost(p[i], surface, place);
+            if (c < least[i] - ALIKE) {
+                least[i] = c;
+                best[i] = beside;
+            }
         }
-    return best;
+    }
+    for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = 2 * own + ivec2(i & 1, i >> 1);
+        if (all(lessThan(pixel, size))) store(pixel, p[i], least[i] < LARGEST, own, best[i]);
+    }
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 own = ivec2(gl_GlobalInvocationID.xy), size = ivec2(frame.size.zw);
     bool reduced = reduction(frame.size) == 2.0;
-    if (reduced) load_tile(8 * ivec2(gl_WorkGroupID.xy) - 1, ivec2(frame.size.zw) - 1);
-    if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;
-    vec4 color = vec4(0.0), surface = texelFetch(normal_full, pixel, 0);
-    float depth_m = texelFetch(depth_full, pixel, 0).x;
-    uint source = 0u;
-    if (reflects(depth_m, surface.xyz)) {
-        Pixel p = pixel_at(pixel, depth_m, surface);
-        ivec2 best = reduced ? best_around(p, pixel) : ivec2(0), own = reduced ? pixel / 2 : pixel;
-        bool found = reduced ? best.x <= 1 : reflects(texelFetch(depth_half, own, 0).x, texelFetch(normal_half, own, 0).xyz);
-        if (!found) best = ivec2(0);
-        if (found) color = half_color(own + best);
-        if (p.surface.w <= sharp_roughness) source = uint(5 + best.x + 3 * best.y);
+    if (reduced) load_tile(own - ivec2(gl_LocalInvocationID.xy) - 1, size - 1);
+    if (any(greaterThanEqual(own, size))) return;
+    if (reduced) {
+        match_block(own);
+        return;
     }
-    imageStore(reflection, pixel, color);
-    imageStore(sharp_source, pixel, uvec4(source));
+    Pixel p = pixel_at(own, texelFetch(depth_full, own, 0).x, texelFetch(normal_full, own, 0));
+    bool found = reflects(texelFetch(depth_half, own, 0).x, texelFetch(normal_half, own, 0).xyz);
+    store(own, p, found, own, ivec2(0));
 }
