@@ -2,7 +2,7 @@
    had their history at half resolution. */
 PASS("Variance-clamped history", "000, Temporal filter")
 #include "slot.h"
-WORKGROUP(16, 16)
+WORKGROUP(8, 16)
 #line 202
 HISTORY(texture2D, previous_stable, reflection_stable)
 SPEC(bool,  clamp_history,   true, 0,   1,    "1", "000, Temporal filter", "hold the history within the neighbourhood's colours; off: as it was")
