@@ -89,21 +89,26 @@ static const struct glint_pass *pass_with(const struct glint_pass *base, struct 
     return out;
 }
 
-/* Catches: a header from a stranger that starts four billion workgroups. */
-static void a_header_beyond_the_list_is_refused(void **state) {
+/* Catches: a header from a stranger that starts four billion workgroups, or too few to write every pixel. */
+static void a_header_that_lies_is_refused(void **state) {
     struct fixture *fixture = fixture_need_device(state);
-    struct glint_error err = {0};
-    const char *const passes[] = {"worker", NULL};
-    char folder[128];
+    const char *const passes[] = {"worker", NULL}, *const forger[] = {"forger", NULL};
+    const int words[] = {5, 1};
     struct made made;
     MADE(&made, &made_forger, &made_worker);
-    made_run(fixture, &made,
-             &(struct glint_replay_options){.no_cache = true, .passes = (const char *[]){"forger", NULL}});
-    fixture_write_run(fixture, "forged", folder);
-    assert_false(glint_replay_run(fixture->replay, &made.pipeline,
-                                  &(struct glint_replay_options){.passes = passes, .inputs = folder}, NULL, NULL,
-                                  &err));
-    fixture_says(&err, "image list_a: expected at most");
+    for (int i = 0; i < 2; i++) {
+        struct glint_error err = {0};
+        char folder[128];
+        for (size_t r = 0; r < made_forger.row_count; r++)
+            if (strcmp(made_forger.rows[r].name, "word") == 0) made.values[0][r] = words[i];
+        made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = forger});
+        fixture_write_run(fixture, "forged", folder);
+        assert_false(glint_replay_run(fixture->replay, &made.pipeline,
+                                      &(struct glint_replay_options){.passes = passes, .inputs = folder}, NULL, NULL,
+                                      &err));
+        fixture_says(&err, "image list_a: expected at most 1152 items in 8 to 82 workgroups");
+        fixture_says(&err, i ? "found 1 in 1 x 1 x 1" : "found 5 in 5 x 5 x 5");
+    }
     fixture_check_messages(fixture);
 }
 
@@ -145,7 +150,7 @@ int main(void) {
         cmocka_unit_test(without_its_maker_a_list_is_the_whole_image),
         cmocka_unit_test(a_list_is_empty_behind_its_items),
         cmocka_unit_test(every_cut_of_lists_gives_the_bits_of_the_whole),
-        cmocka_unit_test(a_header_beyond_the_list_is_refused),
+        cmocka_unit_test(a_header_that_lies_is_refused),
         cmocka_unit_test(wrong_declarations_are_refused),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
