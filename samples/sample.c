@@ -122,6 +122,7 @@ static struct glint_frame frame_of_views(const struct session *s, const struct v
                                 .has_previous = true,
                                 .has_player = true,
                                 .number = number,
+                                .cut = s->options.cut && number == s->options.first_frame,
                                 .exposure = 1,
                                 .depth_near = VIEW_NEAR,
                                 .depth_far = VIEW_FAR,

@@ -52,6 +52,7 @@ static void take_options(XXH3_state_t *state, const struct scene *scene, const s
                      o->truth_samples, o->light_samples, o->fov_y_rad, (int)o->camera_given, (int)o->compression);
     take(state, text, (size_t)n);
     take(state, o->offset, sizeof o->offset);
+    take(state, &o->cut, sizeof o->cut);
     take(state, &o->unjittered, sizeof o->unjittered);
     take(state, &o->truth_of_pixels, sizeof o->truth_of_pixels);
     if (o->travel_given) take(state, o->travel, sizeof o->travel);

@@ -22,6 +22,7 @@ enum {
     KEY_CUBE_SIZE,
     KEY_FRAMES,
     KEY_FIRST_FRAME,
+    KEY_CUT,
     KEY_PROBES,
     KEY_ENCODING,
     KEY_TRUTH,
@@ -50,6 +51,7 @@ static const struct argp_option options[] = {
     {"cube-size",   KEY_CUBE_SIZE,   "N",     0, "Face size of the cube maps (default 256)", 0},
     {"frames",      KEY_FRAMES,      "N",     0, "Length of the shot; its captures share their cube maps (default 1)", 0},
     {"first-frame", KEY_FIRST_FRAME, "N",     0, "Number of the first frame (default 1)", 0},
+    {"cut",         KEY_CUT,         NULL,    0, "The first frame follows another shot: nothing of the frame before is of use", 0},
     {"probes",      KEY_PROBES,      "KIND",  0, "What the cube maps hold. imperfect, as games have them: static "
         "objects only, simplified, metals as diffuse; perfect: the very scene; auto: placed by the sampler, for glTF files", 0},
     {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays a pixel into truth.* (default 0: leave it out)", 0},
@@ -195,6 +197,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_FIRST_FRAME:
         s->first_frame = arg_uint("first-frame", arg, 1, 9999, state);
+        return 0;
+    case KEY_CUT:
+        s->cut = true;
         return 0;
     case KEY_PROBES:
         s->probes_given = true;

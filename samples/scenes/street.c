@@ -10,6 +10,7 @@
 #define SHOP 4.0f /* height of the ground floor */
 #define FRONT 7.0f
 #define CURB 4.0f
+#define GUTTER 3.2f
 
 static vec3 sky(vec3 d) {
     float up = d.y > 0 ? d.y : 0, west = 0.5f - 0.5f * d.z; /* the sun went down at the end of the street */
@@ -33,6 +34,18 @@ static vec3 grain(const struct surface *s, float grain_m, float strength) {
     return unit(along(s->normal, v3(nx, 0, nz), kept));
 }
 
+/* A gutter of wet setts, each a little dome: normals that turn from pixel to pixel. */
+static void paint_setts(struct surface *s) {
+    float x = s->position.x / 0.16f, z = s->position.z / 0.2f, row = floorf(x);
+    z += 0.5f * (row - 2 * floorf(row / 2));
+    float u = x - row - 0.5f, v = z - floorf(z) - 0.5f, rim = fmaxf(fabsf(u), fabsf(v));
+    float own = cell_random((int32_t)row, (int32_t)floorf(z), 61), joint = smooth(0.42f, 0.46f, rim);
+    float kept = 0.55f * (1 - smooth(0.05f, 0.3f, s->footprint));
+    s->normal = unit(along(s->normal, v3(u, 0, v), kept * (1 - joint)));
+    s->albedo = scale(v3(0.075f, 0.07f, 0.068f), (0.7f + 0.6f * own) * (1 - 0.6f * joint));
+    s->roughness = 0.17f + 0.12f * own + 0.3f * joint;
+}
+
 static void paint_road(struct surface *s) {
     float x = s->position.x, z = s->position.z;
     float worn = fractal2(1.7f * x, 1.7f * z, 3, 11), deep = fractal2(0.23f * x + 5, 0.17f * z, 4, 21);
@@ -40,7 +53,7 @@ static void paint_road(struct surface *s) {
     float track = expf(-4 * (fabsf(x) - 2) * (fabsf(x) - 2)), puddle = smooth(0.50f, 0.55f, deep + 0.035f * track);
     float shade = 0.040f + 0.035f * worn;
     s->albedo = v3(shade, shade, 1.04f * shade);
-    bool dash = fabsf(x) < 0.07f && z - 6 * floorf(z / 6) < 3, edge = fabsf(fabsf(x) - 3.55f) < 0.06f;
+    bool dash = fabsf(x) < 0.07f && z - 6 * floorf(z / 6) < 3, edge = fabsf(fabsf(x) - 3.05f) < 0.06f;
     bool zebra = z < -17 && z > -20.2f && fabsf(x) < 3.3f && x / 1.1f - floorf(x / 1.1f) < 0.5f;
     float paint = (dash || edge || zebra) ? smooth(0.25f, 0.5f, worn) : 0;
     s->albedo = mix(s->albedo, v3(0.42f, 0.41f, 0.38f), 0.85f * paint);
@@ -50,6 +63,7 @@ static void paint_road(struct surface *s) {
     s->roughness = wet * (1 - puddle) + still * puddle;
     s->specular = 0.45f * (1 - puddle) + 0.28f * puddle;
     s->albedo = scale(s->albedo, 1 - 0.55f * puddle);
+    if (fabsf(x) > GUTTER) paint_setts(s);
 }
 
 static void paint_pavement(struct surface *s) {

@@ -19,6 +19,7 @@ struct glint_sample_options {
     uint32_t cube_size;     /* 0: 256 */
     uint32_t frames;        /* 0: 1; more make a shot OUT.0001.exr … that shares its cube maps */
     uint32_t first_frame;   /* number of the first frame */
+    bool cut;               /* the first frame follows another shot */
     bool probes_given;      /* false: the scene's default */
     enum glint_probes probes;
     struct glint_encodings encodings;

@@ -1,0 +1,147 @@
+"""Which mechanisms there are: what turns each off, on which scene, what is looked at, what is traded, and where nothing is
+gained, why.
+
+Scenes: NAME is one frame; still:NAME a shot of a camera that stands, jittered, with the truth of the pixels' areas;
+centred:NAME the same through the pixels' centres; moving:NAME a camera that moves aside, unjittered; full:NAME a frame at
+1920x1080, for times."""
+
+
+def surface(rows, name):
+    return next(r for r in rows if r["surfaces"] == name)
+
+
+def fallen(against):
+    """Rays that no cube map could follow, and the error over them."""
+    fell = [r for r in against["rays"] if r["tracer"] == "cube map" and r["reason"] in ("shadow_region", "fallback", "no_cubemap")]
+    count = sum(r["rays"] for r in fell)
+    return count, sum(r["rays"] * r["radiance_error"] for r in fell) / max(count, 1)
+
+
+def of_truth(what, kind, number="symmetric"):
+    return (what, "truth", lambda a: surface(a["image"]["surfaces"], kind)[number])
+
+
+def of_noise(what, kind, frame=16):
+    return (what, f"noise {frame}", lambda a: surface(a["image"]["surfaces"], kind)["rmse"])
+
+
+PICTURE = of_truth("error of the reflection", "all")
+SMOOTH = of_truth("error, mirror-like", "mirror-like")
+GLOSSY = of_truth("error, glossy", "glossy")
+ROUGH = of_truth("error, rough", "rough")
+SMOOTH_RMSE = of_truth("RMSE, mirror-like", "mirror-like", "rmse")
+GLOSSY_RMSE = of_truth("RMSE, glossy", "glossy", "rmse")
+ROUGH_RMSE = of_truth("RMSE, rough", "rough", "rmse")
+RAYS = ("mirror rays that end elsewhere, %", "truth", lambda a: 100 * (1 - surface(a["distances"], "mirror-like")["right"]))
+MEDIAN = ("median error of mirror rays' distance, %", "truth",
+          lambda a: 100 * surface(a["distances"], "mirror-like")["median_error"])
+FALLEN = ("error over the rays that fell back", "truth", lambda a: fallen(a)[1])
+COST = ("texture fetches a ray", "truth", lambda a: surface(a["distances"], "all")["fetches"])
+NOISE_1 = of_noise("noise of the first frame, rough", "rough", 1)
+NOISE = of_noise("noise of frame 16, rough", "rough")
+NOISE_GLOSSY = of_noise("noise of frame 16, glossy", "glossy")
+STRAY_GLOSSY = of_noise("noise and lag of frame 16, glossy", "glossy")
+STRAY_ROUGH = of_noise("noise and lag of frame 16, rough", "rough")
+FLICKER = ("change from frame 15 to 16, mirror-like", "flicker", lambda a: surface(a["image"]["surfaces"], "mirror-like")["rmse"])
+TIME = ("ms of all passes", "time", lambda ms: ms)
+
+MIRROR = ["set downsample.jitter=false"]
+MANY = ["set pipeline.rays=16"]
+CUBES = MIRROR + ["set screen_trace.length_m=0"]
+HISTORY = ["use temporal=rough", "use temporal_sharp=clamped"]
+CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
+LQ_AS_HQ = "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
+
+# (step, mechanism, scene, what both have, what turns it off, what is looked at[, what is traded for it])
+ROWS = [
+    ("down-sampling", "edge detection", "room", MIRROR, "set downsample.edges=false", SMOOTH, "four depths compared"),
+    ("down-sampling", "pick, never a mixture", "room", MIRROR, "use downsample=bilinear", SMOOTH),
+    ("down-sampling", "stippled ties split", "street", CUBES, "set downsample.tie=near", PICTURE,
+     "half of the stippled thing's own samples"),
+    ("down-sampling", "stippled ties split", "street", MIRROR, "set downsample.tie=near", SMOOTH),
+    ("down-sampling", "half resolution", "room", MIRROR, "use downsample=none", SMOOTH, "error for time"),
+    ("down-sampling", "half resolution", "full:street", [], "use downsample=none", TIME),
+    ("down-sampling", "jitter by the NDF", "room", MANY, "set downsample.jitter=false", ROUGH, "noise for the lobe's shape"),
+    ("down-sampling", "plus order and wedge", "centred:room", HISTORY, "set downsample.pattern=white", NOISE_1),
+    ("down-sampling", "plus order and wedge", "centred:room", HISTORY, "set downsample.pattern=white", NOISE),
+    ("down-sampling", "plus order against blue noise", "centred:room", HISTORY, "set downsample.pattern=blue", NOISE_1),
+    ("down-sampling", "plus order against blue noise", "centred:room", HISTORY, "set downsample.pattern=blue", NOISE),
+    ("down-sampling", "shuffled each frame", "centred:room", HISTORY, "set downsample.shuffle=false", NOISE),
+    ("down-sampling", "another pixel each frame", "still:street", HISTORY, "set downsample.alternate=false", PICTURE),
+    ("down-sampling", "another pixel each frame", "centred:room", HISTORY, "set downsample.alternate=false", SMOOTH_RMSE),
+    ("pre-filtering", "cone of what the cut leaves", "room", [], "set downsample.cone_factor=0", ROUGH),
+    ("pre-filtering", "29 taps", "room", [], "set cubemap_mips.reach=0", ROUGH),
+    ("pre-filtering", "29 taps instead of 1009", "room", ["set cubemap_mips.reach=18"], "set cubemap_mips.reach=3", ROUGH),
+    ("pre-filtering", "colour filtered for cones", "room", [], "use cubemap_mips=plain", ROUGH),
+    ("pre-filtering", "screen MIPs", "room", [], "use lit_mips=none", ROUGH),
+    ("pre-filtering", "sky MIPs", "street", [], "use sky_mips=none", ROUGH),
+    ("screen trace", "dither", "street", MIRROR, "set screen_trace.dither=false", SMOOTH_RMSE, "bands for noise"),
+    ("screen trace", "1/z between texels", "room", MIRROR, "set screen_trace.interpolate=false", RAYS),
+    ("screen trace", "refinement", "room", MIRROR, "set screen_trace.refine=false", RAYS),
+    ("screen trace", "look again", "room", MIRROR, "set screen_trace.verify=false", RAYS),
+    ("screen trace", "back faces refused", "room", MIRROR, "set screen_trace.back_faces=false", RAYS),
+    ("screen trace", "ends in the sky", "street", MIRROR, "set screen_trace.sky=false", PICTURE),
+    ("screen trace", "growing steps", "room", MIRROR, "set screen_trace.growth=1", RAYS),
+    ("screen trace", "thickness", "room", MIRROR, "set screen_trace.thickness_m=1e6", RAYS),
+    ("screen trace", "the screen at all", "room", MIRROR, "set screen_trace.length_m=0", SMOOTH),
+    ("active cube maps", "forced outdoor map", "hotel", MIRROR, "set cubemap_active.force_outdoor=false", SMOOTH),
+    ("active cube maps", "vertical penalty", "hotel", MIRROR, "set cubemap_active.vertical_penalty=1", SMOOTH),
+    ("best cube map", "score against the nearest", "room", CUBES, "use cubemap_select=nearest", RAYS),
+    ("best cube map", "visibility", "room", CUBES, "set cubemap_select.visibility=0", RAYS),
+    ("best cube map", "distance", "room", CUBES, "set cubemap_select.distance=0", RAYS),
+    ("best cube map", "direction", "room", CUBES, "set cubemap_select.direction=0", RAYS),
+    ("best cube map", "fade", "room", CUBES, "set cubemap_select.fade=0", RAYS),
+    ("cube-map trace", "shadow regions (mass depth)", "room", CUBES, "set cubemap_trace.mass_m=1e6", RAYS),
+    ("cube-map trace", "mass depth grows with the step", "room", CUBES, "set cubemap_trace.mass_step=0", RAYS),
+    ("cube-map trace", "secant", "room", CUBES, "set cubemap_trace.secant=false", MEDIAN),
+    ("cube-map trace", "look again", "room", CUBES, "set cubemap_trace.verify=false", RAYS),
+    ("cube-map trace", "distance between texels", "room", CUBES, "set cubemap_trace.bilinear=false", MEDIAN),
+    ("cube-map trace", "each ray its own step scale", "room", MANY, "set cubemap_trace.random_scale=false", PICTURE,
+     "bands for noise"),
+    ("cube-map trace", "step back after a switch", "room", CUBES, "set cubemap_trace.step_back=false", RAYS),
+    ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", RAYS),
+    ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", COST, "error for fetches"),
+    ("cube-map trace", "distance MIPs by roughness", "room", ["set cubemap_trace.rough_level=3"],
+     "set cubemap_trace.rough_level=0", ROUGH),
+    ("cube-map trace", "HQ/LQ split", "room", [], LQ_AS_HQ, ROUGH, "error for fetches and time"),
+    ("cube-map trace", "HQ/LQ split", "room", [], LQ_AS_HQ, COST),
+    ("cube-map trace", "HQ/LQ split", "full:street", [], LQ_AS_HQ, TIME),
+    ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", SMOOTH, "fetches for error"),
+    ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", COST),
+    ("cocoon", "weighted maximum", "room", [*CUBES, "set cubemap_trace.depth=captured"], "set cocoon.reach=0", FALLEN),
+    ("cocoon", "maximum of pairs", "street", [*CUBES, "set cubemap_trace.depth=captured"], "set cocoon.maximum=samples", FALLEN),
+    ("cocoon", "sky capped in finer levels", "street", CAPPED, "set cocoon.cap_sky=false", COST),
+    ("classification", "lists of pixels with a ray", "full:street", ["use classify=tiles"], "use classify=none", TIME,
+     "the pass that makes the list"),
+    ("classification", "lists of unfinished pixels", "full:room", ["use classify_unfinished=tiles"],
+     "use classify_unfinished=none", TIME, "the pass that makes the list"),
+    ("resolve", "bilinear colour", "street", MIRROR, "set resolve.filter_color=false", ROUGH_RMSE),
+    ("blur", "five-sample blur", "centred:room", HISTORY, "use blur=none", NOISE_1, "sharpness for noise"),
+    ("blur", "five-sample blur", "centred:room", HISTORY, "use blur=none", NOISE),
+    ("blur", "five-sample blur", "street", [], "use blur=none", GLOSSY),
+    ("blur", "BRDF weights", "street", [], "set blur.brdf=false", GLOSSY, "noise for detail"),
+    ("temporal", "history", "centred:room", HISTORY, "use temporal=none", NOISE, "lag for noise"),
+    ("temporal", "history, moving", "moving:room", HISTORY, "use temporal=none", STRAY_ROUGH),
+    ("temporal", "history, moving", "moving:street", HISTORY, "use temporal=none", GLOSSY_RMSE),
+    ("temporal", "extra samples where history is missing", "centred:room", HISTORY, "set temporal.extra=false", NOISE_1,
+     "detail for noise"),
+    ("temporal", "extra samples where history is missing", "moving:street", HISTORY, "set temporal.extra=false", ROUGH_RMSE),
+    ("temporal", "divergence threshold", "moving:room", HISTORY, "set temporal.divergence=1e6", STRAY_GLOSSY, "noise for lag"),
+    ("temporal", "history of another surface refused", "moving:room", HISTORY,
+     "set temporal.history_depth=10 set temporal.history_normal=-1", ROUGH, "noise for lag"),
+    ("upscale", "best match against bilinear", "street", [], "use upscale=bilinear", PICTURE, "steps for leaks"),
+    ("upscale", "all eight texels around", "street", [], "set upscale.around=false", PICTURE),
+    ("upscale", "depth in the match", "room", [], "set upscale.depth_weight=0", ROUGH_RMSE),
+    ("upscale", "normals in the match", "street", [], "set upscale.normal_weight=0", GLOSSY),
+    ("upscale", "roughness in the match", "street", [], "set upscale.roughness_weight=0", GLOSSY),
+    ("sharp", "resolve at full resolution", "room", [], "use resolve_sharp=none", SMOOTH, "time for error"),
+    ("sharp", "temporal filter", "still:room", HISTORY, "use temporal_sharp=none", SMOOTH, "lag for stability"),
+    ("sharp", "temporal filter", "still:street", HISTORY, "use temporal_sharp=none", SMOOTH),
+    ("sharp", "temporal filter", "still:room", HISTORY, "use temporal_sharp=none", FLICKER),
+    ("sharp", "temporal filter, moving", "moving:room", HISTORY, "use temporal_sharp=none", SMOOTH),
+    ("sharp", "variance clamping", "moving:room", HISTORY, "set temporal_sharp.clamp_history=false", SMOOTH, "flicker for lag"),
+]
+
+# Why a row does not move, or moves the wrong way: (mechanism, what is looked at or None for all).
+REASONS = {
+}
