@@ -17,8 +17,9 @@ float score(vec3 position, vec3 ray, uint place, float least) {
     float distance_m = length(offset), sum = fade * center.w + distance * near_m / (near_m + distance_m);
     sum += direction * (0.5 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));
     if (!(visibility > 0.0 && sum + visibility > least)) return sum;
-    float seen_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(offset, place), 0.0).x;
-    return distance_m <= seen_m * (1.0 + tolerance) ? sum + visibility : sum;
+    vec3 ahead = offset + ahead_m * ray;
+    float seen_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(ahead, place), 0.0).x;
+    return length(ahead) <= seen_m * (1.0 + tolerance) ? sum + visibility : sum;
 }
 
 uint best_place(vec3 position, vec3 ray) {

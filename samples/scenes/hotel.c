@@ -1,6 +1,7 @@
-/* hotel: a lobby of double height with a gallery, and the street before it at night. Fourteen cube maps, of which the
-   eight nearest to the player are all indoors, although the windows show the street: the case where an outdoor map has
-   to be forced. The house is -8 ≤ x ≤ 8, -14 ≤ z ≤ 0; the gallery lies at 3.6 m over z < -7.5. */
+/* hotel: a lobby of double height with a gallery, the cellar under it, and the street before it at night; 22 cube maps.
+   Ten on the player's floor are nearer than those of the street, which door and windows show: an outdoor one has to be
+   forced. Those of the cellar, behind the floor, are nearer than those of the lobby unless distance along up counts
+   more. The house is -8 ≤ x ≤ 8, -14 ≤ z ≤ 0; the gallery lies at 3.6 m over z < -7.5. */
 #include "../noise.h"
 #include "../props.h"
 #include "../scenes.h"
@@ -119,6 +120,17 @@ static void shell(struct scene *scene) {
     prop_wall(scene, 16, TOP, 0.35f, front, 5);
     for (int i = 0; i < 5; i++) prop_window_frame(scene, &front[i], 0.3f, i == 2 ? 3 : 2, 4);
     scene_place(scene, gray(0), 0);
+}
+
+static void cellar(struct scene *scene) {
+    scene_mesh(scene, &plaster, MESH_PLAIN);
+    scene_room(scene, v3(-8, -3, -14), v3(8, -0.35f, 0), FACE_ALL);
+    for (int i = 0; i < 4; i++) {
+        vec3 at = v3(i & 1 ? 4 : -4, -0.6f, i < 2 ? -4 : -10);
+        scene_mesh(scene, &glow, MESH_PLAIN);
+        scene_sphere(scene, at, 0.11f, 14);
+        scene_lamp(scene, at, v3(3.2f, 3, 2.6f), 8, 0.14f);
+    }
 }
 
 static void columns(struct scene *scene) {
@@ -256,17 +268,21 @@ static void outside(struct scene *scene) {
 }
 
 static void probes(struct scene *scene) {
-    static const float centers[14][3] = {
-        {0, 1.6f, -3.4f},  {-5.8f, 1.6f, -1.6f}, {5.2f, 1.6f, -2},  {-2.4f, 1.7f, -6.2f}, {2.4f, 1.7f, -6.2f},
-        {-4, 1.7f, -9.2f}, {4, 1.7f, -9.2f},     {-3.5f, 5, -9.6f}, {3.5f, 5, -9.6f},     {0, 5.4f, -12},
-        {-12, 2.2f, 6.5f}, {0, 2.4f, 7.4f},      {12, 2.2f, 6.5f},  {0, 3.5f, 13.4f}};
-    for (int i = 0; i < 14; i++) {
+    enum { GROUND = 10, GALLERY = 3, CELLAR = 5, OUTDOOR = 4, MAPS = GROUND + GALLERY + CELLAR + OUTDOOR };
+    static const float centers[MAPS][3] = {
+        {0, 1.6f, -3.4f},  {-5.8f, 1.6f, -1.6f}, {5.2f, 1.6f, -2},     {-2.4f, 1.7f, -6.2f}, {2.4f, 1.7f, -6.2f},
+        {-4, 1.7f, -9.2f}, {4, 1.7f, -9.2f},     {-6.2f, 1.7f, -5.8f}, {0, 1.7f, -12.7f},    {6.4f, 1.7f, -12},
+        {-3.5f, 5, -9.6f}, {3.5f, 5, -9.6f},     {0, 5.4f, -12},       {-4, -1.4f, -8},      {-1, -1.4f, -6},
+        {3, -1.4f, -8},    {-2, -1.4f, -11},     {2, -1.4f, -11},      {-12, 2.2f, 6.5f},    {0, 2.4f, 7.4f},
+        {12, 2.2f, 6.5f},  {0, 3.5f, 13.4f}};
+    for (int i = 0; i < MAPS; i++) {
         vec3 c = v3(centers[i][0], centers[i][1], centers[i][2]);
-        struct glint_cubemap *map = scene_cubemap(scene, c, i >= 10);
+        const bool outdoor = i >= MAPS - OUTDOOR;
+        struct glint_cubemap *map = scene_cubemap(scene, c, outdoor);
         if (i == 0) cubemap_box(map, v3(-1.9f, 0.02f, -6.6f), v3(1.9f, 3.9f, -0.2f));
-        if (i >= 7 && i <= 9)
+        if (i >= GROUND && i < GROUND + GALLERY)
             cubemap_box(map, v3(c.x - 1.4f, UPPER + 0.02f, c.z - 1.4f), v3(c.x + 1.4f, TOP - 0.3f, c.z + 1.1f));
-        if (i >= 10 && i < 13) cubemap_box(map, v3(c.x - 3, 1.6f, 3.4f), v3(c.x + 3, 5, 11.4f));
+        if (outdoor && i < MAPS - 1) cubemap_box(map, v3(c.x - 3, 1.6f, 3.4f), v3(c.x + 3, 5, 11.4f));
     }
 }
 
@@ -276,17 +292,18 @@ void build_hotel(struct scene *scene) {
     scene->bounces = 2;
     scene->gain = 2.9f;
     shell(scene);
+    cellar(scene);
     columns(scene);
     gallery(scene);
     lights(scene);
     furniture(scene);
     outside(scene);
     probes(scene);
-    scene->eye = v3(-6.3f, 1.75f, -6.2f);
-    scene->target = v3(0.6f, 1.6f, -2.9f);
+    scene->eye = v3(-1.2f, 1.75f, -9.6f);
+    scene->target = v3(0.5f, 0.8f, 0);
     scene->eye_step = v3(0.03f, 0, 0.01f);
     scene->target_step = v3(0.03f, 0, 0.01f);
     scene->fov_y_rad = 1.05f;
-    scene->player = v3(-4.9f, 0.9f, -6.0f);
+    scene->player = v3(-1.0f, 0.9f, -9.2f);
     scene->player_step = scene->eye_step;
 }

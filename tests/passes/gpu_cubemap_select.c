@@ -23,17 +23,18 @@ static void sphere(uint32_t number, const double d[3], float out[5]) {
 }
 
 struct weights {
-    double visibility, distance, direction, fade;
+    double visibility, distance, direction, fade, ahead;
 };
 
 static double score(const struct weights *w, uint32_t map, const double at[3], const double ray[3]) {
-    double length2 = 0, along = 0;
+    double length2 = 0, along = 0, ahead2 = 0;
     for (int k = 0; k < 3; ++k) {
         length2 += pow(at[k] - centers[map][k], 2);
+        ahead2 += pow(at[k] + w->ahead * ray[k] - centers[map][k], 2);
         along += (at[k] - centers[map][k]) * ray[k];
     }
     double length = sqrt(length2);
-    return w->visibility * (length <= radius[map] * 1.03) + w->distance * 3 / (3 + length) +
+    return w->visibility * (sqrt(ahead2) <= radius[map] * 1.03) + w->distance * 3 / (3 + length) +
            w->direction * (0.5 + 0.5 * along / length) + w->fade * fades[map];
 }
 
@@ -44,9 +45,9 @@ static void check(struct gpu *gpu, const struct weights *w, const char *what) {
     gpu_use(gpu, "cubemap_select=score");
     gpu_set(gpu, "screen_trace.length_m=0");
     gpu_set(gpu, "downsample.jitter=false");
-    const double values[] = {w->visibility, w->distance, w->direction, w->fade};
-    static const char *const names[] = {"visibility", "distance", "direction", "fade"};
-    for (int k = 0; k < 4; ++k) {
+    const double values[] = {w->visibility, w->distance, w->direction, w->fade, w->ahead};
+    static const char *const names[] = {"visibility", "distance", "direction", "fade", "ahead_m"};
+    for (int k = 0; k < 5; ++k) {
         snprintf(setting, sizeof setting, "cubemap_select.%s=%g", names[k], values[k]);
         gpu_set(gpu, setting);
     }
@@ -93,11 +94,12 @@ static void each_term_alone_and_together_decides(void **state) {
     }
     plain_capture(gpu_path(gpu, "spheres", path), &plain);
     gpu_load(gpu, "spheres");
-    check(gpu, &(struct weights){0, 1, 0, 0}, "distance");
-    check(gpu, &(struct weights){0, 0, 1, 0}, "direction");
-    check(gpu, &(struct weights){1, 0.2, 0, 0}, "visibility, then distance");
-    check(gpu, &(struct weights){0, 0.5, 0, 1}, "fade, then distance");
-    check(gpu, &(struct weights){0.3, 1, 0.5, 0.2}, "all");
+    check(gpu, &(struct weights){0, 1, 0, 0, 0}, "distance");
+    check(gpu, &(struct weights){0, 0, 1, 0, 0}, "direction");
+    check(gpu, &(struct weights){1, 0.2, 0, 0, 0}, "visibility, then distance");
+    check(gpu, &(struct weights){0, 0.5, 0, 1, 0}, "fade, then distance");
+    check(gpu, &(struct weights){1, 0.2, 0, 0, 1.5}, "visibility farther along the ray, then distance");
+    check(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
 }
 
 int main(void) {

@@ -143,28 +143,41 @@ static void test_imperfect_maps_lack_the_moving_car(void **state) {
     assert_true(different > all / 200 && different < all / 4); /* simplified, but the same street */
 }
 
+/* What the scene is for: by distances in which the part along up counts four times the nearest eight are on the player's
+   floor, none outdoors; by plain distances some are behind the floor. */
 static void test_hotels_nearest_eight_are_indoors(void **state) {
     struct glint_sample_options o = {.width = 16, .height = 9, .cube_size = 4, .light_samples = 1};
     const char *path = in_folder(state, "hotel.exr");
     write_sample("hotel", path, &o);
     struct glint_capture *capture = open_capture(path);
-    const double *player = glint_capture_frame(capture)->player;
-    double farthest_indoor[14], nearest_outdoor = INFINITY;
-    size_t indoor = 0, maps = 0;
-    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
-        const struct glint_part_info *part = glint_capture_part(capture, i);
-        if (!part->has_cubemap) continue;
-        double to[3];
-        for (int k = 0; k < 3; k++) to[k] = part->cubemap.center[k] - player[k];
-        maps++;
-        if (part->cubemap.outdoor) nearest_outdoor = fmin(nearest_outdoor, length_of(to));
-        else farthest_indoor[indoor++] = length_of(to);
+    const double *player = glint_capture_frame(capture)->player, penalties[] = {4, 1};
+    for (size_t p = 0; p < 2; p++) {
+        double same_floor[32], nearest_outdoor = INFINITY, other_floor[32];
+        size_t same = 0, other = 0, nearer = 0, among = 0;
+        for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+            const struct glint_part_info *part = glint_capture_part(capture, i);
+            if (!part->has_cubemap) continue;
+            double to[3];
+            for (int k = 0; k < 3; k++) to[k] = (part->cubemap.center[k] - player[k]) * (k == 1 ? penalties[p] : 1);
+            if (part->cubemap.outdoor) nearest_outdoor = fmin(nearest_outdoor, length_of(to));
+            else if (part->cubemap.center[1] > 0 && part->cubemap.center[1] < 3.6) same_floor[same++] = length_of(to);
+            else other_floor[other++] = length_of(to);
+        }
+        assert_int_equal(same, 10);
+        assert_int_equal(other, 8);
+        assert_true(isfinite(nearest_outdoor));
+        double eighth = INFINITY; /* the eighth nearest on the floor */
+        for (size_t i = 0; i < same; i++) {
+            size_t before = 0;
+            for (size_t k = 0; k < same; k++) before += same_floor[k] < same_floor[i];
+            if (before == 7) eighth = same_floor[i];
+            nearer += same_floor[i] < nearest_outdoor;
+        }
+        for (size_t i = 0; i < other; i++) among += other_floor[i] < eighth;
+        assert_true(nearer >= 8);
+        if (p == 0) assert_int_equal(among, 0);
+        else assert_true(among >= 4);
     }
-    assert_int_equal(maps, 14);
-    size_t nearer = 0;
-    for (size_t i = 0; i < indoor; i++) nearer += farthest_indoor[i] < nearest_outdoor;
-    assert_true(nearer >= 8);
-    assert_true(isfinite(nearest_outdoor));
     glint_capture_close(&capture);
 }
 
