@@ -3,7 +3,7 @@
 #include "screen_trace/screen_ray.glsl"
 
 struct CellRay {
-    vec2 start, across, per_across; // texels; 1/across, or +inf for a component that never reaches an edge
+    vec2 start, across, per_across; // texels; 1/across, -1e30 for a component that is 0: its edges are never reached
     ivec2 forward;                  // 1 for a component that grows
     float inverse, inverse_rate;    // 1/z = inverse + s · inverse_rate
     float end;
@@ -14,8 +14,8 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
     CellRay cells;
     cells.start = vec2(texel) + 0.5;
     cells.across = ray.across / reduction(frame.size);
-    cells.forward = ivec2(greaterThan(cells.across, vec2(0.0)));
-    cells.per_across = mix(1.0 / cells.across, vec2(INFINITE), lessThan(abs(cells.across), vec2(1e-30)));
+    cells.per_across = 1.0 / mix(cells.across, vec2(-1e-30), lessThan(abs(cells.across), vec2(1e-30)));
+    cells.forward = ivec2(greaterThan(cells.per_across, vec2(0.0)));
     cells.inverse = 1.0 / ray.depth_m;
     cells.inverse_rate = -ray.rate / ray.depth_m;
     cells.end = ray.end;
@@ -24,15 +24,13 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
 
 precise float inverse_at(CellRay ray, float s) { return ray.inverse + s * ray.inverse_rate; }
 
-// Where the ray leaves a cell, one value an axis, by its far edges. +inf along an axis that it runs across.
+// Where the ray leaves a cell, one value an axis, by its far edges.
 precise vec2 cell_exits(CellRay ray, ivec2 cell, int level) {
-    vec2 edge = vec2((cell + ray.forward) << level) - ray.start;
-    return mix(edge * ray.per_across, vec2(INFINITE), isinf(ray.per_across));
+    return (vec2((cell + ray.forward) << level) - ray.start) * ray.per_across;
 }
 // Where it came in, by the near edges.
 precise float cell_entry(CellRay ray, ivec2 cell) {
-    vec2 edge = vec2(cell + 1 - ray.forward) - ray.start;
-    vec2 entries = mix(edge * ray.per_across, vec2(0.0), isinf(ray.per_across));
+    vec2 entries = (vec2(cell + 1 - ray.forward) - ray.start) * ray.per_across;
     return max(max(entries.x, entries.y), 0.0);
 }
 

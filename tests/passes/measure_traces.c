@@ -88,15 +88,25 @@ static void judge(struct truth *truth, size_t count[2]) {
     }
 }
 
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
 struct tally {
     size_t rays, shown, found, hits, right, wrong_shown, wrong_hidden, wrong_sky, early, late;
     double fetches, steps, fetches_long, texels_long;
     size_t long_rays;
     size_t missed[16];
+    double median_error; /* of hits whose ray truly ends on a surface, relative */
 };
 
 static struct tally tally_of(struct glint_replay *replay, const struct truth *truth) {
     struct tally tally = {0};
+    const size_t texels = (size_t)truth->width * truth->height;
+    double *errors = malloc(texels * sizeof *errors);
+    size_t error_count = 0;
+    if (!errors) exit(1);
     float *travelled = image(replay, "screen_travelled", GLINT_F32, NULL, NULL);
     uint32_t *finished = image(replay, "screen_finished", GLINT_U32, NULL, NULL);
     uint32_t *fetches = image(replay, "screen_fetches", GLINT_U32, NULL, NULL);
@@ -114,6 +124,7 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
         tally.found += shown && right;
         tally.hits += hit;
         tally.right += right;
+        if (hit && truth->distance[i] < 3e38f) errors[error_count++] = fabs(error) / (double)truth->distance[i];
         if (shown && !hit) tally.missed[end[i] & 15]++;
         if (hit && !right) {
             if (!(truth->distance[i] < 3e38f)) tally.wrong_sky++;
@@ -129,6 +140,9 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
             hypot(place[0] - ray.x, place[1] - ray.y) > 64)
             tally.long_rays++, tally.fetches_long += fetches[i], tally.texels_long += steps[i];
     }
+    qsort(errors, error_count, sizeof *errors, ascending);
+    tally.median_error = error_count ? errors[error_count / 2] : 0;
+    free(errors);
     free(travelled);
     free(finished);
     free(fetches);
@@ -159,12 +173,13 @@ static void print(const char *name, const struct tally *t, double pyramid_ms, do
     printf("{\"name\": \"%s\", \"rays\": %zu, \"shown\": %zu, \"recall\": %.5f, \"hits\": %zu, \"precision\": %.5f, "
            "\"wrong_shown\": %.5f, \"wrong_hidden\": %.5f, \"wrong_sky\": %.5f, \"early\": %.5f, \"late\": %.5f, "
            "\"fetches\": %.3f, \"steps\": %.3f, "
-           "\"long_rays\": %zu, \"long_fetches\": %.3f, \"long_steps\": %.3f, \"pyramid_ms\": %.5f, \"trace_ms\": %.5f",
+           "\"long_rays\": %zu, \"long_fetches\": %.3f, \"long_steps\": %.3f, "
+           "\"median_error\": %.6f, \"pyramid_ms\": %.5f, \"trace_ms\": %.5f",
            name, t->rays, t->shown, share(t->found, t->shown), t->hits, share(t->right, t->hits),
            share(t->wrong_shown, t->hits), share(t->wrong_hidden, t->hits), share(t->wrong_sky, t->hits),
            share(t->early, t->hits), share(t->late, t->hits), t->fetches / (double)t->rays, t->steps / (double)t->rays,
-           t->long_rays, t->fetches_long / (double)t->long_rays, t->texels_long / (double)t->long_rays, pyramid_ms,
-           trace_ms);
+           t->long_rays, t->fetches_long / (double)t->long_rays, t->texels_long / (double)t->long_rays, t->median_error,
+           pyramid_ms, trace_ms);
     printf(", \"missed\": {");
     const char *comma = "";
     for (size_t r = 0; r < sizeof reasons / sizeof reasons[0]; ++r)
@@ -234,7 +249,8 @@ int main(int argc, char **argv) {
                            truth.normal);
             size_t count[2] = {0};
             judge(&truth, count);
-            printf("{\"name\": \"oracle\", \"shown\": %zu, \"recall\": %.5f}\n", count[0], share(count[1], count[0]));
+            printf("{\"name\": \"oracle\", \"device\": \"%s\", \"shown\": %zu, \"recall\": %.5f}\n",
+                   glint_device_get_info(device)->name, count[0], share(count[1], count[0]));
         }
         struct tally tally = tally_of(replay, &truth);
         if (repeat) run(replay, pipeline, repeat, false);

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Measures the screen traces against the truth of the sample scenes, and writes docs/traces.md.
+
+traces.py measure GLINT MEASURE_TRACES RECORD.json [--repeat N]   sample, trace, compare; times of this machine's device
+traces.py page COUNTS.json [TIMES.json] -o docs/traces.md         TIMES: a record of another device, for times alone
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+
+PRESET = pathlib.Path(__file__).parent / 'traces.json'
+SCENES = ('mirror_box', 'street', 'room', 'hotel')
+SIZE, LARGE = '960x540', '1920x1080'  # half a million rays; what long rays take
+# Name on the page, variant, settings.
+TRACES = [
+    ('`hiz`', 'hiz', ''),
+    ('`dda`', 'dda', ''),
+    ('`linear`, Mafia III', 'linear', ''),
+    ('`linear`, goes on behind', 'linear', 'screen_trace.pass_behind=true'),
+    ('`linear_binary`, KF2', 'linear_binary', ''),
+    ('its linear march alone', 'linear_binary', 'screen_trace.refinements=0'),
+    ('the same, as many fetches', 'linear_binary', 'screen_trace.refinements=0 screen_trace.steps=22 screen_trace.step_length=0.0145'),
+]
+MECHANISMS = [
+    ('`hiz`', 'hiz', ''),
+    ('all is solid (KF2): `thickness_m=1e6`', 'hiz', 'screen_trace.thickness_m=1e6'),
+    ('1 % of depth, else on behind: `thickness=0.01 seam=0 solid=0`', 'hiz', 'screen_trace.thickness=0.01 screen_trace.seam=0 screen_trace.solid=0'),
+    ('stops behind anything: `pass_behind=false`', 'hiz', 'screen_trace.pass_behind=false'),
+    ('objects without depth: `solid=0`', 'hiz', 'screen_trace.solid=0'),
+    ('twice as deep: `solid=2`', 'hiz', 'screen_trace.solid=2'),
+    ('no seams: `seam=0`', 'hiz', 'screen_trace.seam=0'),
+    ('no thickness: `thickness=0`', 'hiz', 'screen_trace.thickness=0'),
+    ('tenfold thickness: `thickness=0.01`', 'hiz', 'screen_trace.thickness=0.01'),
+    ('no bias: `bias=0`', 'hiz', 'screen_trace.bias=0'),
+]
+
+
+def traces(program, capture, rows, repeat):
+    command = [program, str(capture), str(repeat), str(PRESET)]
+    for _, variant, settings in rows:
+        command += [variant, *settings.split(), ',']
+    lines = subprocess.run(command[:-1], capture_output=True, text=True, check=True).stdout.splitlines()
+    found = [json.loads(line) for line in lines]
+    return {'oracle': found[0], 'rows': {row[0]: answer for row, answer in zip(rows, found[1:])}}
+
+
+def measure(arguments):
+    rows = TRACES + [row for row in MECHANISMS if row not in TRACES]
+    record = {'small': {}, 'large': {}}
+    with tempfile.TemporaryDirectory() as folder:
+        for size, group, scenes, chosen in ((SIZE, 'small', SCENES, rows), (LARGE, 'large', SCENES[1:], TRACES[:2])):
+            for scene in scenes:
+                capture = pathlib.Path(folder) / f'{scene}.exr'
+                subprocess.run([arguments.glint, 'sample', scene, '-o', str(capture), '--size', size, '--cube-size', '16',
+                                '--truth', '1'], check=True, stderr=subprocess.DEVNULL)
+                record[group][scene] = traces(arguments.program, capture, chosen, arguments.repeat if group == 'small' else 0)
+    pathlib.Path(arguments.record).write_text(json.dumps(record, indent=1) + '\n')
+
+
+def percent(value):
+    return f'{100 * value:.1f}'
+
+
+def quality(record, rows, times):
+    lines = ['| | ' + ' | '.join(record['small']) + ' | cells or samples | fetches | µs trace | µs pyramid |', '| --- |' + ' --- |' * (len(SCENES) + 4)]
+    lines.append('| oracle | ' + ' | '.join(f"{percent(record['small'][s]['oracle']['recall'])}, 100" for s in SCENES) + ' | | | | |')
+    for name, variant, _ in rows:
+        found = [record['small'][s]['rows'][name] for s in SCENES]
+        timed = [times['small'][s]['rows'][name] for s in SCENES]
+        mean = lambda key, of: sum(row[key] for row in of) / len(of)
+        pyramid = f"{1000 * mean('pyramid_ms', timed):.0f}" if variant == 'hiz' else ''
+        lines.append(f'| {name} | ' + ' | '.join(f"{percent(r['recall'])}, {percent(r['precision'])}" for r in found)
+                     + f" | {mean('steps', found):.1f} | {mean('fetches', found):.1f} | {1000 * mean('trace_ms', timed):.0f} | {pyramid} |")
+    return '\n'.join(lines)
+
+
+def wrong(record):
+    lines = ['| `hiz` | missed: went behind, left the screen, exhausted | wrong: truly hidden, truly seen, truly sky | wrong: too early, too late |', '| --- | --- | --- | --- |']
+    for scene in SCENES:
+        r = record['small'][scene]['rows']['`hiz`']
+        missed = [percent(r['missed'].get(k, 0)) for k in ('behind', 'left_screen', 'steps_exhausted')]
+        lines.append(f"| {scene} | {', '.join(missed)} | {percent(r['wrong_hidden'])}, {percent(r['wrong_shown'])}, {percent(r['wrong_sky'])} | {percent(r['early'])}, {percent(r['late'])} |")
+    return '\n'.join(lines)
+
+
+def long_rays(record):
+    lines = ['| 1920×1080, rays over 64 pixels | `hiz`: cells, fetches | `dda`: texels | part |', '| --- | --- | --- | --- |']
+    for scene, found in record['large'].items():
+        h, d = found['rows']['`hiz`'], found['rows']['`dda`']
+        lines.append(f"| {scene} | {h['long_steps']:.1f}, {h['long_fetches']:.1f} | {d['long_steps']:.1f} | {h['long_fetches'] / d['long_steps']:.3f} |")
+    return '\n'.join(lines)
+
+
+def distances(record):
+    names = [row[0] for row in TRACES[4:]]
+    lines = ['| median error of a hit\'s distance, % | ' + ' | '.join(SCENES) + ' | fetches |', '| --- |' + ' --- |' * (len(SCENES) + 1)]
+    for name in names:
+        found = [record['small'][s]['rows'][name] for s in SCENES]
+        lines.append(f'| {name} | ' + ' | '.join(f"{100 * r['median_error']:.2f}" for r in found)
+                     + f" | {sum(r['fetches'] for r in found) / len(found):.1f} |")
+    return '\n'.join(lines)
+
+
+def page(arguments):
+    record = json.loads(pathlib.Path(arguments.counts).read_text())
+    times = json.loads(pathlib.Path(arguments.times).read_text()) if arguments.times else record
+    device = times['small'][SCENES[0]]['oracle']['device']
+    text = pathlib.Path(__file__).with_name('traces.md.in').read_text()
+    for name, table in (('TRACES', quality(record, TRACES, times)), ('MECHANISMS', quality(record, MECHANISMS, times)),
+                        ('WRONG', wrong(record)), ('LONG', long_rays(record)), ('DISTANCES', distances(record)), ('DEVICE', device)):
+        text = text.replace(f'@{name}@', table)
+    pathlib.Path(arguments.output).write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    one = commands.add_parser('measure')
+    for name in ('glint', 'program', 'record'):
+        one.add_argument(name)
+    one.add_argument('--repeat', type=int, default=3)
+    one.set_defaults(run=measure)
+    two = commands.add_parser('page')
+    two.add_argument('counts')
+    two.add_argument('times', nargs='?')
+    two.add_argument('-o', '--output', default='docs/traces.md')
+    two.set_defaults(run=page)
+    arguments = parser.parse_args()
+    arguments.run(arguments)
+
+
+main()
