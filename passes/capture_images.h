@@ -5,6 +5,7 @@ CAPTURE(normal_full,      RGBA16F, "1",  FULL,     "gbuffer", "normal.X normal.Y
 CAPTURE(albedo_full,      RGBA16F, "1",  FULL,     "gbuffer", "albedo.R albedo.G albedo.B material.metalness", true, 0, "rgb: base colour; a: metalness")
 CAPTURE(specular_full,    R16F,    "1",  FULL,     "gbuffer", "material.specular", true, 0, "dielectric reflectance / 0.08; 0 reflects nothing")
 CAPTURE(motion_full,      RG32F,   "uv", FULL,     "gbuffer", "motion.X motion.Y", false, 0, "uv one frame earlier minus uv now")
+CAPTURE(stencil_full,     R8UI,    "id", FULL,     "gbuffer", "stencil.id", false, 0, "the engine's own ids, their lowest 8 bits; frame.foreground says which are of a class")
 CAPTURE(lit,              RGBA16F, "radiance", FULL, "lit",   "R G B -", true, 0, "diffuse shading with sky, no specular")
 CAPTURE(scene,            RGBA16F, "radiance", FULL, "scene", "R G B -", false, 0, "the finished picture")
 CAPTURE(previous_lit,     RGBA16F, "radiance", FULL, "previous.lit", "R G B -", false, 0, "lit of the previous frame")

@@ -85,6 +85,16 @@ static void fill_fog(struct frame_block *block, const struct glint_frame *frame,
         (vec4){(float)((eye[axis] * sign - fog->base) * metres), (float)(fog->scale_height * metres), 0, 0};
 }
 
+/* A first person's weapon and the like: the world behind it was never drawn. */
+static uvec4 foreground_of(const struct glint_frame *frame) {
+    for (uint32_t i = 0; i < frame->class_count; i++) {
+        const struct glint_stencil_class *class = &frame->classes[i];
+        if (strcmp(class->name, "foreground") == 0)
+            return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
+    }
+    return (uvec4){0, 0, 0, 0};
+}
+
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes) {
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     double eye[3];
@@ -106,4 +116,5 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
     block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};
+    block->foreground = foreground_of(frame);
 }

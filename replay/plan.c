@@ -30,7 +30,7 @@ static bool read_gbuffer(struct glint_replay *replay, const struct glint_pipelin
                 read |= pipeline->passes[p].pass->rows[r].kind == GLINT_ROW_READ &&
                         strcmp(pipeline->passes[p].pass->rows[r].name, rows[i].name) == 0;
         size_t before = gbuffer->count;
-        if (read && !channels_add_row(gbuffer, &rows[i], err)) return false;
+        if (read && !format_is_uint(rows[i].format) && !channels_add_row(gbuffer, &rows[i], err)) return false;
         for (size_t c = before; c < gbuffer->count; c++)
             if (!glint_part_has_channel(gbuffer->part, gbuffer->names[c])) { /* optional, or the graph reports it */
                 while (gbuffer->count > before) free((char *)gbuffer->names[--gbuffer->count]);

@@ -74,6 +74,11 @@ static void place_components(struct packing *packing, const struct channels *cha
     }
 }
 
+/* Whether the image comes from parts of this role: ids, which are read as integers, apart from the others. */
+static bool comes_with(const struct graph_image *image, const char *role, bool ids) {
+    return strcmp(image->row->role, role) == 0 && format_is_uint(image->row->format) == ids;
+}
+
 /* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
 static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role,
                         struct channels *channels, uint32_t first, uint32_t layers, struct glint_error *err) {
@@ -84,7 +89,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
     channels->part = part;
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
-        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || strcmp(image->row->role, role) != 0) continue;
+        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || !comes_with(image, role, false)) continue;
         const struct image_desc *desc = &run->images[i]->desc;
         if (part->width != desc->width || part->height != desc->height * layers)
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %u x %u, found %u x %u",
@@ -105,7 +110,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
     offset = 0;
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
-        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || strcmp(image->row->role, role) != 0) continue;
+        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || !comes_with(image, role, false)) continue;
         struct packing packing = {.from = (const uint32_t *)channels->data,
                                   .stride = channels->count,
                                   .missing = (float)image->row->nothing,
@@ -224,10 +229,24 @@ static bool upload_given(struct run *run, size_t i, struct glint_error *err) {
     return submit(run, err);
 }
 
+static bool upload_ids(struct run *run, size_t i, struct glint_error *err) {
+    const struct glint_row *row = run->graph.images[i].row;
+    const struct glint_part_info *part = glint_capture_find(run->replay->capture, row->role);
+    uint32_t *ids = calloc(image_values(&run->images[i]->desc, 0), sizeof *ids);
+    bool ok = ids || glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", row->name);
+    if (ok && glint_part_has_channel(part, row->source))
+        ok = glint_capture_read(run->replay->capture, part, &row->source, 1, GLINT_U32, ids, 0, err);
+    ok = ok && upload_values(run, i, ids, err);
+    free(ids);
+    return ok;
+}
+
 /* Captures fill several images from one part; the first image met brings the others along. */
-static bool upload_captured(struct run *run, const struct graph_image *image, struct glint_error *err) {
+static bool upload_captured(struct run *run, size_t i, struct glint_error *err) {
+    const struct graph_image *image = &run->graph.images[i];
     struct glint_replay *replay = run->replay;
     const char *role = image->row->role;
+    if (format_is_uint(image->row->format)) return upload_ids(run, i, err);
     if (size_is_array(image->row->size)) return upload_cubemaps(run, role, err);
     struct channels own = {0}, *channels = &own;
     if (strcmp(role, "gbuffer") == 0 && replay->gbuffer.data) channels = &replay->gbuffer;
@@ -246,11 +265,10 @@ bool run_upload(struct run *run, struct glint_error *err) {
         if (!to_upload(run, i) || (image->source == SOURCE_MADE && !table)) continue;
         bool stand_in = size_is_array(image->row->size) && run->sizes.active == 0;
         if (image->source == SOURCE_CAPTURE && !stand_in) {
-            ok =
-                report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, image, err);
+            ok = report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, i, err);
             for (size_t j = 0; ok && j < run->graph.image_count; j++)
                 if (run->graph.images[j].source == SOURCE_CAPTURE && run->needed[j] &&
-                    strcmp(run->graph.images[j].row->role, image->row->role) == 0)
+                    comes_with(&run->graph.images[j], image->row->role, format_is_uint(image->row->format)))
                     run->images[j]->key = run->keys[j];
         } else {
             double start = now_seconds();

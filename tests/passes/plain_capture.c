@@ -44,13 +44,15 @@ static void fill(const struct plain *plain, float *values) {
     }
 }
 
+/* ids: NULL, or stencil ids too */
 static void add_part(struct glint_writer *writer, const char *name, const struct plain *plain, const char *const *names,
-                     const float *values, size_t count) {
+                     const float *values, size_t count, const uint32_t *ids) {
     struct glint_error err = {0};
-    struct glint_channel channels[PLAIN_CHANNELS] = {{0}};
+    struct glint_channel channels[PLAIN_CHANNELS + 1] = {{0}};
     for (size_t k = 0; k < count; ++k)
         channels[k] = (struct glint_channel){
             .name = names[k], .type = GLINT_F32, .data = &values[k * plain->width * plain->height]};
+    if (ids) channels[count++] = (struct glint_channel){.name = "stencil.id", .type = GLINT_U32, .data = ids};
     const struct glint_part part = {
         .name = name, .width = plain->width, .height = plain->height, .channels = channels, .channel_count = count};
     check(glint_writer_add_part(writer, &part, &err), &err);
@@ -137,10 +139,17 @@ void plain_capture(const char *path, const struct plain *plain) {
         frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
         frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
     }
+    const size_t pixels = (size_t)plain->width * plain->height;
+    uint32_t *ids = plain->foreground ? malloc(pixels * sizeof *ids) : NULL;
+    for (size_t i = 0; ids && i < pixels; ++i) ids[i] = 2 * (i % plain->width) >= plain->width ? 5 : 1;
+    if (ids) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, "foreground"};
     check(glint_writer_set_frame(writer, &frame, &err), &err);
-    add_part(writer, "gbuffer", plain, names, values, PLAIN_LIT_R);
-    add_part(writer, "lit", plain, names + PLAIN_LIT_R, values + (size_t)PLAIN_LIT_R * plain->width * plain->height,
-             PLAIN_CHANNELS - PLAIN_LIT_R);
+    add_part(writer, "gbuffer", plain, names, values, PLAIN_LIT_R, ids);
+    float *light = values + (size_t)PLAIN_LIT_R * pixels;
+    add_part(writer, "lit", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL);
+    for (size_t i = 0; plain->scene && i < 3 * pixels; ++i) light[i] = plain->scene[i / pixels];
+    if (plain->scene) add_part(writer, "scene", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL);
+    free(ids);
     for (uint32_t i = 0; plain->cube && i < plain->cube_count; ++i) add_cube(writer, plain, i);
     if (plain->sky) add_cube(writer, plain, plain->cube_count);
     check(glint_writer_finish(writer, &err), &err);
