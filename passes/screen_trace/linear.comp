@@ -8,7 +8,6 @@
 };
 #include "screen_trace/screen_ray.glsl"
 #include "shared/random.glsl"
-#include "shared/work_list.glsl"
 
 // Half-resolution texels: texel `from` holds the pixel at the ray's start, and the others pixels as far into their blocks.
 struct Grid {
@@ -125,31 +124,4 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     }
     return result;
 }
-
-void store(ivec2 pixel, Result result) {
-    imageStore(screen_travelled, pixel, vec4(result.travelled_m));
-    imageStore(screen_finished, pixel, uvec4(result.finished ? 1u : 0u));
-    if (!diagnostics) return;
-    imageStore(screen_end, pixel, uvec4(result.end));
-    imageStore(screen_steps, pixel, uvec4(result.steps));
-    imageStore(screen_fetches, pixel, uvec4(result.fetches));
-}
-
-bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
-    depth_m = texelFetch(depth_half, pixel, 0).x;
-    normal = texelFetch(normal_jittered, pixel, 0).xyz;
-    return reflects(depth_m, normal);
-}
-
-void main() {
-    ivec2 size = imageSize(screen_travelled), pixel = own_pixel(size);
-    float depth_m;
-    vec3 normal;
-    bool traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    if (!traced && inside(pixel, size)) store(pixel, Result(0.0, false, END_not_traced, 0u, 0u));
-    if (has_list()) {
-        pixel = listed_pixel(screen_list);
-        traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    }
-    if (traced) store(pixel, trace(pixel, depth_m, normal));
-}
+#include "screen_trace/main.glsl"

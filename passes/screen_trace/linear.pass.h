@@ -4,8 +4,6 @@ PASS("Linear march", "002, Linear ray march; 000, Screen-space tracing")
 #line 202
 READ(texture2D, normal_half)
 READ(texture2D, inverse_half)
-OPTIONAL_READ(utextureBuffer, screen_list, R32UI, LIST, 0xFFFFFFFFu)
-DISPATCH_LIST(screen_list)
 SPEC(int,   steps,       32,    1,   1024,  "samples", "002, Linear ray march", "samples along the ray")
 SPEC(bool,  dither,      true,  0,   1,     "1", "002, Dithering", "shift the samples of each ray by a random part of a step")
 SPEC(bool,  interpolate, true,  0,   1,     "1", "glint", "1/z between texels (exact on planes); off: the nearest texel")

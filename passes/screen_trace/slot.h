@@ -10,5 +10,7 @@ DIAGNOSTIC(uimage2D, screen_end, R8UI, "end reason", HALF, "reason", 0, "why the
 DIAGNOSTIC(uimage2D, screen_steps, R32UI, "steps", HALF, "steps", 0, "steps taken")
 DIAGNOSTIC(uimage2D, screen_fetches, R32UI, "fetches", HALF, "fetches", 0, "texture fetches made")
 DISPATCH(screen_travelled)
+OPTIONAL_READ(utextureBuffer, screen_list, R32UI, LIST, 0xFFFFFFFFu)
+DISPATCH_LIST(screen_list)
 NEEDS(reflecting)
 PER_RAY

@@ -16,19 +16,4 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     }
     return result;
 }
-
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(screen_travelled)))) return;
-    float depth_m = texelFetch(depth_half, pixel, 0).x;
-    vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
-    Result result = Result(0.0, false, END_not_traced, 0u, 0u);
-    if (reflects(depth_m, normal)) result = trace(pixel, depth_m, normal);
-    imageStore(screen_travelled, pixel, vec4(result.travelled_m));
-    imageStore(screen_finished, pixel, uvec4(result.finished ? 1u : 0u));
-    if (diagnostics) {
-        imageStore(screen_end, pixel, uvec4(result.end));
-        imageStore(screen_steps, pixel, uvec4(result.steps));
-        imageStore(screen_fetches, pixel, uvec4(result.fetches));
-    }
-}
+#include "screen_trace/main.glsl"

@@ -145,8 +145,13 @@ static void lists_change_no_bit(void **state) {
     static const char *const settings[] = {"cubemap_trace.fallback=cocoon", "cubemap_trace.depth=capped",
                                            "cubemap_trace.rough_level=3"};
     float *whole[IMAGES];
-    for (int i = 0; i < 3; ++i) {
+    for (int round = 0; round < 6; ++round) {
+        const int i = round % 3;
         load_street(gpu);
+        if (round >= 3) {
+            gpu_use(gpu, "hiz=nearest");
+            gpu_use(gpu, "screen_trace=hiz");
+        }
         gpu_use(gpu, "cocoon=max");
         gpu_use(gpu, "cubemap_mips=plain");
         for (size_t k = 0; k < sizeof settings / sizeof settings[0]; ++k) gpu_set(gpu, settings[k]);
