@@ -22,7 +22,6 @@
 #define CHOICE4(parameter, initial, a, b, c, d, source, text) \
     enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c), PLACE(parameter, d) };
 #define DISPATCH(image)
-#define DISPATCH_BLOCKS(image)
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LIST(list)
 #define WORKGROUP(width, height)

@@ -18,13 +18,10 @@ static bool row_is_dispatch(const struct glint_row *row) {
            row->kind == GLINT_ROW_DISPATCH_LIST;
 }
 
-static void add(const struct run *run, struct step *step, uint32_t phase, const struct image *image, uint32_t level,
-                uint32_t block) {
+static void add(const struct run *run, struct step *step, uint32_t phase, const struct image *image, uint32_t level) {
     const uint32_t *half = run->sizes.half;
     VkExtent3D extent = image_extent(&image->desc, level);
     struct workgroup group = pass_workgroup(step->pass->pass);
-    group.width *= block;
-    group.height *= block;
     if (image->desc.buffer) {
         extent = (VkExtent3D){half[0], half[1], 1};
         group = (struct workgroup){LIST_BLOCK, LIST_BLOCK};
@@ -47,7 +44,7 @@ static void add_levels(const struct run *run, struct step *step, uint32_t phase,
     if (fine < 0) fine = 0;
     if (coarse > count - 1) coarse = count - 1;
     for (int i = 0; i <= coarse - fine; i++)
-        add(run, step, phase, image, (uint32_t)(row->order == GLINT_ORDER_up ? coarse - i : fine + i), 1);
+        add(run, step, phase, image, (uint32_t)(row->order == GLINT_ORDER_up ? coarse - i : fine + i));
 }
 
 /* The images of the rows DISPATCH_LIST that follow row `r`; 0 when there are none, or one of them was not made. */
@@ -80,8 +77,7 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
         for (size_t i = 0; i < count; i++)
             step->dispatches[step->dispatch_count++] =
                 (struct dispatch){.phase = phase + 1 + (uint32_t)i, .list = lists[i]};
-        if (row->kind == GLINT_ROW_DISPATCH && count == 0)
-            add(run, step, phase, image, 0, row->first ? (uint32_t)row->first : 1);
+        if (row->kind == GLINT_ROW_DISPATCH && count == 0) add(run, step, phase, image, 0);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(run, step, phase, row, image);
         phase++;
     }

@@ -35,17 +35,17 @@ struct Patch {
 };
 
 Patch patch_of(texture2DArray faces, vec3 direction, uint place, int level) {
-    int size = max(int(frame.counts.z) >> level, 1);
+    float size = float(max(int(frame.counts.z) >> level, 1)), per_size = 1.0 / size;
     vec3 face = face_from_direction(direction);
-    vec2 texel = face.xy * float(size) - 0.5, corner = clamp(floor(texel), vec2(0.0), vec2(max(size - 2, 0)));
+    vec2 texel = face.xy * size - 0.5, corner = clamp(floor(texel), vec2(0.0), vec2(max(size - 2.0, 0.0)));
     float layer = 6.0 * float(place) + face.z;
     Patch p;
     p.part = texel - corner;
     if (level == 0) {
-        p.distance_m = textureGather(sampler2DArray(faces, nearest_clamp), vec3((corner + 1.0) / float(size), layer));
+        p.distance_m = textureGather(sampler2DArray(faces, nearest_clamp), vec3((corner + 1.0) * per_size, layer));
         return p;
     }
-    ivec3 low = ivec3(corner, layer), high = min(low + ivec3(1, 1, 0), ivec3(size - 1, size - 1, low.z));
+    ivec3 low = ivec3(corner, layer), high = min(low + ivec3(1, 1, 0), ivec3(ivec2(size - 1.0), low.z));
     p.distance_m = vec4(texelFetch(faces, ivec3(low.x, high.y, low.z), level).x, texelFetch(faces, high, level).x,
                         texelFetch(faces, ivec3(high.x, low.y, low.z), level).x, texelFetch(faces, low, level).x);
     return p;

@@ -14,6 +14,7 @@ struct Grid {
     vec2 from, across; // the ray's place in texels is from + s · across
     vec2 offset;       // of a texel's pixel in its block, in full-resolution pixels
     float scale;       // full-resolution pixels of a texel
+    vec2 last, per_size; // the last texel; 1/size
 };
 
 precise vec2 texel_at(Grid grid, float s) { return grid.from + s * grid.across; }
@@ -22,12 +23,12 @@ ivec2 nearest_texel(vec2 texel) { return clamp(ivec2(floor(texel + 0.5)), ivec2(
 
 // Inverse depth that the buffer shows at a place; 0: sky. Between four texels of one surface 1/z is bilinear, which is
 // exact on planes; over a discontinuity the nearest one counts.
-precise float seen_inverse(vec2 texel) {
+precise float seen_inverse(vec2 texel, Grid grid) {
     if (!interpolate) return texelFetch(inverse_half, nearest_texel(texel), 0).x;
-    vec2 corner = clamp(floor(texel), vec2(0.0), max(vec2(frame.size.zw) - 2.0, 0.0));
-    vec2 part = clamp(texel - corner, 0.0, 1.0);
+    texel = clamp(texel, vec2(0.0), grid.last);
+    vec2 corner = min(floor(texel), max(grid.last - 1.0, 0.0)), part = texel - corner;
     // Gather's order: (0,1) (1,1) (1,0) (0,0).
-    vec4 z = textureGather(sampler2D(inverse_half, nearest_clamp), (corner + 1.0) / vec2(frame.size.zw));
+    vec4 z = textureGather(sampler2D(inverse_half, nearest_clamp), (corner + 1.0) * grid.per_size);
     float low = min(min(z.x, z.y), min(z.z, z.w)), high = max(max(z.x, z.y), max(z.z, z.w));
     // One surface: opposite sides change alike, as 1/z does on a plane, and by no great part.
     if (abs(z.x - z.w - (z.y - z.z)) <= 0.02 * low && high < 2.0 * low)
@@ -60,7 +61,7 @@ precise float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front
 
 // Whether the picture shows, where the ray is at s, a surface that is no farther from it than the thickness.
 bool shows(ScreenRay ray, float s, Grid grid) {
-    float depth_m = 1.0 / inverse_depth_at(ray, s), seen_m = 1.0 / seen_inverse(texel_at(grid, s));
+    float depth_m = 1.0 / inverse_depth_at(ray, s), seen_m = 1.0 / seen_inverse(texel_at(grid, s), grid);
     return abs(depth_m - seen_m) <= thickness * depth_m + thickness_m; // false for the sky's +inf
 }
 
@@ -69,10 +70,10 @@ Result march(ScreenRay ray, Grid grid, float shift) {
     precise float s_front = 0.0, gap_front = 0.0, s_before = 0.0, s_clear = 0.0;
     bool been_behind = false;
     for (int i = 1; i <= steps; ++i) {
-        precise float s = ray.end * pow((float(i) - shift) / float(steps), growth);
+        precise float s = ray.end * pow((float(i) - shift) * (1.0 / float(steps)), growth);
         precise float inverse = inverse_depth_at(ray, s);
         precise vec2 texel = texel_at(grid, s);
-        precise float seen = seen_inverse(texel);
+        precise float seen = seen_inverse(texel, grid);
         precise float gap = inverse - seen;
         result.steps++;
         result.fetches++;
@@ -114,12 +115,13 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     if (dot(direction, -normalize(view)) > viewer_limit) return Result(0.0, false, END_faced_viewer, 0u, 0u);
     ScreenRay ray = screen_ray(start, view, direction);
     float scale = reduction(frame.size);
-    Grid grid = Grid(vec2(pixel), ray.across / scale, start - scale * vec2(pixel), scale);
+    vec2 size = vec2(frame.size.zw);
+    Grid grid = Grid(vec2(pixel), ray.across / scale, start - scale * vec2(pixel), scale, size - 1.0, 1.0 / size);
     float shift = dither ? random4(uvec2(pixel), random_frame(), RANDOM_SCREEN_START).x : 0.0;
     Result result = march(ray, grid, shift);
     if (sky && ray.vanishes && result.end == ray.limit) {
         result.fetches++;
-        if (seen_inverse(texel_at(grid, ray.end)) == 0.0)
+        if (seen_inverse(texel_at(grid, ray.end), grid) == 0.0)
             return Result(INFINITE, true, END_sky, result.steps, result.fetches);
     }
     return result;

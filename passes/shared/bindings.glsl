@@ -7,7 +7,6 @@
 // Cube maps are written as WRITE(image2DArray, ...): layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), and
 // gl_GlobalInvocationID.z is the layer. They are read as textureCube or textureCubeArray,
 // or as texture2DArray where the texel is known: layers as above, texelFetch, no filter and no search for the face.
-// DISPATCH(image) is one invocation for each pixel of an image, DISPATCH_BLOCKS(image) for each 2x2 of them.
 // Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0.
 //
 // Lists (size class LIST) are buffers of uints: READ(utextureBuffer, ...), WRITE(uimageBuffer, ...). Words 0 to 2 are the
@@ -50,7 +49,6 @@ layout(constant_id = 0) const bool diagnostics = false;
     layout(constant_id = __LINE__) const int name = name##_##initial;
 #define PUSH(type, name, initial, lowest, highest, unit, source, help)
 #define DISPATCH(image)
-#define DISPATCH_BLOCKS(image)
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LIST(list)
 #define WORKGROUP(width, height)

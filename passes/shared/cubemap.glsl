@@ -11,7 +11,7 @@ vec3 face_from_direction(vec3 d) {
     vec2 across = z   ? vec2(back ? -d.x : d.x, -d.y)
                   : y ? vec2(d.x, back ? -d.z : d.z)
                       : vec2(back ? d.z : -d.z, -d.y);
-    return vec3(0.5 + 0.5 * across / abs(major), (z ? 4.0 : y ? 2.0 : 0.0) + (back ? 1.0 : 0.0));
+    return vec3(0.5 + across * (0.5 / abs(major)), (z ? 4.0 : y ? 2.0 : 0.0) + (back ? 1.0 : 0.0));
 }
 
 // The texel in a direction, in cube map `place` of an array of faces.

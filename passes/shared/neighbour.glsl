@@ -1,4 +1,4 @@
-// Weights of neighbours by their images. Next include of a pass that reads depth_half, normal_half and pick, has the rows of
+// A neighbour's weight by its images. Next include of a pass that reads depth_half, normal_half and pick, has the rows of
 // reuse_rows.h and a constant `brdf`.
 #include "shared/camera.glsl"
 #include "shared/reuse.glsl"
@@ -18,16 +18,12 @@ Surface surface_at(ivec2 texel) {
     return s;
 }
 
-// What a surface takes of another one's reflection.
-float weight_between(Surface center, Surface other) {
+float neighbour_weight(Surface center, ivec2 texel) {
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) return 0.0;
+    Surface other = surface_at(texel);
     vec3 normal = mat3(frame.view_from_world) * center.normal.xyz;
     if (!reflects(other.depth_m, other.normal.xyz)) return 0.0;
     if (!in_plane(other.position - center.position, normal, center.depth_m, depth_part)) return 0.0;
     float agreement = lobe_agreement(center.normal, other.normal, roughness_part);
     return fade(center.normal.w, fade_from, fade_to) * (brdf ? agreement : float(agreement > 0.0));
-}
-
-float neighbour_weight(Surface center, ivec2 texel) {
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) return 0.0;
-    return weight_between(center, surface_at(texel));
 }

@@ -11,21 +11,20 @@ extern "C" {
 #endif
 
 enum glint_row_kind {
-    GLINT_ROW_PASS,       /* title, source */
-    GLINT_ROW_SLOT,       /* title of the slot */
-    GLINT_ROW_READ,       /* an image that another pass or the capture makes */
-    GLINT_ROW_WRITE,      /* an image that this pass makes */
-    GLINT_ROW_DIAGNOSTIC, /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
-    GLINT_ROW_CAPTURE,    /* an image that comes from the capture (passes/capture_images.h) */
-    GLINT_ROW_SPEC,       /* a specialization constant */
-    GLINT_ROW_CHOICE,     /* a specialization constant with named values */
-    GLINT_ROW_PUSH,       /* a push constant */
-    GLINT_ROW_DISPATCH,   /* one invocation for each pixel of an image, for cube maps in each face; with `first` for
-                                  each block of so many by so many */
-    GLINT_ROW_FACT,       /* a constant: false when the capture shows that this fact does not hold */
-    GLINT_ROW_NEEDS,      /* a fact the capture must show for the pass to be needed */
-    GLINT_ROW_SELF,       /* all levels of an image that this pass writes; `name` is the binding's */
-    GLINT_ROW_HISTORY,    /* what an image held at the end of the previous frame; `name` is the binding's */
+    GLINT_ROW_PASS,            /* title, source */
+    GLINT_ROW_SLOT,            /* title of the slot */
+    GLINT_ROW_READ,            /* an image that another pass or the capture makes */
+    GLINT_ROW_WRITE,           /* an image that this pass makes */
+    GLINT_ROW_DIAGNOSTIC,      /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
+    GLINT_ROW_CAPTURE,         /* an image that comes from the capture (passes/capture_images.h) */
+    GLINT_ROW_SPEC,            /* a specialization constant */
+    GLINT_ROW_CHOICE,          /* a specialization constant with named values */
+    GLINT_ROW_PUSH,            /* a push constant */
+    GLINT_ROW_DISPATCH,        /* one invocation for each pixel of an image, for cube maps in each face */
+    GLINT_ROW_FACT,            /* a constant: false when the capture shows that this fact does not hold */
+    GLINT_ROW_NEEDS,           /* a fact the capture must show for the pass to be needed */
+    GLINT_ROW_SELF,            /* all levels of an image that this pass writes; `name` is the binding's */
+    GLINT_ROW_HISTORY,         /* what an image held at the end of the previous frame; `name` is the binding's */
     GLINT_ROW_DISPATCH_LEVELS, /* one dispatch for each of some levels of an image */
     GLINT_ROW_DISPATCH_LIST,   /* instead of the DISPATCH before it: one invocation for each item of a list, if made */
     GLINT_ROW_PER_RAY,         /* the slot's passes run once for each ray of a frame */
