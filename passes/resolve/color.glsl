@@ -1,5 +1,6 @@
 // Colour at the end of a ray (000, Color resolve shaders), as wide as the cone that the ray stands for. Next include of a
-// pass with the rows of resolve/sources.h.
+// pass with the rows of resolve/sources.h, which calls load_active_centers().
+#include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
 #include "shared/fog.glsl"
@@ -22,11 +23,8 @@ Ray ended_ray(vec3 position, vec3 normal, float travelled_m, float cone) {
     return ray;
 }
 
-// The stand-in for a chain that the pipeline does not make has one level.
-bool has_levels(int levels, bool wanted) { return wanted && levels > 1; }
-
 vec3 sky_color(Ray ray) {
-    if (ray.cone > 0.0 && has_levels(textureQueryLevels(samplerCube(sky_mips, linear_clamp)), cone_cubemap)) {
+    if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
         float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
         return textureLod(samplerCube(sky_mips, linear_clamp), ray.direction, level).rgb;
     }
@@ -34,11 +32,10 @@ vec3 sky_color(Ray ray) {
 }
 
 vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
-    int levels = textureQueryLevels(sampler2D(lit_mips, linear_clamp));
-    if (ray.cone > 0.0 && has_levels(levels, cone_screen)) {
+    if (ray.cone > 0.0 && cone_screen && has_lit_mips) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
-                                        float(levels - 1));
+                                        float(findMSB(max(frame.size.x, frame.size.y))));
         if (level > 0.0) return textureLod(sampler2D(lit_mips, linear_clamp), uv, level).rgb;
     }
     return filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb : texelFetch(lit, pixel, 0).rgb;
@@ -58,7 +55,7 @@ vec4 screen_color(Ray ray) {
 }
 
 vec4 cubemap_texel(Ray ray, vec4 at) {
-    if (ray.cone > 0.0 && has_levels(textureQueryLevels(samplerCubeArray(cubemap_color_mips, linear_clamp)), cone_cubemap)) {
+    if (ray.cone > 0.0 && cone_cubemap && has_cubemap_color_mips) {
         float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
         if (level > 0.0) return textureLod(samplerCubeArray(cubemap_color_mips, linear_clamp), at, level);
     }
@@ -67,7 +64,7 @@ vec4 cubemap_texel(Ray ray, vec4 at) {
 }
 
 vec4 cubemap_lookup(Ray ray, uint place) {
-    vec3 center = texelFetch(active_center, ivec2(place, 0), 0).xyz;
+    vec3 center = active_centers[place].xyz;
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
     // A wider lookup's share of sky is left to the rays that end in the sky: they see no surfaces beside it either.
     if (ray.cone > 0.0 && !ray.endless && color.a > 0.0) return vec4(color.rgb / color.a, 1.0);

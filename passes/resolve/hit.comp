@@ -11,12 +11,13 @@
 vec4 reflected_color(ivec2 pixel, float depth_m, vec3 normal) {
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-    ivec2 cone_texel = min(pixel, textureSize(cone_half, 0) - 1); // the stand-in is one texel
-    Ray ray = ended_ray(position, normal, texelFetch(travelled, pixel, 0).x, texelFetch(cone_half, cone_texel, 0).x);
+    float cone = has_cone_half ? texelFetch(cone_half, pixel, 0).x : 0.0;
+    Ray ray = ended_ray(position, normal, texelFetch(travelled, pixel, 0).x, cone);
     return color_at_end(ray, texelFetch(screen_finished, pixel, 0).x != 0u, texelFetch(cubemap_index, pixel, 0).x);
 }
 
 void main() {
+    load_active_centers();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;

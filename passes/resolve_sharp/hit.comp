@@ -18,6 +18,7 @@ ivec2 ray_texel(ivec2 pixel) {
 }
 
 void main() {
+    load_active_centers();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(reflection_sharp)))) return;
     vec4 color = texelFetch(reflection, pixel, 0), surface = texelFetch(normal_full, pixel, 0);
