@@ -183,7 +183,7 @@ precise float secant_between(Sample front, Sample behind) {
 
 // The next sample is where the ray leaves the cube map's inner volume, so that a wall there lies between two samples.
 float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
-    return max(leaves_volume(active_volume, place, origin, direction, t) - step_m, t);
+    return max(leaves_volume(active_volume, place, origin, direction, t, step_m) - step_m, t);
 }
 
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
