@@ -66,8 +66,12 @@ vec4 cubemap_texel(Ray ray, vec4 at) {
 vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = active_centers[place].xyz;
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
-    // A wider lookup's share of sky is left to the rays that end in the sky: they see no surfaces beside it either.
-    if (ray.cone > 0.0 && !ray.endless && color.a > 0.0) return vec4(color.rgb / color.a, 1.0);
+    if (color.a > 0.0 && color.a < 1.0 && ray.cone > 0.0 && !ray.endless) {
+        // Whether it is the sky that is seen is the ray's to say, not the cone's: rays that end in the sky know nothing of the
+        // surfaces beside it, and would not give back what the others took of it.
+        float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
+        color *= own / color.a;
+    }
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
     return vec4(color.rgb, 1.0);
 }
