@@ -8,41 +8,36 @@
 };
 #include "shared/levels.glsl"
 
-vec4 box_color(ivec2 at, ivec2 size, int level) {
-    if (level == 0) return vec4(texelFetch(lit, at, 0).rgb, 1.0);
-    ivec2 finer = textureSize(finer_color, level - 1);
-    Footprint x = footprint(at.x, size.x, finer.x), y = footprint(at.y, size.y, finer.y);
-    vec4 sum = vec4(0.0);
-    for (int j = 0; j < y.count; ++j) {
-        for (int i = 0; i < x.count; ++i) {
-            vec4 color = texelFetch(finer_color, ivec2(x.first + i, y.first + j), level - 1);
-            if (finite(color)) sum += x.share[i] * y.share[j] * vec4(color.rgb, 1.0);
-        }
+// The halved finer level, of a workgroup's texels and those that their taps reach; a: whether a colour is usable.
+const int WIDE = 16 + 2 * reach;
+shared vec4 halved[WIDE * WIDE];
+
+void load_tile(ivec2 first, ivec2 size) {
+    for (int i = int(gl_LocalInvocationIndex); i < WIDE * WIDE; i += 256) {
+        vec2 uv = (vec2(first + ivec2(i % WIDE, i / WIDE)) + 0.5) / vec2(size);
+        vec4 color = textureLod(sampler2D(finer_color, linear_clamp), uv, float(dispatch_level) - 1.0);
+        halved[i] = finite(color) ? vec4(color.rgb, 1.0) : vec4(0.0);
     }
-    return sum.a > 0.0 ? sum / sum.a : vec4(0.0);
+    barrier();
 }
 
-// The lobe cosⁿ of a narrow cone: threshold^((r/rim)²), r in texels.
-vec4 filtered(ivec2 at, ivec2 size, int level) {
-    if (level == 0 || reach == 0) return texelFetch(finer_color, at, level);
-    float spacing = tap_spacing(reach, texel_scale);
-    float lod = clamp(float(level) + log2(spacing) - 1.0, 0.0, float(level)); // as in cube_tap
-    vec4 sum = vec4(0.0);
-    for (int y = -reach; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) {
-            if (!is_tap(ivec2(x, y), reach)) continue;
-            vec2 offset = spacing * vec2(x, y);
-            vec4 color = textureLod(sampler2D(finer_color, linear_clamp), (vec2(at) + 0.5 + offset) / vec2(size), lod);
-            float weight = pow(threshold, dot(offset, offset) / (texel_scale * texel_scale));
-            if (finite(color)) sum += weight * vec4(color.rgb, 1.0);
-        }
-    }
-    return sum.a > 0.0 ? sum / sum.a : vec4(0.0);
-}
+// The lobe cosⁿ of a narrow cone is threshold^((r/rim)²), r in texels. Variances add: a quarter of what a level has comes to
+// the next one with its texels, and halving adds that of two texels, so that the levels after the first need less of their own.
+float sharpness() { return dispatch_level == 1u ? 1.0 : 1.75; }
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy), size = imageSize(lit_mips);
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy), size = imageSize(lit_mips), local = ivec2(gl_LocalInvocationID.xy);
+    if (dispatch_level == 0u) {
+        if (all(lessThan(at, size))) imageStore(lit_mips, at, vec4(texelFetch(lit, at, 0).rgb, 1.0));
+        return;
+    }
+    load_tile(at - local - reach, size);
     if (any(greaterThanEqual(at, size))) return;
-    if (dispatch_phase == 0u) imageStore(lit_box, at, box_color(at, size, int(dispatch_level)));
-    else imageStore(lit_mips, at, filtered(at, size, int(dispatch_level)));
+    float falloff = sharpness() * log(threshold) / (texel_scale * texel_scale);
+    vec4 sum = vec4(0.0);
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x)
+            if (is_tap(ivec2(x, y), reach))
+                sum += exp(falloff * float(x * x + y * y)) * halved[(local.y + reach + y) * WIDE + local.x + reach + x];
+    imageStore(lit_mips, at, sum.a > 0.0 ? sum / sum.a : vec4(0.0));
 }

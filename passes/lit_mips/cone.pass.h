@@ -1,9 +1,10 @@
 /* Each level filtered with the lobe of a cone that spans texel_scale of its pixels. */
 PASS("Pre-filtered for cones", "000, Current approach; Pre-filtering cube-maps")
 #include "slot.h"
+WORKGROUP(16, 16)
 #line 202
-WRITE(image2D, lit_box, RGBA16F, "radiance", FULL_MIPS, "R G B A", 0, "the chain before the pre-filter")
-SELF(texture2D, finer_color, lit_box)
-#include "shared/prefilter_rows.h"
-DISPATCH_LEVELS(lit_box, 0, -1, down)
+SELF(texture2D, finer_color, lit_mips)
+SPEC(int,   reach,       3,   0,    8,    "texels", "000, MIP pre-filtering", "taps are the texels up to this far: 3: 29 taps; 0: none, the box filter alone")
+PUSH(float, texel_scale, 3.5, 0.25, 64.0, "texels", "000, Pre-filtering cube-maps", "radius of the cone for which a level stands, half a texel beyond the last tap; resolve's must be the same")
+PUSH(float, threshold,   0.1, 0.001, 0.999, "1", "000, Combining importance sampling with pre-filtering", "value of the lobe at that radius")
 DISPATCH_LEVELS(lit_mips, 0, -1, down)

@@ -259,7 +259,7 @@ static void the_picture_is_filtered_with_29_taps(void **state) {
     gpu_run(gpu);
     for (uint32_t level = 1; level < 6; ++level) {
         uint32_t finer_width, finer_height, width, height, taps = 0;
-        float *finer = level_of(gpu, "lit_box", level - 1, &finer_width, &finer_height);
+        float *finer = level_of(gpu, "lit_mips", level - 1, &finer_width, &finer_height);
         float *found = level_of(gpu, "lit_mips", level, &width, &height);
         double worst = 0;
         for (uint32_t i = 0; i < width * height; ++i) {
@@ -268,7 +268,8 @@ static void the_picture_is_filtered_with_29_taps(void **state) {
             for (int y = -9; y <= 9; ++y)
                 for (int x = -9; x <= 9; ++x) {
                     if (x * x + y * y > 9) continue;
-                    double weight = pow(threshold, (x * x + y * y) / (texel_scale * texel_scale));
+                    double sharper = level == 1 ? 1 : 1.75; /* what the finer level holds already */
+                    double weight = pow(threshold, sharper * (x * x + y * y) / (texel_scale * texel_scale));
                     double u = (i % width + 0.5 + x) / width, v = (i / width + 0.5 + y) / height;
                     sum += weight * bilinear(finer, finer_width, finer_height, u, v);
                     total += weight;
@@ -281,6 +282,41 @@ static void the_picture_is_filtered_with_29_taps(void **state) {
         /* The sampler weighs with 1/256 at least: 29 lookups err at random by 1/512 of a contrast of 6. */
         assert_true(worst < 5e-3);
         free(finer);
+        free(found);
+    }
+}
+
+static void dot_of_light(const struct plain *plain, float *values) {
+    uint32_t pixels = plain->width * plain->height, middle = plain->height / 2 * plain->width + plain->width / 2;
+    for (uint32_t i = 0; i < pixels; ++i)
+        for (uint32_t c = 0; c < 3; ++c) values[(PLAIN_LIT_R + c) * pixels + i] = i == middle ? 1000.0f : 0.0f;
+}
+
+/* Levels are made of finer ones; together they must spread light as the lobe threshold^((r/3.5)²), cut at 3.5 texels, does. */
+static void every_level_of_the_picture_is_as_wide_as_its_cone(void **state) {
+    struct gpu *gpu = *state;
+    enum { SIZE = 128 };
+    struct plain plain = {.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = dot_of_light};
+    start(gpu, "dot", &plain);
+    gpu_run(gpu);
+    double sum = 0, total = 0, step = 0.01;
+    for (double r = step / 2; r < texel_scale; r += step) {
+        double weight = r * pow(threshold, r * r / (texel_scale * texel_scale));
+        sum += weight * r * r / 2, total += weight;
+    }
+    for (uint32_t level = 1; level < 5; ++level) {
+        uint32_t width, height;
+        float *found = level_of(gpu, "lit_mips", level, &width, &height);
+        double light = 0, spread = 0, mean = 0;
+        for (uint32_t i = 0; i < width * height; ++i) {
+            double x = i % width;
+            light += (double)found[4 * i + 1], mean += (double)found[4 * i + 1] * x,
+                spread += (double)found[4 * i + 1] * x * x;
+        }
+        mean /= light;
+        double ratio = sqrt((spread / light - mean * mean) / (sum / total));
+        print_message("# picture, level %u: %.3f of the cone's width\n", level, ratio);
+        assert_true(ratio > 0.9 && ratio < 1.02); /* the last taps reach 3 of the cone's 3.5 texels: 1.67 of 1.98 */
         free(found);
     }
 }
@@ -311,6 +347,7 @@ int main(void) {
         cmocka_unit_test(colour_is_weighted_by_what_is_not_sky),
         cmocka_unit_test(distances_join_what_is_not_sky),
         cmocka_unit_test(the_picture_is_filtered_with_29_taps),
+        cmocka_unit_test(every_level_of_the_picture_is_as_wide_as_its_cone),
         cmocka_unit_test(bad_pixels_do_not_spread),
     };
     return cmocka_run_group_tests_name("gpu_mips", tests, gpu_set_up, gpu_tear_down);
