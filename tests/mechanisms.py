@@ -247,6 +247,20 @@ def noise_of_frames(bench):
     return rows
 
 
+def exchanged(bench):
+    """The same frame with each ray's best cube map chosen by another rule: what jumps when a moving camera changes it."""
+    rows = []
+    for scene in ("room", "hotel"):
+        for fallback in FALLBACKS:
+            settings, run = [*CUBES, f"set cubemap_trace.fallback={fallback}"], WORK / f"nearest-{scene}-{fallback}"
+            capture = bench.scene(scene)
+            bench.run("replay", *capture, "-o", run, "--no-cache", *bench.options([*settings, "use cubemap_select=nearest"]))
+            other = bench.against(capture, run, [*settings, "set cubemap_select.distance=0.2 set cubemap_select.direction=1"])[0]
+            rows.append((scene, fallback, *(number(surface(a["image"]["surfaces"], k)["symmetric"])
+                                            for a in (other, bench.replay(scene, settings)[0]) for k in ("mirror-like", "all"))))
+    return rows
+
+
 def frames(bench):
     rows = []
     for kind in ("still:room", "still:street", "moving:room", "moving:street"):
@@ -319,6 +333,9 @@ for the better, each with the reason that was found.
                         ("chain", RAYS[0], SMOOTH[0], "ms"), chains, bench)
         text += attempt("Fallbacks", "Rays in `room` that no cube map could follow.",
                         ("fallback", "rays", "error over them", PICTURE[0], "ms"), fallbacks, bench)
+        text += attempt("When the best cube map changes", "The same frame, cube maps alone, with the best cube map chosen by nearness and by "
+                        "the ray's direction: how far the two pictures are apart, and the error.",
+                        ("scene", "fallback", "apart, mirror-like", "all", "error, mirror-like", "all"), exchanged, bench)
         text += attempt("Importance sampling against pre-filtering", "The slides' comparison in `room`, Blinn-Phong. Noise: "
                         "RMSE against the same pipeline's mean of 128 rays; with those, what error is left.\n\n"
                         "![](shares.png)", ("rays : cone", "surfaces", "RMSE", "noise", "RMSE of 128 rays", "ms"), shares, bench, docs)
