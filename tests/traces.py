@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Measures the screen traces against the truth of the sample scenes, and writes docs/traces.md.
 
-traces.py measure GLINT MEASURE_TRACES RECORD.json [--repeat N]   sample, trace, compare; times of this machine's device
-traces.py page COUNTS.json [TIMES.json] -o docs/traces.md         TIMES: a record of another device, for times alone
+traces.py measure GLINT MEASURE_TRACES RECORD.json [--repeat N]   sample, trace, compare; times with --repeat
+traces.py page COUNTS.json [TIMES.json] -o docs/traces.md         TIMES: a record of a GPU, for its times alone
 """
 import argparse
 import json
@@ -64,15 +64,17 @@ def percent(value):
 
 
 def quality(record, rows, times):
-    lines = ['| | ' + ' | '.join(record['small']) + ' | cells or samples | fetches | µs trace | µs pyramid |', '| --- |' + ' --- |' * (len(SCENES) + 4)]
-    lines.append('| oracle | ' + ' | '.join(f"{percent(record['small'][s]['oracle']['recall'])}, 100" for s in SCENES) + ' | | | | |')
+    timing = ' µs trace | µs pyramid |' if times else ''
+    lines = ['| | ' + ' | '.join(record['small']) + ' | cells or samples | fetches |' + timing, '| --- |' + ' --- |' * (len(SCENES) + (4 if times else 2))]
+    lines.append('| oracle | ' + ' | '.join(f"{percent(record['small'][s]['oracle']['recall'])}, 100" for s in SCENES) + ' | | |' + (' | |' if times else ''))
     for name, variant, _ in rows:
         found = [record['small'][s]['rows'][name] for s in SCENES]
-        timed = [times['small'][s]['rows'][name] for s in SCENES]
+        timed = [times['small'][s]['rows'][name] for s in SCENES] if times else []
         mean = lambda key, of: sum(row[key] for row in of) / len(of)
-        pyramid = f"{1000 * mean('pyramid_ms', timed):.0f}" if variant == 'hiz' else ''
+        pyramid = f"{1000 * mean('pyramid_ms', timed):.0f}" if times and variant == 'hiz' else ''
+        timing = f" {1000 * mean('trace_ms', timed):.0f} | {pyramid} |" if times else ''
         lines.append(f'| {name} | ' + ' | '.join(f"{percent(r['recall'])}, {percent(r['precision'])}" for r in found)
-                     + f" | {mean('steps', found):.1f} | {mean('fetches', found):.1f} | {1000 * mean('trace_ms', timed):.0f} | {pyramid} |")
+                     + f" | {mean('steps', found):.1f} | {mean('fetches', found):.1f} |{timing}")
     return '\n'.join(lines)
 
 
@@ -105,8 +107,8 @@ def distances(record):
 
 def page(arguments):
     record = json.loads(pathlib.Path(arguments.counts).read_text())
-    times = json.loads(pathlib.Path(arguments.times).read_text()) if arguments.times else record
-    device = times['small'][SCENES[0]]['oracle']['device']
+    times = json.loads(pathlib.Path(arguments.times).read_text()) if arguments.times else None
+    device = f" Times: {times['small'][SCENES[0]]['oracle']['device']}, a trace of half a million rays, median, mean of the scenes." if times else ''
     text = pathlib.Path(__file__).with_name('traces.md.in').read_text()
     for name, table in (('TRACES', quality(record, TRACES, times)), ('MECHANISMS', quality(record, MECHANISMS, times)),
                         ('WRONG', wrong(record)), ('LONG', long_rays(record)), ('DISTANCES', distances(record)), ('DEVICE', device)):
@@ -120,7 +122,7 @@ def main():
     one = commands.add_parser('measure')
     for name in ('glint', 'program', 'record'):
         one.add_argument(name)
-    one.add_argument('--repeat', type=int, default=3)
+    one.add_argument('--repeat', type=int, default=0, help='timed rounds')
     one.set_defaults(run=measure)
     two = commands.add_parser('page')
     two.add_argument('counts')

@@ -125,7 +125,8 @@ static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct g
     }
     return get(replay, "normal_half", GLINT_F32, true, &in->normal, err) &&
            get(replay, "pick", GLINT_U32, true, &in->pick, err) &&
-           get(replay, "travelled", GLINT_F32, true, &in->travelled, err) &&
+           get(replay, glint_replay_find_image(replay, "travelled") ? "travelled" : "screen_travelled", GLINT_F32, true,
+               &in->travelled, err) &&
            get(replay, "screen_finished", GLINT_U32, false, &in->finished, err) &&
            get(replay, "screen_end", GLINT_U32, false, &in->screen_end, err) &&
            get(replay, "cubemap_end", GLINT_U32, false, &in->cubemap_end, err) &&
@@ -182,7 +183,8 @@ static void compare(const struct inputs *in, size_t i, struct rays *rays) {
     if (x >= in->width || y >= in->height) return;
     size_t pixel = (size_t)y * in->width + x;
     bool on_screen = in->finished.data.u && in->finished.data.u[i] != 0;
-    uint32_t reason = reason_at(on_screen ? &in->screen_end : &in->cubemap_end, i);
+    bool by_screen = on_screen || !in->cubemap_end.data.u; /* nothing traces on where the screen ends */
+    uint32_t reason = reason_at(by_screen ? &in->screen_end : &in->cubemap_end, i);
     float distance = in->distance[pixel], travelled = in->travelled.data.f[i], roughness = in->normal.data.f[4 * i + 3];
     if (reason == 0 || !(distance > 0)) return;
     rays->found[rays->count] = travelled;
@@ -193,7 +195,7 @@ static void compare(const struct inputs *in, size_t i, struct rays *rays) {
     if (!(roughness <= (float)rays->max_roughness)) return;
     rays->samples[rays->sample_count++] =
         (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),
-                        (on_screen ? 0 : REASONS) + reason};
+                        (by_screen ? 0 : REASONS) + reason};
 }
 
 static bool allocate_rays(struct rays *rays, size_t texels, struct glint_error *err) {

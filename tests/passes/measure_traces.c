@@ -94,7 +94,9 @@ static int ascending(const void *a, const void *b) {
 }
 
 struct tally {
-    size_t rays, shown, found, hits, right, wrong_shown, wrong_hidden, wrong_sky, early, late;
+    size_t rays, shown;
+    /* Hits count as much as the pipeline lets them contribute: 1, or what the image of that name says. */
+    double found, hits, right, wrong_shown, wrong_hidden, wrong_sky, early, late;
     double fetches, steps, fetches_long, texels_long;
     size_t long_rays;
     size_t missed[16];
@@ -112,6 +114,8 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
     uint32_t *fetches = image(replay, "screen_fetches", GLINT_U32, NULL, NULL);
     uint32_t *steps = image(replay, "screen_steps", GLINT_U32, NULL, NULL);
     uint32_t *end = image(replay, "screen_end", GLINT_U32, NULL, NULL);
+    float *contribution =
+        glint_replay_find_image(replay, "contribution") ? image(replay, "contribution", GLINT_F32, NULL, NULL) : NULL;
     for (size_t i = 0; i < (size_t)truth->width * truth->height; ++i) {
         if (end[i] == 0) continue;
         const bool hit = finished[i] && travelled[i] < 3e38f, shown = truth->shown[i];
@@ -121,16 +125,17 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
         tally.fetches += fetches[i];
         tally.steps += steps[i];
         tally.shown += shown;
-        tally.found += shown && right;
-        tally.hits += hit;
-        tally.right += right;
+        const double weight = contribution ? (double)contribution[i] : 1;
+        if (shown && right) tally.found += weight;
+        if (hit) tally.hits += weight;
+        if (right) tally.right += weight;
         if (hit && truth->distance[i] < 3e38f) errors[error_count++] = fabs(error) / (double)truth->distance[i];
         if (shown && !hit) tally.missed[end[i] & 15]++;
         if (hit && !right) {
-            if (!(truth->distance[i] < 3e38f)) tally.wrong_sky++;
-            else if (shown) tally.wrong_shown++;
-            else tally.wrong_hidden++;
-            if (truth->distance[i] < 3e38f) error < 0 ? tally.early++ : tally.late++;
+            if (!(truth->distance[i] < 3e38f)) tally.wrong_sky += weight;
+            else if (shown) tally.wrong_shown += weight;
+            else tally.wrong_hidden += weight;
+            if (truth->distance[i] < 3e38f) *(error < 0 ? &tally.early : &tally.late) += weight;
         }
         struct walk_ray ray;
         double place[2], depth;
@@ -147,12 +152,13 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
     free(finished);
     free(fetches);
     free(steps);
+    free(contribution);
     free(end);
     return tally;
 }
 
-static double share(size_t part, size_t all) {
-    return all ? (double)part / (double)all : 0;
+static double share(double part, double all) {
+    return all > 0 ? part / all : 0;
 }
 
 static double time_of(struct glint_replay *replay, const char *slot) {
@@ -170,12 +176,12 @@ static const char *const reasons[] = {
 };
 
 static void print(const char *name, const struct tally *t, double pyramid_ms, double trace_ms) {
-    printf("{\"name\": \"%s\", \"rays\": %zu, \"shown\": %zu, \"recall\": %.5f, \"hits\": %zu, \"precision\": %.5f, "
+    printf("{\"name\": \"%s\", \"rays\": %zu, \"shown\": %zu, \"recall\": %.5f, \"hits\": %.1f, \"precision\": %.5f, "
            "\"wrong_shown\": %.5f, \"wrong_hidden\": %.5f, \"wrong_sky\": %.5f, \"early\": %.5f, \"late\": %.5f, "
            "\"fetches\": %.3f, \"steps\": %.3f, "
            "\"long_rays\": %zu, \"long_fetches\": %.3f, \"long_steps\": %.3f, "
            "\"median_error\": %.6f, \"pyramid_ms\": %.5f, \"trace_ms\": %.5f",
-           name, t->rays, t->shown, share(t->found, t->shown), t->hits, share(t->right, t->hits),
+           name, t->rays, t->shown, share(t->found, (double)t->shown), t->hits, share(t->right, t->hits),
            share(t->wrong_shown, t->hits), share(t->wrong_hidden, t->hits), share(t->wrong_sky, t->hits),
            share(t->early, t->hits), share(t->late, t->hits), t->fetches / (double)t->rays, t->steps / (double)t->rays,
            t->long_rays, t->fetches_long / (double)t->long_rays, t->texels_long / (double)t->long_rays, t->median_error,
@@ -183,7 +189,8 @@ static void print(const char *name, const struct tally *t, double pyramid_ms, do
     printf(", \"missed\": {");
     const char *comma = "";
     for (size_t r = 0; r < sizeof reasons / sizeof reasons[0]; ++r)
-        if (t->missed[r]) printf("%s\"%s\": %.5f", comma, reasons[r], share(t->missed[r], t->shown)), comma = ", ";
+        if (t->missed[r])
+            printf("%s\"%s\": %.5f", comma, reasons[r], share((double)t->missed[r], (double)t->shown)), comma = ", ";
     printf("}}\n");
     fflush(stdout);
 }
@@ -250,7 +257,7 @@ int main(int argc, char **argv) {
             size_t count[2] = {0};
             judge(&truth, count);
             printf("{\"name\": \"oracle\", \"device\": \"%s\", \"shown\": %zu, \"recall\": %.5f}\n",
-                   glint_device_get_info(device)->name, count[0], share(count[1], count[0]));
+                   glint_device_get_info(device)->name, count[0], share((double)count[1], (double)count[0]));
         }
         struct tally tally = tally_of(replay, &truth);
         if (repeat) run(replay, pipeline, repeat, false);

@@ -151,7 +151,7 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
     }
 }
 
-const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 1, 0.0005, 1e5};
+const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 1, 0.0001, 1e5};
 
 struct tracing {
     const struct walk_grid *grid;
