@@ -13,6 +13,7 @@ TRUST = [
     ('`kf2`', 'hiz', ''),
     ('without `resolve.viewer`, rays towards the viewer traced', 'hiz', 'resolve.viewer=false screen_trace.viewer_limit=1'),
     ('the attenuation kept, without its early-out', 'hiz', 'screen_trace.viewer_limit=1'),
+    ('tiles rejected beforehand: `classify=coarse`', 'hiz', 'classify=coarse'),
     ('without `resolve.edge`', 'hiz', 'resolve.edge=false'),
     ('without `resolve.back_face`', 'hiz', 'resolve.back_face=false'),
     ('none of the attenuations', 'hiz', 'resolve.viewer=false screen_trace.viewer_limit=1 resolve.edge=false resolve.back_face=false'),

@@ -191,12 +191,35 @@ static void alpha_stays_within_one_and_the_picture_a_mixture(void **state) {
     light = 1;
 }
 
+/* Nothing contributes where rays run towards the viewer, so that leaving out their tiles changes no bit. */
+static void rejected_tiles_contribute_nothing(void **state) {
+    struct gpu *gpu = *state;
+    struct images images[2];
+    size_t traced[2] = {0};
+    for (int i = 0; i < 2; ++i) {
+        set_up(gpu);
+        capture(gpu, "floor", NULL, false);
+        if (i) gpu_use(gpu, "classify=coarse");
+        images[i] = images_of(gpu);
+        uint32_t *end = gpu_uints(gpu, "screen_end", NULL, NULL);
+        for (size_t k = 0; k < WIDE * HIGH; ++k) traced[i] += end[k] != 0;
+        free(end);
+    }
+    print_message("# %zu rays, %zu when tiles are rejected\n", traced[0], traced[1]);
+    assert_true(traced[1] < traced[0]);
+    assert_memory_equal(images[0].contribution, images[1].contribution, WIDE * HIGH * sizeof(float));
+    assert_memory_equal(images[0].composed, images[1].composed, WIDE * HIGH * 4 * sizeof(float));
+    images_free(&images[0]);
+    images_free(&images[1]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_attenuation_and_their_product),
         cmocka_unit_test(switched_off_all_contributes),
         cmocka_unit_test(colour_is_looked_up_where_the_ray_ends),
         cmocka_unit_test(alpha_stays_within_one_and_the_picture_a_mixture),
+        cmocka_unit_test(rejected_tiles_contribute_nothing),
     };
     return cmocka_run_group_tests_name("gpu_kf2", tests, gpu_set_up, gpu_tear_down);
 }

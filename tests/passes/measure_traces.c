@@ -15,7 +15,7 @@ struct truth {
     float *depth_m, *normal;
     float *distance, *visible;
     float *footprint_m; /* of the texel where the ray truly ends */
-    unsigned char *shown, *oracle;
+    unsigned char *has_ray, *shown, *oracle;
     struct walk_grid grid;
 };
 
@@ -78,6 +78,7 @@ static void judge(struct truth *truth, size_t count[2]) {
     for (size_t i = 0; i < (size_t)truth->width * truth->height; ++i) {
         struct walk_ray ray;
         if (!walk_ray_init(&ray, &truth->grid, (uint32_t)(i % truth->width), (uint32_t)(i / truth->width))) continue;
+        truth->has_ray[i] = 1;
         look(truth, i, &ray);
         if (!truth->shown[i]) continue;
         struct best best = {truth, i, false};
@@ -117,7 +118,7 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
     float *contribution =
         glint_replay_find_image(replay, "contribution") ? image(replay, "contribution", GLINT_F32, NULL, NULL) : NULL;
     for (size_t i = 0; i < (size_t)truth->width * truth->height; ++i) {
-        if (end[i] == 0) continue;
+        if (!truth->has_ray[i]) continue;
         const bool hit = finished[i] && travelled[i] < 3e38f, shown = truth->shown[i];
         const double error = (double)travelled[i] - (double)truth->distance[i];
         const bool right = hit && truth->distance[i] < 3e38f && fabs(error) <= tolerance(truth, i);
@@ -213,9 +214,12 @@ static void read_truth(struct truth *truth, struct glint_capture *capture) {
     truth->distance = malloc(texels * sizeof(float));
     truth->visible = malloc(texels * sizeof(float));
     truth->footprint_m = calloc(texels, sizeof(float));
+    truth->has_ray = calloc(texels, 1);
     truth->shown = calloc(texels, 1);
     truth->oracle = calloc(texels, 1);
-    if (!truth->distance || !truth->visible || !truth->footprint_m || !truth->shown || !truth->oracle) exit(1);
+    if (!truth->distance || !truth->visible || !truth->footprint_m || !truth->has_ray || !truth->shown ||
+        !truth->oracle)
+        exit(1);
     if (!glint_capture_read(capture, part, &channels[0], 1, GLINT_F32, truth->distance, 0, &err) ||
         !glint_capture_read(capture, part, &channels[1], 1, GLINT_F32, truth->visible, 0, &err))
         die(&err);
@@ -273,6 +277,7 @@ int main(int argc, char **argv) {
     free(truth.distance);
     free(truth.visible);
     free(truth.footprint_m);
+    free(truth.has_ray);
     free(truth.shown);
     free(truth.oracle);
     return 0;
