@@ -1,0 +1,47 @@
+// Where rays leave the simple shape that stands for what a cube map shows. The shape is the cube map's inner volume, grown;
+// a cube map without one has a shape of its own size around its centre.
+#include "single.glsl"
+
+// Where a ray is inside of something convex: (enters, leaves), enters > leaves: nowhere.
+const vec2 ALWAYS = vec2(-LARGEST, LARGEST);
+
+vec2 within_plane(vec2 span, float outside_m, float rate) {
+    if (rate > 0.0) span.y = min(span.y, -outside_m / rate);
+    else if (rate < 0.0) span.x = max(span.x, -outside_m / rate);
+    else if (outside_m > 0.0) span = -ALWAYS;
+    return span;
+}
+
+vec2 within_sphere(vec3 from_center, vec3 direction, float radius) {
+    float along = -dot(from_center, direction);
+    // The distance from the axis, by what is left of the vector: a difference of squares would cancel far away.
+    vec3 aside = from_center + along * direction;
+    float root = radius * radius - dot(aside, aside);
+    return root < 0.0 ? -ALWAYS : along + vec2(-sqrt(root), sqrt(root));
+}
+
+vec2 within_cube(vec3 from_center, vec3 direction, float radius) {
+    vec2 span = ALWAYS;
+    for (int i = 0; i < 3; ++i) {
+        float rate = abs(direction[i]), at = direction[i] < 0.0 ? -from_center[i] : from_center[i];
+        span = within_plane(span, at - radius, rate);
+        span = within_plane(span, -at - radius, -rate);
+    }
+    return span;
+}
+
+// A ray that does not come through the proxy, or had left it before it stopped on screen, is looked up where it stopped or
+// by its direction.
+Result end_on_proxy(vec3 origin, vec3 direction, float start_m, uint best, vec2 span, uint fetches) {
+    if (!(span.x <= span.y && span.y > 0.0 && span.y < LARGEST)) {
+        Result result = by_direction(best);
+        result.fetches = fetches;
+        return result;
+    }
+    Result result = Result(max(span.y, start_m), best, END_hit, fetches);
+    if (!sky) return result;
+    result.fetches++;
+    vec4 at = vec4(origin + result.travelled_m * direction - active_centers[best].xyz, best);
+    if (textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0).a > 0.0) return result;
+    return Result(INFINITE, frame.counts.w > 0u ? NO_PLACE : best, END_sky, result.fetches);
+}
