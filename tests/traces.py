@@ -31,6 +31,7 @@ MECHANISMS = [
     ('objects without depth: `solid=0`', 'hiz', 'screen_trace.solid=0'),
     ('twice as deep: `solid=2`', 'hiz', 'screen_trace.solid=2'),
     ('no seams: `seam=0`', 'hiz', 'screen_trace.seam=0'),
+    ('seams of what does not meet too: `jump=1e6`', 'hiz', 'screen_trace.jump=1e6'),
     ('no thickness: `thickness=0`', 'hiz', 'screen_trace.thickness=0'),
     ('tenfold thickness: `thickness=0.01`', 'hiz', 'screen_trace.thickness=0.01'),
     ('no bias: `bias=0`', 'hiz', 'screen_trace.bias=0'),

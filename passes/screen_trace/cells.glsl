@@ -35,7 +35,7 @@ precise float cell_entry(CellRay ray, ivec2 cell) {
 }
 
 // What a texel makes of a ray that crosses it from s_in to s_out.
-const uint CELL_FRONT = 0u, CELL_HIT = 1u, CELL_BEHIND = 2u;
+const uint CELL_FRONT = 0u, CELL_HIT = 1u, CELL_BEHIND = 2u, CELL_SEAM = 3u; // SEAM: HIT where joined(), else BEHIND
 struct Crossing {
     uint what;
     float s; // of a hit
@@ -52,10 +52,29 @@ precise Crossing cross(CellRay ray, ivec2 cell, float s_in, float s_out, float d
     if (gap_out >= -bias * inverse) return Crossing(CELL_FRONT, s_out);
     // Behind by d: a part thickness of the surface's depth, as 1/z - 1/(z + d) has it.
     float depth = thickness + thickness_m * inverse, texel = 1.0 / max(abs(ray.across.x), abs(ray.across.y));
-    float tolerance = inverse * depth / (1.0 + depth) - seam * texel * rise;
-    if (thickness_m < EVERYTHING_M && (gap_in < -tolerance || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
+    float tolerance = inverse * depth / (1.0 + depth), reach = -seam * texel * rise;
+    if (thickness_m < EVERYTHING_M && (gap_in < -tolerance - reach || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
     float s = rise < 0.0 ? clamp(-at_start / rise, s_in - seam * texel, s_out) : s_in;
-    return Crossing(CELL_HIT, max(s, 0.0));
+    bool sure = thickness_m >= EVERYTHING_M || gap_in >= -tolerance;
+    return Crossing(sure ? CELL_HIT : CELL_SEAM, max(s, 0.0));
+}
+
+// The texel that the ray comes from.
+ivec2 cell_before(CellRay ray, ivec2 cell) {
+    vec2 entries = (vec2(cell + 1 - ray.forward) - ray.start) * ray.per_across;
+    return cell - (2 * ray.forward - 1) * (entries.x > entries.y ? ivec2(1, 0) : ivec2(0, 1));
+}
+
+precise float facet_inverse(CellRay ray, ivec2 cell, float s, float depth_m, vec2 slopes) {
+    return (1.0 + dot(slopes, ray.start + s * ray.across - vec2(cell) - 0.5)) / depth_m;
+}
+
+// Whether two texels' surfaces meet at the border that a ray crosses at s: both are near the ray there.
+precise bool joined(CellRay ray, float s, ivec2 cell, float depth_m, vec2 slopes, ivec2 before, float before_m, vec2 before_slopes) {
+    float here = inverse_at(ray, s);
+    float apart = abs(facet_inverse(ray, cell, s, depth_m, slopes) - here) +
+                  abs(facet_inverse(ray, before, s, before_m, before_slopes) - here);
+    return apart * depth_m <= jump;
 }
 
 // What a ray has gone hidden behind surfaces, without a break of more than the texels that a stippled surface leaves out.

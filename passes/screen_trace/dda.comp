@@ -28,6 +28,14 @@ Result march(ScreenRay ray, ivec2 texel) {
                 result.fetches += 5u;
                 crossing = cross(cells, cell, s_in, s_out, depth_m, facet_slopes_at(cell, depth_m));
             }
+            if (crossing.what == CELL_SEAM) {
+                ivec2 before = cell_before(cells, cell);
+                float before_m = texelFetch(depth_half, before, 0).x;
+                result.fetches += 11u;
+                bool meet = joined(cells, s_in, cell, depth_m, facet_slopes_at(cell, depth_m), before, before_m,
+                                   facet_slopes_at(before, before_m));
+                crossing.what = meet ? CELL_HIT : CELL_BEHIND;
+            }
             if (crossing.what == CELL_HIT)
                 return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
             if (crossing.what == CELL_BEHIND) {

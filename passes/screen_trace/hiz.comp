@@ -64,6 +64,13 @@ Result march(ScreenRay ray, ivec2 texel) {
             vec2 slopes = texelFetch(depth_slopes, cell, 0).xy;
             s = cell_entry(cells, cell);
             Crossing crossing = cross(cells, cell, s, s_out, depth_m, slopes);
+            if (crossing.what == CELL_SEAM) {
+                ivec2 before = cell_before(cells, cell);
+                result.fetches += 2u;
+                bool meet = joined(cells, s, cell, depth_m, slopes, before, texelFetch(depth_half, before, 0).x,
+                                   texelFetch(depth_slopes, before, 0).xy);
+                crossing.what = meet ? CELL_HIT : CELL_BEHIND;
+            }
             if (crossing.what == CELL_HIT)
                 return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
             front = crossing.what == CELL_FRONT;

@@ -67,6 +67,7 @@ struct best {
 /* The oracle takes, of all surfaces of the buffer that the ray comes upon, the one that is right. */
 static bool meets(void *user, const struct walk_cell *cell) {
     struct best *best = user;
+    if (cell->own) return true;
     double near = tolerance(best->truth, best->i), t = (double)best->truth->distance[best->i];
     double slack = 0.01 + cell->steep;
     bool touches = fmin(cell->gap_in, cell->gap_out) <= slack && fmax(cell->gap_in, cell->gap_out) >= -slack;

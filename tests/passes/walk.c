@@ -131,19 +131,17 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
             if (drift[k] != 0) exits[k] = reaches(grid, ray, k, (double)(at[k] + (drift[k] > 0)));
         int axis = exits[0] <= exits[1] ? 0 : 1;
         double out = fmin(exits[axis], end);
-        if (!first) {
-            struct walk_cell cell = {.x = (uint32_t)at[0], .y = (uint32_t)at[1], .t_in = t, .t_out = out};
-            cell.depth_m = depth_at(grid, at[0], at[1]);
-            cell.gap_in = cell.gap_out = -1;
-            if (cell.depth_m < 3e38) {
-                double slopes[2];
-                walk_slopes(grid, cell.x, cell.y, slopes);
-                cell.steep = fabs(slopes[0]) + fabs(slopes[1]);
-                cell.gap_in = gap_at(grid, ray, &cell, slopes, t);
-                cell.gap_out = gap_at(grid, ray, &cell, slopes, out);
-            }
-            if (!visit(user, &cell)) return out;
+        struct walk_cell cell = {.x = (uint32_t)at[0], .y = (uint32_t)at[1], .t_in = t, .t_out = out, .own = first};
+        cell.depth_m = depth_at(grid, at[0], at[1]);
+        cell.gap_in = cell.gap_out = -1;
+        if (cell.depth_m < 3e38) {
+            double slopes[2];
+            walk_slopes(grid, cell.x, cell.y, slopes);
+            cell.steep = fabs(slopes[0]) + fabs(slopes[1]);
+            cell.gap_in = gap_at(grid, ray, &cell, slopes, t);
+            cell.gap_out = gap_at(grid, ray, &cell, slopes, out);
         }
+        if (!visit(user, &cell)) return out;
         if (!(out < end)) return end;
         t = out;
         at[axis] += drift[axis] > 0 ? 1 : -1;
@@ -151,7 +149,7 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
     }
 }
 
-const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 1, 0.0001, 1e5};
+const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 0.01, 1, 0.0001, 1e5};
 
 struct tracing {
     const struct walk_grid *grid;
@@ -159,6 +157,7 @@ struct tracing {
     const struct walk_rules *rules;
     double t_front, hit;
     double hidden_first, hidden_last;
+    double before; /* 1/z of the ray less that of the texel before, where it leaves that */
     bool found;
 };
 
@@ -185,6 +184,10 @@ static bool decide(void *user, const struct walk_cell *cell) {
     const double z_in = (origin[2] + cell->t_in * direction[2]) * front;
     const double z_out = (origin[2] + cell->t_out * direction[2]) * front;
     const double in = -cell->gap_in / z_in, out = -cell->gap_out / z_out; /* 1/z less the plane's */
+    const double before = tracing->before;
+    tracing->before = out;
+    if (cell->own) tracing->t_front = cell->t_out;
+    if (cell->own) return true; /* it cannot stop a ray */
     if (!(out < -rules->bias / cell->depth_m)) {
         tracing->t_front = cell->t_out;
         return true;
@@ -192,7 +195,9 @@ static bool decide(void *user, const struct walk_cell *cell) {
     const double deep = rules->thickness + rules->thickness_m / cell->depth_m;
     const double across = texels_between(tracing, cell->t_in, cell->t_out);
     const double texel = across > 0 ? 1 / across : 0; /* as a part of the way through this one */
-    if (out < in && in >= -deep / (1 + deep) / cell->depth_m - rules->seam * texel * (in - out)) {
+    const double thick = deep / (1 + deep) / cell->depth_m, reach = rules->seam * texel * (in - out);
+    const bool joined = (fabs(in) + fabs(before)) * cell->depth_m <= rules->jump;
+    if (out < in && in >= -thick - (joined ? reach : 0)) {
         const double part = fmax(meeting(cell, z_in, z_out), -rules->seam * texel);
         const double inverse = (1 - part) / z_in + part / z_out; /* t over z is linear in the place too */
         tracing->hit = fmax(0, ((1 - part) * cell->t_in / z_in + part * cell->t_out / z_out) / inverse);

@@ -37,15 +37,16 @@ struct walk_cell {
     uint32_t x, y;
     double t_in, t_out;
     double gap_in, gap_out; /* depth of the ray less depth of the surface there, over the latter: positive behind */
+    bool own;               /* where the ray starts */
     double depth_m, steep;  /* at the centre; the sum of both slopes' amounts */
 };
-/* Calls `visit` for every texel after the first, until it returns false. Returns the distance where the walk ended. */
+/* Calls `visit` for every texel, its own first, until it returns false. Returns the distance where the walk ended. */
 double walk(const struct walk_grid *grid, const struct walk_ray *ray, double length_m,
             bool (*visit)(void *user, const struct walk_cell *cell), void *user);
 
 /* The rules of screen_trace/dda, as its parameters say them. */
 struct walk_rules {
-    double thickness, thickness_m, seam, solid, bias, length_m;
+    double thickness, thickness_m, seam, jump, solid, bias, length_m;
 };
 extern const struct walk_rules walk_rules_default;
 /* True for a hit; then *t is its distance. */
