@@ -55,10 +55,10 @@ void glint_decode_depth(const struct glint_decoder *d, float *v, size_t count);
 void glint_decode_roughness(const struct glint_decoder *d, float *v, size_t count);
 void glint_decode_motion(const struct glint_decoder *d, int axis, float *v, size_t count);
 /* From uint channels. */
-void glint_decode_motion_packed(const struct glint_decoder *d, const uint32_t *in, float *v, size_t count);
+void glint_decode_motion_packed(const struct glint_decoder *d, int axis, const uint32_t *in, float *v, size_t count);
 void glint_decode_color(const struct glint_decoder *d, float *v, size_t count);
 void glint_decode_length(const struct glint_decoder *d, float *v, size_t count);
-/* n[0], n[1], n[2] to unit world normals; n[2] is not read when the encoding is octahedral. `lengths` receives their
+/* n[0], n[1], n[2] to unit world normals; n[2] is not read when Z is not stored. `lengths` receives their
    lengths before they were made unit, or NULL. */
 void glint_decode_normal(const struct glint_decoder *d, enum glint_normal_encoding encoding, float *const n[3],
                          float *lengths, size_t count);

@@ -50,6 +50,7 @@ static enum decoding decoding_of(const struct glint_part_info *part, const struc
     if (!strcmp(row->encoding, "roughness")) return encoding == GLINT_ROUGHNESS_PERCEPTUAL ? AS_STORED : ROUGHNESS;
     if (!strcmp(row->encoding, "motion"))
         return encoding == GLINT_MOTION_UV ? AS_STORED : encoding == GLINT_MOTION_PACKED16 ? PACKED : MOTION;
+    if (!strcmp(row->encoding, "motion_depth")) return encoding == GLINT_MOTION_DEPTH_VIEW_LINEAR ? LENGTH : PACKED;
     if (!strcmp(row->encoding, "color")) return encoding == GLINT_COLOR_LINEAR ? AS_STORED : COLOR;
     return !strcmp(row->unit, "m") ? LENGTH : AS_STORED;
 }
@@ -61,8 +62,8 @@ static bool plan_normal(struct job *job, const struct glint_part_info *part, con
     to->normal = (enum glint_normal_encoding)glint_part_encoding(part, row);
     for (int axis = 0; axis < 3; axis++) {
         name[strlen(name) - 1] = "XYZ"[axis];
-        to->plane[axis] = axis == 2 && to->normal == GLINT_NORMAL_OCTAHEDRAL ? -1 : want(job, file, name);
-        if (to->plane[axis] < 0 && !(axis == 2 && to->normal == GLINT_NORMAL_OCTAHEDRAL)) return false;
+        to->plane[axis] = axis == 2 && !glint_normal_has_z(to->normal) ? -1 : want(job, file, name);
+        if (to->plane[axis] < 0 && !(axis == 2 && !glint_normal_has_z(to->normal))) return false;
     }
     return true;
 }
@@ -137,7 +138,7 @@ static void decode(const struct job *job, const struct output *from, const uint8
     uint32_t words[GLINT_BLOCK];
     if (from->decoding == PACKED) {
         memcpy(words, in, count * 4);
-        glint_decode_motion_packed(&job->decoder, words, v, count);
+        glint_decode_motion_packed(&job->decoder, from->axis, words, v, count);
         return;
     }
     glint_decode_widen(job->stored[from->plane[0]], in, count, v);

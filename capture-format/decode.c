@@ -91,8 +91,9 @@ void glint_decode_motion(const struct glint_decoder *d, int axis, float *v, size
     for (size_t i = 0; i < count; i++) v[i] *= scale;
 }
 
-void glint_decode_motion_packed(const struct glint_decoder *d, const uint32_t *in, float *v, size_t count) {
-    const double scale = d->frame->motion_range / 32767;
+void glint_decode_motion_packed(const struct glint_decoder *d, int axis, const uint32_t *in, float *v, size_t count) {
+    const double scale =
+        (axis == 2 ? d->frame->motion_depth_range * d->frame->metres_per_unit : d->frame->motion_range) / 32767;
     for (size_t i = 0; i < count; i++) v[i] = (float)(((double)in[i] - 32768) * scale);
 }
 
@@ -121,6 +122,16 @@ static void from_octahedral(float *const n[3], size_t count) {
     }
 }
 
+/* Towards the camera is the side of view space that is not in front of it. */
+static void from_view_xy(const struct glint_decoder *d, float *const n[3], size_t count) {
+    const float side = d->camera->view_to_clip[14] < 0 ? 1 : -1;
+    for (size_t i = 0; i < count; i++) {
+        n[0][i] = 2 * n[0][i] - 1;
+        n[1][i] = 2 * n[1][i] - 1;
+        n[2][i] = side * sqrtf(fmaxf(1 - n[0][i] * n[0][i] - n[1][i] * n[1][i], 0));
+    }
+}
+
 static void to_world(const double *m, float *const n[3], size_t count) {
     for (size_t i = 0; i < count; i++) {
         const double x = (double)n[0][i], y = (double)n[1][i], z = (double)n[2][i];
@@ -134,11 +145,13 @@ void glint_decode_normal(const struct glint_decoder *d, enum glint_normal_encodi
         for (int axis = 0; axis < 3; axis++)
             for (size_t i = 0; i < count; i++) n[axis][i] = 2 * n[axis][i] - 1;
     if (encoding == GLINT_NORMAL_OCTAHEDRAL) from_octahedral(n, count);
+    if (encoding == GLINT_NORMAL_VIEW_XY) from_view_xy(d, n, count);
     for (size_t i = 0; lengths && i < count; i++)
         lengths[i] = encoding == GLINT_NORMAL_OCTAHEDRAL && isfinite(n[2][i])
                          ? 1
                          : sqrtf(n[0][i] * n[0][i] + n[1][i] * n[1][i] + n[2][i] * n[2][i]);
-    if (d->encodings.normal_space == GLINT_SPACE_VIEW) to_world(d->camera->world_to_view, n, count);
+    if (d->encodings.normal_space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY)
+        to_world(d->camera->world_to_view, n, count);
     for (size_t i = 0; i < count; i++) {
         const float square = n[0][i] * n[0][i] + n[1][i] * n[1][i] + n[2][i] * n[2][i];
         const float scale = square > 0 && square < INFINITY ? 1 / sqrtf(square) : 1;

@@ -14,6 +14,10 @@ int glint_part_encoding(const struct glint_part_info *part, const struct glint_r
     return row ? glint_encoding_get(&part->encodings, row) : 0;
 }
 
+bool glint_normal_has_z(enum glint_normal_encoding encoding) {
+    return encoding == GLINT_NORMAL_SIGNED || encoding == GLINT_NORMAL_UNORM;
+}
+
 static bool is_normal(const struct glint_role_channel *channel) {
     return !strcmp(channel->encoding, "normal") || !strcmp(channel->encoding, "vertex_normal");
 }
@@ -26,10 +30,10 @@ static bool ends_in(const char *name, const char *end) {
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel) {
     for (size_t i = 0; i < part->channel_count; i++)
         if (!strcmp(part->channels[i].name, channel)) return true;
-    /* The Z of an octahedral normal follows from its X and Y. */
+    /* The Z of some normals follows from its X and Y. */
     const struct glint_role_channel *row = glint_role_channel_find(part->role, channel);
     if (!row || !is_normal(row) || !ends_in(channel, ".Z")) return false;
-    if (glint_part_encoding(part, row) != GLINT_NORMAL_OCTAHEDRAL) return false;
+    if (glint_normal_has_z((enum glint_normal_encoding)glint_part_encoding(part, row))) return false;
     char other[64];
     snprintf(other, sizeof other, "%s", channel);
     other[strlen(other) - 1] = 'X';
@@ -143,10 +147,13 @@ static bool check_channel(struct glint_check *check, const struct glint_part_inf
                           const struct glint_channel_info *channel) {
     const struct glint_role_channel *row = glint_role_channel_find(out->role, channel->name);
     if (!row) return BROKEN(CHANNELS, channel->name, "expected a channel of %s, found another", out->role->name);
-    if (is_normal(row) && ends_in(row->name, ".Z") && glint_part_encoding(out, row) == GLINT_NORMAL_OCTAHEDRAL)
-        return BROKEN(CHANNELS, channel->name, "expected no Z beside an octahedral normal, found one");
+    const int encoding = glint_part_encoding(out, row);
+    if (is_normal(row) && ends_in(row->name, ".Z") && !glint_normal_has_z((enum glint_normal_encoding)encoding))
+        return BROKEN(CHANNELS, channel->name, "expected no Z beside a normal that is %s, found one",
+                      glint_encoding_name(row->encoding, encoding));
     const bool integer = !strcmp(row->name, "stencil.id") ||
-                         (!strcmp(row->encoding, "motion") && out->encodings.motion == GLINT_MOTION_PACKED16);
+                         (!strcmp(row->encoding, "motion") && encoding == GLINT_MOTION_PACKED16) ||
+                         (!strcmp(row->encoding, "motion_depth") && encoding == GLINT_MOTION_DEPTH_PACKED16);
     if (integer != (channel->stored == GLINT_STORED_UINT))
         return BROKEN(TYPES, channel->name, "expected %s, found %s", integer ? "uint" : "half or float",
                       glint_stored_name(channel->stored));

@@ -16,6 +16,8 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
                        const struct glint_part_info *parts, size_t count, struct glint_frame *frame, bool *has_frame);
 /* Which of the role's declared encodings holds for a channel; 0 (canonical) where none applies. */
 int glint_part_encoding(const struct glint_part_info *part, const struct glint_role_channel *channel);
+/* Whether a normal is stored with its Z; where not, it follows from X and Y. */
+bool glint_normal_has_z(enum glint_normal_encoding encoding);
 #define GLINT_SIBLING_ATTRIBUTE "glint.sibling"
 #define GLINT_SIBLING_HASH_ATTRIBUTE "glint.siblingHash"
 #define GLINT_STORAGE_ATTRIBUTE "glint.storage"

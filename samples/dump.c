@@ -97,6 +97,7 @@ static void encode_pixels(const struct dump *dump, const struct view *view, cons
         out[i].vertex_normal = encode_normal(e->vertex_normal, e->normal_space, view, in[i].vertex_normal);
         out[i].roughness = encode_roughness(e->roughness, in[i].roughness);
         encode_motion(e->motion, view, in[i].motion, out[i].motion);
+        out[i].motion[2] = encode_motion_depth(e->motion_depth, in[i].motion[2]);
     }
 }
 
@@ -105,7 +106,8 @@ static void put_normal(struct part *part, const char *const names[3], enum glint
     struct storage storage = storage_normal(encoding);
     put(part, names[0], storage, &source->x, sizeof(struct pixel));
     put(part, names[1], storage, &source->y, sizeof(struct pixel));
-    if (encoding != GLINT_NORMAL_OCTAHEDRAL) put(part, names[2], storage, &source->z, sizeof(struct pixel));
+    if (encoding == GLINT_NORMAL_SIGNED || encoding == GLINT_NORMAL_UNORM)
+        put(part, names[2], storage, &source->z, sizeof(struct pixel));
 }
 
 bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *view, const struct pixel *pixels,
@@ -130,6 +132,7 @@ bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *
     put3(&part, albedo, byte, &p->albedo, stride);
     put(&part, "motion.X", storage_motion(e->motion), &p->motion[0], stride);
     put(&part, "motion.Y", storage_motion(e->motion), &p->motion[1], stride);
+    put(&part, "motion.Z", storage_motion_depth(e->motion_depth), &p->motion[2], stride);
     part.channels[part.part.channel_count++] = (struct glint_channel){.name = "stencil.id",
                                                                       .type = GLINT_U32,
                                                                       .data = &p->stencil,

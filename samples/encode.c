@@ -46,7 +46,12 @@ static float sign_of(float v) {
 vec3 encode_normal(enum glint_normal_encoding encoding, enum glint_normal_space space, const struct view *view,
                    vec3 normal) {
     vec3 n = unit(normal);
-    if (space == GLINT_SPACE_VIEW) n = to_view(view, n);
+    if (space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY) n = to_view(view, n);
+    if (encoding == GLINT_NORMAL_VIEW_XY) {
+        /* What is turned away, as surfaces at the picture's rim can be, is bent to the rim of the hemisphere. */
+        if (n.z < 0) n = unit(v3(n.x, n.y, 0));
+        return v3(0.5f + 0.5f * n.x, 0.5f + 0.5f * n.y, 0);
+    }
     if (encoding == GLINT_NORMAL_UNORM) {
         vec3 u = scale(add(n, gray(1)), 0.5f);
         return v3((float)rounded_to((double)u.x, TEN_BIT_STEPS), (float)rounded_to((double)u.y, TEN_BIT_STEPS),
@@ -64,7 +69,8 @@ vec3 encode_normal(enum glint_normal_encoding encoding, enum glint_normal_space 
 }
 
 struct storage storage_normal(enum glint_normal_encoding encoding) {
-    static const struct storage of[] = {{GLINT_F16, "RGBA16F"}, {GLINT_F32, "R10G10B10A2"}, {GLINT_UNORM16, "RG16"}};
+    static const struct storage of[] = {
+        {GLINT_F16, "RGBA16F"}, {GLINT_F32, "R10G10B10A2"}, {GLINT_UNORM16, "RG16"}, {GLINT_UNORM8, "RG8"}};
     return of[encoding];
 }
 
@@ -104,6 +110,16 @@ void encode_motion(enum glint_motion_encoding encoding, const struct view *view,
 struct storage storage_motion(enum glint_motion_encoding encoding) {
     if (encoding == GLINT_MOTION_PACKED16) return (struct storage){GLINT_U16, "RG16"};
     return (struct storage){GLINT_F16, "RG16F"};
+}
+
+float encode_motion_depth(enum glint_motion_depth_encoding encoding, float metres) {
+    if (encoding != GLINT_MOTION_DEPTH_PACKED16) return metres;
+    return clampf(floorf(metres / (float)MOTION_DEPTH_RANGE * 32767 + 0.5f) + 32768, 1, 65535);
+}
+
+struct storage storage_motion_depth(enum glint_motion_depth_encoding encoding) {
+    if (encoding == GLINT_MOTION_DEPTH_PACKED16) return (struct storage){GLINT_U16, "R16"};
+    return (struct storage){GLINT_F16, "R16F"};
 }
 
 static float srgb(float v) {

@@ -6,10 +6,13 @@
 
 /* `depth` along the view axis, INFINITY for sky; logarithmic depth is between VIEW_NEAR and VIEW_FAR. */
 float encode_depth(enum glint_depth_encoding encoding, const struct view *view, float depth);
-/* Octahedral normals leave z at 0. */
+/* Octahedral and view_xy normals leave z at 0. */
 vec3 encode_normal(enum glint_normal_encoding encoding, enum glint_normal_space space, const struct view *view,
                    vec3 normal);
 float encode_roughness(enum glint_roughness_encoding encoding, float roughness);
+/* Engine units that the largest value of packed motion.Z stands for. */
+#define MOTION_DEPTH_RANGE 16.0
+float encode_motion_depth(enum glint_motion_depth_encoding encoding, float metres);
 void encode_motion(enum glint_motion_encoding encoding, const struct view *view, const float uv[2], float out[2]);
 vec3 encode_color(enum glint_color_encoding encoding, double pre_exposure, vec3 color);
 
@@ -21,6 +24,7 @@ struct storage {
 struct storage storage_depth(enum glint_depth_encoding encoding);
 struct storage storage_normal(enum glint_normal_encoding encoding);
 struct storage storage_roughness(enum glint_roughness_encoding encoding);
+struct storage storage_motion_depth(enum glint_motion_depth_encoding encoding);
 struct storage storage_motion(enum glint_motion_encoding encoding);
 
 #endif

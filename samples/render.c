@@ -9,7 +9,7 @@ struct frame_work {
     struct pixel *pixels;
 };
 
-static void motion_of(const struct frame_work *work, uint32_t x, uint32_t y, vec3 point, double w, float motion[2]) {
+static void motion_of(const struct frame_work *work, uint32_t x, uint32_t y, vec3 point, double w, float motion[3]) {
     double uv[2];
     if (!view_project(work->previous, point, w, uv)) return;
     motion[0] = (float)(uv[0] - (x + 0.5) / work->view->width);
@@ -71,7 +71,9 @@ static void frame_row(void *user, uint32_t y) {
         if (hit.t < INFINITY) {
             *pixel = seen(work, &hit, direction);
             vec3 step = hit.mesh->flags & MESH_MOVING ? hit.mesh->step : gray(0);
-            motion_of(work, x, y, sub(hit.position, step), 1, pixel->motion);
+            vec3 before = sub(hit.position, step);
+            motion_of(work, x, y, before, 1, pixel->motion);
+            pixel->motion[2] = (float)(view_depth(work->previous, before) - view_depth(work->view, hit.position));
         } else {
             *pixel = (struct pixel){.depth = INFINITY,
                                     .stencil = STENCIL_SKY,

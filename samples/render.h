@@ -11,7 +11,7 @@ struct pixel {
     vec3 normal; /* rounded to half floats, as the engine's G-buffer holds it */
     vec3 vertex_normal, albedo;
     float roughness, metalness, specular;
-    float motion[2]; /* uv one frame earlier minus uv now */
+    float motion[3]; /* uv one frame earlier minus uv now; depth in the same way, 0 for the sky */
     uint32_t stencil;
     vec3 lit;
 };

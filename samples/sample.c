@@ -5,6 +5,7 @@
 
 #include "bake.h"
 #include "dump.h"
+#include "encode.h"
 #include "gltf.h"
 #include "probes.h"
 #include "scenes.h"
@@ -58,6 +59,7 @@ static bool check_encodings(const struct glint_encodings *e, struct glint_error 
                {"normal_space", (int)e->normal_space},
                {"roughness", (int)e->roughness},
                {"motion", (int)e->motion},
+               {"motion_depth", (int)e->motion_depth},
                {"color", (int)e->color}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].value < 0 || !glint_encoding_name(all[i].which, all[i].value))
@@ -127,6 +129,7 @@ static struct glint_frame frame_of_views(const struct session *s, const struct v
                                 .depth_near = VIEW_NEAR,
                                 .depth_far = VIEW_FAR,
                                 .motion_range = 1,
+                                .motion_depth_range = MOTION_DEPTH_RANGE,
                                 .metres_per_unit = 1,
                                 .pre_exposure = 1,
                                 .has_fog = scene->has_fog,

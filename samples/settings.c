@@ -46,10 +46,11 @@ static void take_mesh(XXH3_state_t *state, const struct mesh *mesh) {
 static void take_options(XXH3_state_t *state, const struct scene *scene, const struct glint_sample_options *o) {
     char text[1024];
     const struct glint_encodings *e = &o->encodings;
-    int n = snprintf(text, sizeof text, "%s %u %u %u %u %d %d %d %d %d %d %d %d %u %u %.17g %d %d", GLINT_VERSION,
+    int n = snprintf(text, sizeof text, "%s %u %u %u %u %d %d %d %d %d %d %d %d %d %u %u %.17g %d %d", GLINT_VERSION,
                      o->width, o->height, o->cube_size, o->first_frame, (int)o->probes, (int)e->depth, (int)e->normal,
-                     (int)e->vertex_normal, (int)e->normal_space, (int)e->roughness, (int)e->motion, (int)e->color,
-                     o->truth_samples, o->light_samples, o->fov_y_rad, (int)o->camera_given, (int)o->compression);
+                     (int)e->vertex_normal, (int)e->normal_space, (int)e->roughness, (int)e->motion,
+                     (int)e->motion_depth, (int)e->color, o->truth_samples, o->light_samples, o->fov_y_rad,
+                     (int)o->camera_given, (int)o->compression);
     take(state, text, (size_t)n);
     take(state, o->offset, sizeof o->offset);
     take(state, &o->cut, sizeof o->cut);

@@ -103,6 +103,11 @@ vec3 view_eye(const struct view *view) {
     return v3((float)view->eye[0], (float)view->eye[1], (float)view->eye[2]);
 }
 
+double view_depth(const struct view *view, vec3 point) {
+    const double *m = view->camera.world_to_view + 8;
+    return -(m[0] * (double)point.x + m[1] * (double)point.y + m[2] * (double)point.z + m[3]);
+}
+
 bool view_project(const struct view *view, vec3 point, double w, double uv[2]) {
     const double *p = view->camera.view_to_clip, *m = view->camera.world_to_view;
     double in[4] = {(double)point.x, (double)point.y, (double)point.z, w}, v[3] = {0};

@@ -29,6 +29,7 @@ struct view view_at(const struct scene *scene, const struct glint_sample_options
 vec3 view_ray(const struct view *view, uint32_t x, uint32_t y);
 vec3 view_eye(const struct view *view);
 /* Where a point (w = 1) or direction (w = 0) is seen; false when it is behind the camera. */
+double view_depth(const struct view *view, vec3 point); /* along the view axis */
 bool view_project(const struct view *view, vec3 point, double w, double uv[2]);
 
 #endif

@@ -95,9 +95,13 @@ static void describe(struct channel_row *row, const struct glint_part_info *part
         const struct {
             const char *which;
             int value;
-        } kinds[] = {
-            {"depth", (int)e->depth},         {"normal", (int)e->normal}, {"vertex_normal", (int)e->vertex_normal},
-            {"roughness", (int)e->roughness}, {"motion", (int)e->motion}, {"color", (int)e->color}};
+        } kinds[] = {{"depth", (int)e->depth},
+                     {"normal", (int)e->normal},
+                     {"vertex_normal", (int)e->vertex_normal},
+                     {"roughness", (int)e->roughness},
+                     {"motion", (int)e->motion},
+                     {"color", (int)e->color},
+                     {"motion_depth", (int)e->motion_depth}};
         for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
             if (strcmp(kinds[k].which, c->encoding) != 0) continue;
             const char *name = glint_encoding_name(k == 2 ? "normal" : kinds[k].which, kinds[k].value);
@@ -148,12 +152,12 @@ static bool read_batch(struct batch *batch, const struct source *source, size_t 
 }
 
 static bool read_stats(struct channel_row *rows, const struct glint_channel_info *channels, size_t count,
-                       const struct source *source, size_t pixels, bool packed_motion, struct glint_error *err) {
+                       const struct source *source, size_t pixels, struct glint_error *err) {
     struct batch floats = {0}, integers = {.integer = true};
     bool ok = true;
     for (size_t i = 0; ok && i < count; i++) {
         /* Packed motion is stored as integers and decodes to float. */
-        bool decoded = packed_motion && !strncmp(channels[i].name, "motion.", 7);
+        bool decoded = source->capture && !strncmp(channels[i].name, "motion.", 7);
         struct batch *batch = channels[i].stored == GLINT_STORED_UINT && !decoded ? &integers : &floats;
         batch->names[batch->count] = channels[i].name;
         batch->rows[batch->count++] = &rows[i];
@@ -185,8 +189,7 @@ bool channels_of_capture(struct channel_table *table, struct glint_capture *capt
             describe(&rows[i], part);
         }
         if (pixels &&
-            !read_stats(rows, part->channels, part->channel_count, &source, (size_t)part->width * part->height,
-                        part->encodings.motion == GLINT_MOTION_PACKED16, err))
+            !read_stats(rows, part->channels, part->channel_count, &source, (size_t)part->width * part->height, err))
             return false;
         order_channels(rows, part->channel_count);
     }
@@ -210,7 +213,7 @@ bool channels_of_exr(struct channel_table *table, struct glint_exr *exr, bool pi
             if (unit && unit->type == GLINT_EXR_STRING) rows[i].unit = unit->string;
         }
         if (pixels &&
-            !read_stats(rows, part->channels, part->channel_count, &source, (size_t)part->width * part->height, false,
+            !read_stats(rows, part->channels, part->channel_count, &source, (size_t)part->width * part->height,
                         &unreadable) &&
             unreadable.code != GLINT_ERROR_UNSUPPORTED) {
             if (err) *err = unreadable;

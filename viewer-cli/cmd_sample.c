@@ -62,7 +62,7 @@ static const struct argp_option options[] = {
     {"unjittered",  KEY_UNJITTERED,  NULL,    0, "Look through the centres of the pixels in every frame", 0},
     {"fov",         KEY_FOV,         "DEG",   0, "Vertical field of view in degrees (default: the scene's)", 0},
     {"offset",      KEY_OFFSET,      "x,y,z", 0, "Move every stored position, in double; the scene is not rendered again", 0},
-    {"encoding",    KEY_ENCODING,    "WHAT=NAME,...", 0, "Several encodings at once: depth, normal, vertex_normal, normal_space, roughness, motion, color", 0},
+    {"encoding",    KEY_ENCODING,    "WHAT=NAME,...", 0, "Several encodings at once: depth, normal, vertex_normal, normal_space, roughness, motion, motion_depth, color", 0},
     {"depth",       KEY_DEPTH,       "NAME",  0, "How depth is stored: ", 0},
     {"normal",      KEY_NORMAL,      "NAME",  0, "How normals are stored: ", 0},
     {"roughness",   KEY_ROUGHNESS,   "NAME",  0, "How roughness is stored: ", 0},
@@ -112,8 +112,8 @@ static char *values(int key) {
 }
 
 static void set_encoding(struct glint_encodings *e, const char *what, const char *name, struct argp_state *state) {
-    static const char *const kinds[] = {"depth",     "normal", "vertex_normal", "normal_space",
-                                        "roughness", "motion", "color",         NULL};
+    static const char *const kinds[] = {
+        "depth", "normal", "vertex_normal", "normal_space", "roughness", "motion", "color", "motion_depth", NULL};
     int kind = arg_choice("encoding", what, kinds, state);
     const char *which = kind == 2 ? "normal" : what; /* vertex normals are stored as normals are */
     const char *names[32] = {0};
@@ -140,6 +140,9 @@ static void set_encoding(struct glint_encodings *e, const char *what, const char
         break;
     case 6:
         e->color = (enum glint_color_encoding)value;
+        break;
+    case 7:
+        e->motion_depth = (enum glint_motion_depth_encoding)value;
         break;
     }
 }

@@ -7,8 +7,8 @@ RULE(NAMES,     "unique-names",     "No two parts have one name.")
 RULE(REQUIRED,  "required-parts",   "A capture holds every required role. A file of cube maps only, for other captures to name as sibling, needs none.")
 RULE(STORAGE,   "scanline",         "Parts of known roles are flat scanline images without subsampling, compressed by NONE, RLE, ZIPS, ZIP, PIZ, PXR24 or B44.")
 RULE(RESERVED,  "reserved-roles",   "A reserved role is not used before a version defines it.")
-RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral) and no channel that the role does not list.")
-RULE(TYPES,     "channel-types",    "`stencil.id` and packed motion are uint; every other listed channel is half or float.")
+RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral or view_xy) and no channel that the role does not list.")
+RULE(TYPES,     "channel-types",    "`stencil.id`, packed motion and its packed depth are uint; every other listed channel is half or float.")
 RULE(SHAPE,     "shape",            "Parts of shape `frame` have the size of `gbuffer`; cube maps are N × 6N.")
 RULE(ENCODING,  "encoding",         "A declared encoding is one of the names of its table; where nothing is declared the first one holds.")
 RULE(ATTRIBUTE, "attributes",       "Attributes have the type and range of their table, the required ones are there, every number is finite.")
@@ -20,6 +20,6 @@ RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the captu
 /* ---- pixels: checked by validate alone ---- */
 RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not looked at.")
 RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals are unit within 0.02 before the reader makes them unit.")
-RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance and metres (but motion.Z) are not negative; encoded depth, unorm and octahedral values lie in [0, 1].")
+RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance and metres (but motion.Z) are not negative; encoded depth, unorm, octahedral and view_xy values lie in [0, 1].")
 /* clang-format on */
 #undef RULE

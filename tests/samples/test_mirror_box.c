@@ -191,8 +191,8 @@ static void test_cube_distances_and_colours(void **state) {
 static void test_motion_leads_to_the_previous_frame(void **state) {
     struct glint_capture *capture = box_capture(state);
     const struct glint_frame *frame = glint_capture_frame(capture);
-    float *motion = read_part(capture, "gbuffer", "motion.X motion.Y", NULL, NULL);
-    double largest = 0;
+    float *motion = read_part(capture, "gbuffer", "motion.X motion.Y motion.Z", NULL, NULL);
+    double largest = 0, nearer = 0;
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
             struct seen s = look(&frame->camera, x, y, W, H);
@@ -202,11 +202,19 @@ static void test_motion_leads_to_the_previous_frame(void **state) {
                 double expected = uv[i] - now[i];
                 largest = fmax(largest, fabs(expected));
                 /* stored as half floats: relative 2^-11, absolute 2^-25 */
-                assert_true(fabs((double)motion[2 * (y * W + x) + (uint32_t)i] - expected) <=
+                assert_true(fabs((double)motion[3 * (y * W + x) + (uint32_t)i] - expected) <=
                             fabs(expected) / 2048 + 1e-6);
             }
+            const double *rows[2] = {frame->camera.world_to_view, frame->previous.world_to_view};
+            double depth[2];
+            for (int k = 0; k < 2; k++)
+                depth[k] =
+                    -(rows[k][8] * s.point[0] + rows[k][9] * s.point[1] + rows[k][10] * s.point[2] + rows[k][11]);
+            nearer = fmax(nearer, fabs(depth[1] - depth[0]));
+            assert_true(fabs((double)motion[3 * (y * W + x) + 2] - (depth[1] - depth[0])) <=
+                        fabs(depth[1] - depth[0]) / 2048 + 1e-5);
         }
-    assert_true(largest > 0.005); /* the camera did move */
+    assert_true(largest > 0.005 && nearer > 0.005); /* the camera did move */
     free(motion);
     glint_capture_close(&capture);
 }

@@ -61,8 +61,8 @@ static const double depth_bound = 2e-3, normal_bound = 2e-3, roughness_bound = 2
 static void compare(const char *path, const float *const plain[4]) {
     static const char *const channels[4] = {"depth.Z",
                                             "normal.X normal.Y normal.Z vertexNormal.X vertexNormal.Y vertexNormal.Z",
-                                            "material.roughness motion.X motion.Y", "R G B"};
-    static const size_t counts[4] = {1, 6, 3, 3};
+                                            "material.roughness motion.X motion.Y motion.Z", "R G B"};
+    static const size_t counts[4] = {1, 6, 4, 3};
     const double bounds[4] = {depth_bound, normal_bound, fmax(roughness_bound, motion_bound), color_bound};
     struct glint_capture *capture = open_capture(path);
     float *depth = read_part(capture, "gbuffer", "depth.Z", NULL, NULL);
@@ -87,7 +87,7 @@ static void test_every_encoding_decodes_to_the_same_scene(void **state) {
     float *plain[4] = {read_part(capture, "gbuffer", "depth.Z", NULL, NULL),
                        read_part(capture, "gbuffer",
                                  "normal.X normal.Y normal.Z vertexNormal.X vertexNormal.Y vertexNormal.Z", NULL, NULL),
-                       read_part(capture, "gbuffer", "material.roughness motion.X motion.Y", NULL, NULL),
+                       read_part(capture, "gbuffer", "material.roughness motion.X motion.Y motion.Z", NULL, NULL),
                        read_part(capture, "lit", "R G B", NULL, NULL)};
     glint_capture_close(&capture);
     for (int i = 1; i < 6; i++) { /* every value of every enum appears */
@@ -98,6 +98,7 @@ static void test_every_encoding_decodes_to_the_same_scene(void **state) {
                                                .normal_space = (enum glint_normal_space)(i % 2),
                                                .roughness = (enum glint_roughness_encoding)(i % 4),
                                                .motion = (enum glint_motion_encoding)(i % 4),
+                                               .motion_depth = (enum glint_motion_depth_encoding)(i % 2),
                                                .color = (enum glint_color_encoding)(i % 3)};
         snprintf(name, sizeof name, "encoded%d.exr", i);
         path = in_folder(state, name);

@@ -29,9 +29,10 @@ enum glint_depth_encoding {
     GLINT_DEPTH_LOGARITHMIC_REVERSED /* one minus that; 0 is sky */
 };
 enum glint_normal_encoding {
-    GLINT_NORMAL_SIGNED,    /* X Y Z in [-1, 1] */
-    GLINT_NORMAL_UNORM,     /* (n + 1)/2 in X Y Z */
-    GLINT_NORMAL_OCTAHEDRAL /* octahedral map in [0, 1]², channels X Y */
+    GLINT_NORMAL_SIGNED,     /* X Y Z in [-1, 1] */
+    GLINT_NORMAL_UNORM,      /* (n + 1)/2 in X Y Z */
+    GLINT_NORMAL_OCTAHEDRAL, /* octahedral map in [0, 1]², channels X Y */
+    GLINT_NORMAL_VIEW_XY     /* (n + 1)/2 in channels X Y, view axes; Z towards the camera follows */
 };
 enum glint_normal_space { GLINT_SPACE_WORLD, GLINT_SPACE_VIEW };
 enum glint_roughness_encoding {
@@ -45,6 +46,10 @@ enum glint_motion_encoding {
     GLINT_MOTION_NDC,     /* the same difference in NDC, y as clip_y says */
     GLINT_MOTION_PIXELS,  /* the same difference in pixels */
     GLINT_MOTION_PACKED16 /* uint channels: uv = (v - 32768)/32767 · motion_range */
+};
+enum glint_motion_depth_encoding {
+    GLINT_MOTION_DEPTH_VIEW_LINEAR, /* depth in the previous frame minus now, units */
+    GLINT_MOTION_DEPTH_PACKED16     /* uint channel: units = (v - 32768)/32767 · motion_depth_range */
 };
 enum glint_color_encoding {
     GLINT_COLOR_LINEAR,      /* scene-referred, Rec. 709 primaries */
@@ -60,6 +65,7 @@ struct glint_encodings {
     enum glint_roughness_encoding roughness;
     enum glint_motion_encoding motion;
     enum glint_color_encoding color;
+    enum glint_motion_depth_encoding motion_depth;
 };
 
 /* ---- What holds for the whole frame ---- */
@@ -99,11 +105,12 @@ struct glint_frame {
     double metres_per_unit; /* 0: 1 */
     double depth_near;      /* for logarithmic depth */
     double depth_far;
-    double motion_range;      /* for packed motion: the uv offset of the largest value; 0: 1 */
-    uint32_t number;          /* frame number; seeds what changes from frame to frame */
-    enum glint_axis up;       /* default +Y */
-    enum glint_clip_y clip_y; /* default: NDC +1 is the top of the picture */
-    enum glint_clip_z clip_z; /* default: [0, 1] */
+    double motion_range;       /* for packed motion: the uv offset of the largest value; 0: 1 */
+    double motion_depth_range; /* the same for its packed depth, units; 0: 1 */
+    uint32_t number;           /* frame number; seeds what changes from frame to frame */
+    enum glint_axis up;        /* default +Y */
+    enum glint_clip_y clip_y;  /* default: NDC +1 is the top of the picture */
+    enum glint_clip_z clip_z;  /* default: [0, 1] */
     bool has_fog;
     struct glint_fog fog;
     struct glint_stencil_class classes[GLINT_MAX_STENCIL_CLASSES];
@@ -262,7 +269,7 @@ size_t glint_capture_part_count(const struct glint_capture *capture);
 const struct glint_part_info *glint_capture_part(const struct glint_capture *capture, size_t i);
 /* By name ("gbuffer", "cubemap.003"); NULL when the capture has none. */
 const struct glint_part_info *glint_capture_find(const struct glint_capture *capture, const char *name);
-/* Whether glint_capture_read can return it: the part's own channels, and the Z of an octahedral normal. */
+/* Whether glint_capture_read can return it: the part's own channels, and the Z of a normal that is stored without. */
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel);
 /* 32 hexadecimal digits over the file's bytes (XXH3-128) and a NUL. Reads the file once. */
 bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glint_error *err);
