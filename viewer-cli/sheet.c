@@ -1,5 +1,5 @@
 /* Many images on one picture: those of a run, or the same images of several runs beside each other. */
-#include "render.h"
+#include "sheet.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,12 +9,6 @@
 #include "glint/replay.h"
 
 enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12 };
-
-/* Cells row by row. */
-struct grid {
-    struct picture *cells; /* those without an image stay empty */
-    uint32_t columns, rows;
-};
 
 struct cell {
     const char *run, *image;
@@ -30,25 +24,18 @@ static const char *last_name(const char *path) {
     return name;
 }
 
-static bool draw_plain(struct picture *picture, struct legend *legend, const struct cell *cell,
-                       const struct render_options *options, struct glint_error *err) {
+static bool open_cell(struct source *source, const struct cell *cell, struct glint_error *err) {
     const struct source_choice choice = {.path = cell->run, .image = cell->image};
-    struct source source;
-    size_t invalid;
-    if (!source_open(&source, &choice, err)) return false;
-    bool ok = render_plain(picture, legend, &source, options, &invalid, err);
-    source_finish(&source);
-    return ok;
+    return source_open(source, &choice, err);
 }
 
-/* One image at the sheet's width, with its legend. Colours are averaged; categories must not be mixed. */
-static bool draw_cell(struct picture *picture, const struct cell *cell, const struct render_options *options,
-                      struct glint_error *err) {
+bool sheet_cell(struct picture *picture, const struct source *source, const char *run,
+                const struct render_options *options, struct glint_error *err) {
     struct legend legend;
     char title[sizeof legend.title];
-    if (!draw_plain(picture, &legend, cell, options, err)) return false;
-    if (cell->named) {
-        const char *run = last_name(cell->run);
+    size_t invalid;
+    if (!render_plain(picture, &legend, source, options, &invalid, err)) return false;
+    if (run) {
         size_t length = strcspn(run, "/");
         snprintf(title, sizeof title, "%.*s: %.250s", (int)(length < 140 ? length : 140), run, legend.title);
         memcpy(legend.title, title, sizeof title);
@@ -57,6 +44,15 @@ static bool draw_cell(struct picture *picture, const struct cell *cell, const st
     uint32_t wide = CELL_PX / picture->width, high = CELL_HEIGHT_PX / picture->height;
     return picture_shrink(picture, (picture->width + CELL_PX - 1) / CELL_PX, !categories, err) &&
            picture_zoom(picture, wide < high ? wide : high, err) && legend_add(picture, &legend, err);
+}
+
+static bool draw_cell(struct picture *picture, const struct cell *cell, const struct render_options *options,
+                      struct glint_error *err) {
+    struct source source;
+    if (!open_cell(&source, cell, err)) return false;
+    bool ok = sheet_cell(picture, &source, cell->named ? last_name(cell->run) : NULL, options, err);
+    source_finish(&source);
+    return ok;
 }
 
 static bool run_has(const char *path, const char *image, bool *has, struct glint_error *err) {
@@ -73,10 +69,15 @@ static bool common_range(const struct cell *cells, const bool *there, uint32_t c
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < columns; i++) {
         struct picture picture = {0};
+        struct source source;
         struct legend legend;
+        size_t invalid;
         if (!there[i]) continue;
-        if (!draw_plain(&picture, &legend, &cells[i], options, err)) return false;
+        if (!open_cell(&source, &cells[i], err)) return false;
+        bool ok = render_plain(&picture, &legend, &source, options, &invalid, err);
+        source_finish(&source);
         picture_finish(&picture);
+        if (!ok) return false;
         if (legend.kind != KIND_DISTANCE) return true;
         low = fmin(low, legend.low);
         high = fmax(high, legend.high);
@@ -108,26 +109,37 @@ static bool draw_row(struct picture *pictures, const char *const *runs, uint32_t
     return ok;
 }
 
-static uint32_t row_height(const struct grid *grid, uint32_t row) {
+static uint32_t row_height(const struct sheet *sheet, uint32_t row) {
     uint32_t height = 0;
-    for (uint32_t k = 0; k < grid->columns; k++) {
-        uint32_t cell = grid->cells[(size_t)row * grid->columns + k].height;
+    for (uint32_t k = 0; k < sheet->columns; k++) {
+        uint32_t cell = sheet->cells[(size_t)row * sheet->columns + k].height;
         if (cell > height) height = cell;
     }
     return height;
 }
 
+bool sheet_init(struct sheet *sheet, uint32_t columns, uint32_t rows, struct glint_error *err) {
+    *sheet = (struct sheet){calloc((size_t)columns * rows + 1, sizeof *sheet->cells), columns, rows};
+    return sheet->cells || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+void sheet_finish(struct sheet *sheet) {
+    for (size_t i = 0; sheet->cells && i < (size_t)sheet->columns * sheet->rows; i++) picture_finish(&sheet->cells[i]);
+    free(sheet->cells);
+    *sheet = (struct sheet){0};
+}
+
 /* Each row is as high as its highest cell. */
-static bool lay_out(struct picture *sheet, const struct grid *grid, struct glint_error *err) {
-    uint32_t height = GAP_PX, top = GAP_PX;
-    for (uint32_t row = 0; row < grid->rows; row++) height += row_height(grid, row) + GAP_PX;
-    if (!picture_init(sheet, grid->columns * (CELL_PX + GAP_PX) + GAP_PX, height, COLOR_BACKGROUND, err)) return false;
-    for (uint32_t row = 0; row < grid->rows; row++) {
-        for (uint32_t k = 0; k < grid->columns; k++) {
-            const struct picture *cell = &grid->cells[(size_t)row * grid->columns + k];
-            if (cell->rgba) picture_paste(sheet, cell, GAP_PX + k * (CELL_PX + GAP_PX), top);
+bool sheet_lay_out(struct picture *picture, const struct sheet *sheet, struct glint_error *err) {
+    uint32_t height = GAP_PX, top = GAP_PX, width = sheet->columns * (CELL_PX + GAP_PX) + GAP_PX;
+    for (uint32_t row = 0; row < sheet->rows; row++) height += row_height(sheet, row) + GAP_PX;
+    if (!picture_init(picture, width, height, COLOR_BACKGROUND, err)) return false;
+    for (uint32_t row = 0; row < sheet->rows; row++) {
+        for (uint32_t k = 0; k < sheet->columns; k++) {
+            const struct picture *cell = &sheet->cells[(size_t)row * sheet->columns + k];
+            if (cell->rgba) picture_paste(picture, cell, GAP_PX + k * (CELL_PX + GAP_PX), top);
         }
-        top += row_height(grid, row) + GAP_PX;
+        top += row_height(sheet, row) + GAP_PX;
     }
     return true;
 }
@@ -139,27 +151,24 @@ static size_t count_images(const struct glint_run *run, const char *const *image
     return count;
 }
 
-bool render_sheet(struct picture *sheet, const char *const *runs, size_t run_count, const char *const *images,
+bool render_sheet(struct picture *picture, const char *const *runs, size_t run_count, const char *const *images,
                   const struct render_options *options, struct glint_error *err) {
-    struct grid grid = {0};
+    struct sheet sheet = {0};
     struct glint_run *first = glint_run_open(runs[0], err);
-    size_t count = first ? count_images(first, images) : 0, places = 0;
+    size_t count = first ? count_images(first, images) : 0;
     bool ok = first != NULL;
     if (ok && count == 0) ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the run has no images", runs[0]);
     if (ok) {
         /* a run alone: as many columns as rows */
-        grid.columns = run_count > 1 ? (uint32_t)run_count : (uint32_t)ceil(sqrt((double)count));
-        grid.rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + grid.columns - 1) / grid.columns);
-        places = (size_t)grid.columns * grid.rows;
-        grid.cells = calloc(places, sizeof *grid.cells);
-        ok = grid.cells || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        uint32_t columns = run_count > 1 ? (uint32_t)run_count : (uint32_t)ceil(sqrt((double)count));
+        uint32_t rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + columns - 1) / columns);
+        ok = sheet_init(&sheet, columns, rows, err);
     }
     for (size_t i = 0; ok && i < count; i++)
-        ok = draw_row(&grid.cells[i * run_count], runs, (uint32_t)run_count,
+        ok = draw_row(&sheet.cells[i * run_count], runs, (uint32_t)run_count,
                       images ? images[i] : glint_run_image(first, i)->name, options, err);
-    if (ok) ok = lay_out(sheet, &grid, err);
-    for (size_t i = 0; grid.cells && i < places; i++) picture_finish(&grid.cells[i]);
-    free(grid.cells);
+    if (ok) ok = sheet_lay_out(picture, &sheet, err);
+    sheet_finish(&sheet);
     glint_run_close(&first);
     return ok;
 }

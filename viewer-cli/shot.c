@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "text_file.h"
+
 static json_t *names_json(const struct list *list) {
     json_t *names = json_array();
     for (size_t i = 0; i < list->count; i++) json_array_append_new(names, json_string(list->items[i]));
@@ -53,14 +55,10 @@ json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeli
 }
 
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
-    char temporary[4096];
-    if (snprintf(temporary, sizeof temporary, "%s.tmp-%ld", path, (long)getpid()) >= (int)sizeof temporary)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", path);
-    if (json_dump_file(settings, temporary, JSON_INDENT(1) | JSON_SORT_KEYS) == 0 && rename(temporary, path) == 0)
-        return true;
-    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    unlink(temporary);
-    return false;
+    char *text = json_dumps(settings, JSON_INDENT(1) | JSON_SORT_KEYS);
+    bool ok = text ? text_file_write(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    free(text);
+    return ok;
 }
 
 bool shot_begin(const char *folder, const json_t *settings, char *const *runs, size_t count, struct glint_error *err) {

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const names[] = {"sample", "info", "validate", "plan", "replay", "view", "passes", "devices"};
+static const char *const names[] = {"sample",  "info", "validate", "plan",   "replay",
+                                    "compare", "view", "passes",   "devices"};
 enum { COUNT = sizeof names / sizeof *names };
 
 static void help_lists_every_command(void **state) {

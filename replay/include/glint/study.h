@@ -85,7 +85,31 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_pipelin
 /* The preset `reference`, asked the same question as `pipeline`: its lobe and its fog. */
 struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err);
 
+/* Which pixels the last run gives `reflection` for, 1 or 0 each: at least half of what is there is its own, by the
+   reflection's alpha and, where the run makes one, the image `contribution`. malloc'd, NULL on failure. */
+uint8_t *glint_study_given(struct glint_replay *replay, const struct glint_pixels *reflection, struct glint_error *err);
+
 /* ---- Rays ---- */
+
+/* Rays that ended for one reason in one tracer, by what the tracers' diagnostics say, whatever the truth. */
+struct glint_end_row {
+    char tracer[32];     /* "screen" for screen_end */
+    const char *reason;  /* a name of passes/shared/end_reasons.h */
+    const char *text;    /* what it means */
+    uint64_t rays;       /* that no later tracer went on with */
+    uint64_t pixels;     /* of those that were compared, those whose ray this is */
+    double share, error; /* of all rays; mean symmetric error of those pixels, NAN without any */
+};
+struct glint_ends {
+    struct glint_end_row rows[64]; /* those with rays, in the order of the tracers */
+    size_t count;
+    uint64_t rays;
+    double steps, fetches; /* a ray, of all tracers together */
+};
+/* After a run with diagnostics. `found`, `truth` and `compared` (1: this pixel) are of full resolution; NULL: no errors.
+   A run without a tracer has no rays. */
+bool glint_study_ends(struct glint_replay *replay, const struct glint_pixels *found, const struct glint_pixels *truth,
+                      const uint8_t *compared, struct glint_ends *ends, struct glint_error *err);
 
 /* Rays that ended for one reason in one tracer. Their distance is compared with truth.mirror at the pixel they start
    from. A ray that reports +inf (only the direction counts) is right where the truth is the sky, and infinitely wrong

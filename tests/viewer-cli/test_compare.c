@@ -1,0 +1,117 @@
+/* glint compare, as a user runs it: presets beside each other. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const json_t *preset_of(const json_t *json, size_t capture, const char *name) {
+    const json_t *row = json_array_get(json_object_get(json, "captures"), capture);
+    return named(json_object_get(row, "presets"), "preset", name);
+}
+
+static const json_t *surfaces_of(const json_t *preset, const char *name) {
+    return named(json_object_get(preset, "surfaces"), "surfaces", name);
+}
+
+static double share_of_ends(const json_t *preset) {
+    double sum = 0;
+    size_t i;
+    const json_t *row;
+    json_array_foreach(json_object_get(preset, "ends"), i, row) sum += number(row, "share");
+    return sum;
+}
+
+/* A preset that gives a reflection for every pixel is as far from the truth as `replay --against truth` has it. */
+static void errors_are_those_of_replay(void **state) {
+    (void)state;
+    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=96x54", "--cube-size=16", "--truth=1"));
+    char *text = glint_ok("compare", in_folder("room.exr"), "--presets=mafia3,kf2", "--repeat=2", "--json");
+    json_t *json = parse_json(text);
+    free(text);
+    text = glint_ok("replay", in_folder("room.exr"), "--against=truth", "--set=resolve.fog=false", "--json");
+    json_t *replayed = parse_json(text);
+    free(text);
+    const json_t *run = json_array_get(json_object_get(replayed, "runs"), 0);
+    const json_t *image = json_object_get(json_object_get(run, "against_truth"), "image");
+    const json_t *expected = json_object_get(image, "surfaces"), *mafia3 = preset_of(json, 0, "mafia3");
+    assert_true(number(surfaces_of(mafia3, "all"), "coverage") == 1);
+    for (size_t i = 0; i < json_array_size(expected); i++) {
+        const json_t *row = json_array_get(expected, i);
+        const json_t *own = surfaces_of(mafia3, json_string_value(json_object_get(row, "surfaces")));
+        assert_true(number(own, "pixels") == number(row, "pixels"));
+        assert_true(fabs(number(own, "symmetric") - number(row, "symmetric")) < 1e-9);
+        assert_true(fabs(number(own, "rmse") - number(row, "rmse")) < 1e-9);
+    }
+    /* the screen alone gives less; what both give is what it gives */
+    const json_t *kf2 = surfaces_of(preset_of(json, 0, "kf2"), "all");
+    double coverage = number(kf2, "coverage");
+    assert_true(coverage > 0.2 && coverage < 0.95);
+    assert_true(number(json_object_get(kf2, "shared"), "symmetric") == number(kf2, "symmetric"));
+    assert_true(number(json_object_get(surfaces_of(mafia3, "all"), "shared"), "pixels") == number(kf2, "given"));
+    assert_true(fabs(share_of_ends(preset_of(json, 0, "kf2")) - 1) < 1e-9);
+    assert_true(fabs(share_of_ends(mafia3) - 1) < 1e-9);
+    assert_true(number(mafia3, "fetches") > 1 && number(mafia3, "steps") > 1);
+    assert_true(number(json_object_get(mafia3, "frame_ms"), "n") == 2);
+    assert_true(number(json_object_get(mafia3, "frame_ms"), "median") > 0);
+    json_decref(json);
+    json_decref(replayed);
+}
+
+/* One table and one sheet of all captures; what a scene has nothing for is left out and named. */
+static void several_captures_make_one_table_and_one_sheet(void **state) {
+    (void)state;
+    free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16", "--truth=1"));
+    free(glint_ok("sample", "mirror_box", "-o", in_folder("box.exr"), "--size=48x27", "--cube-size=16"));
+    char *text = glint_ok("compare", in_folder("box.exr"), in_folder("matte.exr"), "--presets=kf2,mafia3_shipped",
+                          "--repeat=1", "-o", in_folder("out"));
+    assert_contains(text, "kf2");
+    assert_contains(text, "left out: 0 of 576 pixels reflect");
+    assert_contains(text, "part truth.reflection.ggx: missing");
+    assert_contains(text, "hit a surface");
+    free(text);
+    json_t *json = json_load_file(in_folder("out/table.json"), 0, NULL);
+    assert_non_null(json);
+    assert_contains(json_string_value(json_object_get(preset_of(json, 1, "kf2"), "notes")), "screen_trace");
+    assert_true(json_array_size(json_object_get(preset_of(json, 1, "kf2"), "surfaces")) == 0);
+    json_decref(json);
+    struct outcome csv =
+        run_program("sh", "-c", "awk -F, 'NR > 1 { print $2 }' \"$0\"", in_folder("out/table.csv"), NULL);
+    assert_string_equal(csv.out, "\"kf2\"\n\"mafia3_shipped\"\n\"kf2\"\n\"mafia3_shipped\"\n");
+    outcome_free(&csv);
+    struct pixels sheet = read_png(in_folder("out/sheet.png"));
+    assert_int_equal(sheet.width, 3 * (480 + 12) + 12);
+    assert_true(sheet.height > 2 * 270);
+    free(sheet.rgb);
+}
+
+static void settings_reach_their_preset_alone(void **state) {
+    (void)state;
+    char *text = glint_ok("compare", in_folder("box.exr"), "--presets=kf2,mafia3_shipped", "--repeat=1", "--json",
+                          "--set=kf2:screen_trace.length_m=0.01");
+    json_t *json = parse_json(text);
+    assert_true(number(surfaces_of(preset_of(json, 0, "kf2"), "all"), "coverage") < 0.1);
+    assert_true(number(surfaces_of(preset_of(json, 0, "mafia3_shipped"), "all"), "coverage") > 0.5);
+    json_decref(json);
+    free(text);
+    glint_fails(2, "which capture?", "compare");
+    glint_fails(2, "unknown preset 'kf3'", "compare", in_folder("box.exr"), "--presets=kf3");
+    glint_fails(2, "preset kf2: named twice", "compare", in_folder("box.exr"), "--presets=kf2,kf2");
+    glint_fails(2, "preset mafia3 is not among --presets", "compare", in_folder("box.exr"), "--presets=kf2",
+                "--set=mafia3:resolve.fog=true");
+    glint_fails(2, "preset kf2: slot resolve has no parameter blurr (did you mean blur?)", "compare",
+                in_folder("box.exr"), "--presets=kf2", "--set=kf2:resolve.blurr=1");
+    glint_fails(2, "expected PRESET:SLOT.PARAM=VALUE", "compare", in_folder("box.exr"), "--set=resolve.blur=1");
+    glint_fails(1, "nowhere.exr", "compare", in_folder("nowhere.exr"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_are_those_of_replay),
+        cmocka_unit_test(several_captures_make_one_table_and_one_sheet),
+        cmocka_unit_test(settings_reach_their_preset_alone),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,190 @@
+/* glint compare: presets beside each other on the same captures. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "contest.h"
+#include "png_file.h"
+#include "text_file.h"
+
+struct arguments {
+    struct list captures, presets, settings;
+    const char *out, *device;
+    uint32_t rounds;
+    bool json;
+};
+
+enum { KEY_PRESETS = 256, KEY_SET, KEY_REPEAT };
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",  'o',         "FOLDER",     0, "Keep the table as table.json and table.csv, and a sheet of pictures, sheet.png", 0},
+    {"presets", KEY_PRESETS, "NAME|FILE,...", 0, "The presets (default: all but reference); there are ", 0},
+    {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one of them; glint passes SLOT lists them", 0},
+    {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds, in turns: each preset once a round (default 3)", 0},
+    {"device",  'd',         "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"json",    'j',         NULL,         0, "Print JSON", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint compare street.exr", "every preset: error, coverage, steps, time"},
+    {"glint compare street.exr room.exr --presets mafia3,kf2 -o compared", "two presets on two scenes, with pictures"},
+    {"glint compare street.exr --presets mafia3,mine.json --repeat 20", "a preset of your own beside another"},
+    {"glint compare street.exr --presets kf2,mafia3 --set kf2:resolve.blur=0", "with one parameter changed"},
+    {"glint sample street -o street.exr --truth 16", "errors need a truth in the capture, such as this one's"},
+    {0},
+};
+
+extern const struct command cmd_compare;
+
+static char *values(int key) {
+    const char *names[64] = {NULL};
+    for (size_t i = 0; i < sizeof names / sizeof *names - 1 && glint_preset(i); i++) names[i] = glint_preset(i);
+    return key == KEY_PRESETS ? join_names("", names) : NULL;
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    bool named = a->presets.count > 0;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case 'd':
+        a->device = arg;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case KEY_PRESETS:
+        list_split(&a->presets, arg, state);
+        return 0;
+    case KEY_SET:
+        list_add(&a->settings, arg, state);
+        return 0;
+    case KEY_REPEAT:
+        a->rounds = arg_uint("repeat", arg, 1, 100000, state);
+        return 0;
+    case ARGP_KEY_ARG:
+        list_add(&a->captures, arg, state);
+        return 0;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "which capture?");
+        return 0;
+    case ARGP_KEY_END:
+        for (size_t i = 0; !named && glint_preset(i); i++)
+            if (strcmp(glint_preset(i), "reference") != 0) list_add(&a->presets, glint_preset(i), state);
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static bool write_table(const char *folder, const struct contest_table *table, struct glint_error *err) {
+    char json_path[4096], csv_path[4096];
+    if (snprintf(json_path, sizeof json_path, "%s/table.json", folder) >= (int)sizeof json_path ||
+        snprintf(csv_path, sizeof csv_path, "%s/table.csv", folder) >= (int)sizeof csv_path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    json_t *json = contest_json(table);
+    char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL, *csv = contest_csv(table);
+    bool ok = text && csv ? text_file_write(json_path, text, err) && text_file_write(csv_path, csv, err)
+                          : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    free(csv);
+    free(text);
+    json_decref(json);
+    return ok;
+}
+
+static bool write_all(const char *folder, const struct contest_table *table, const struct sheet *sheet,
+                      struct glint_error *err) {
+    struct picture picture = {0};
+    char path[4096];
+    if (snprintf(path, sizeof path, "%s/sheet.png", folder) >= (int)sizeof path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    bool ok =
+        write_table(folder, table, err) && sheet_lay_out(&picture, sheet, err) && png_file_write(path, &picture, err);
+    picture_finish(&picture);
+    return ok;
+}
+
+static bool run_capture(struct contest *contest, const char *path, struct showing *showings, struct picture *cells,
+                        struct glint_error *err) {
+    struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    bool ok = capture && contest_run(contest, capture, showings, cells, err);
+    glint_capture_close(&capture);
+    return ok;
+}
+
+/* Everything that failed, said on stderr. */
+static enum status report_failures(const struct contest_table *table) {
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < table->capture_count * table->contest->count; i++) {
+        const struct showing *s = &table->showings[i];
+        if (s->ran) continue;
+        command_note(&cmd_compare, "%s: preset %s: %s", table->captures[i / table->contest->count],
+                     table->contest->contestants[i % table->contest->count].label, s->failure);
+        status = STATUS_CHECK;
+    }
+    return status;
+}
+
+static enum status compare(struct contest *contest, const struct arguments *a, struct glint_error *err) {
+    struct sheet sheet = {0};
+    struct progress progress;
+    uint32_t columns = (uint32_t)contest->count + 1, rows = CONTEST_ROWS * (uint32_t)a->captures.count;
+    struct showing *showings = calloc(a->captures.count * contest->count + 1, sizeof *showings);
+    const struct contest_table table = {contest, a->captures.items, showings, a->captures.count};
+    bool ok = showings ? !a->out || sheet_init(&sheet, columns, rows, err)
+                       : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok && a->out && mkdir(a->out, 0777) != 0 && errno != EEXIST)
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", a->out, strerror(errno));
+    progress_begin(&progress);
+    contest->progress = &progress;
+    for (size_t i = 0; ok && i < a->captures.count; i++)
+        ok = run_capture(contest, a->captures.items[i], &showings[i * contest->count],
+                         a->out ? &sheet.cells[i * CONTEST_ROWS * columns] : NULL, err);
+    if (ok && a->out) ok = write_all(a->out, &table, &sheet, err);
+    progress_end(&progress);
+    enum status status = ok ? STATUS_DONE : command_fail(&cmd_compare, err);
+    if (ok && a->json) status = print_json(contest_json(&table));
+    else if (ok) contest_print(&table);
+    if (ok && status == STATUS_DONE) status = report_failures(&table);
+    for (size_t i = 0; showings && i < a->captures.count * contest->count; i++) showing_finish(&showings[i]);
+    free(showings);
+    sheet_finish(&sheet);
+    return status;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {.rounds = 3};
+    command_parse(&cmd_compare, argc, argv, &a);
+    struct glint_error err = {0};
+    struct contest contest = {.rounds = a.rounds};
+    const struct glint_device_options device = {.select = a.device};
+    bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err) &&
+              (contest.device = glint_device_create(&device, &err)) != NULL;
+    enum status status = ok ? compare(&contest, &a, &err) : command_fail(&cmd_compare, &err);
+    contest_finish(&contest);
+    glint_device_destroy(&contest.device);
+    list_free(&a.captures);
+    list_free(&a.presets);
+    list_free(&a.settings);
+    return status;
+}
+
+const struct command cmd_compare = {
+    .name = "compare",
+    .arguments = "F... --presets A,B,...",
+    .summary = "presets beside each other on the same captures",
+    .description =
+        "Runs several presets on captures: how far each preset's reflection is from the truth in the capture, where it "
+        "gives one, and for how many pixels it does (mirror-like, glossy and rough surfaces apart), why rays ended, "
+        "steps and texture fetches of a ray, and the time of all passes, measured in turns. Passes that a scene has "
+        "nothing for are left out and named. Fog is off, which the truth lacks.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .values = values,
+    .run = run,
+};

@@ -1,0 +1,92 @@
+/* What presets give, as pictures beside each other. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "contest.h"
+
+static struct source source_of(const struct glint_pixels *pixels, const char *title, const char *unit) {
+    struct source source = {
+        .width = pixels->width, .height = pixels->height, .components = pixels->components, .texels = pixels->values};
+    snprintf(source.title, sizeof source.title, "%s", title);
+    snprintf(source.unit, sizeof source.unit, "%s", unit);
+    for (uint32_t k = 0; k < pixels->components; k++)
+        snprintf(source.channels[k], sizeof source.channels[k], "%c", pixels->components == 1 ? 'E' : "RGBA"[k]);
+    return source;
+}
+
+static bool draw(struct picture *cell, const struct glint_pixels *pixels, const char *title, const char *label,
+                 struct glint_error *err) {
+    const struct render_options options = {.falsecolor = {.range_given = true, .low = 0, .high = 1}};
+    const struct source source = source_of(pixels, title, pixels->components == 1 ? "1" : "radiance");
+    return sheet_cell(cell, &source, label, &options, err);
+}
+
+/* The symmetric error of each pixel that the preset gives; black elsewhere. */
+static bool draw_error(struct picture *cell, const struct answer *a, const uint8_t *surfaces, const char *label,
+                       struct glint_error *err) {
+    size_t count = (size_t)a->found.width * a->found.height;
+    struct glint_pixels error = {a->found.width, a->found.height, 1, calloc(count, sizeof(float))};
+    if (!error.values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 3 && a->given[i] && surfaces[i] != GLINT_SURFACE_NONE; k++) {
+            float found = a->found.values[i * a->found.components + k], truth = a->truth.values[3 * i + k];
+            error.values[i] +=
+                fabsf(found - truth) / (fabsf(found) + fabsf(truth) + (float)GLINT_SYMMETRIC_EPSILON) / 3;
+        }
+    bool ok = draw(cell, &error, "error where it gives a reflection", label, err);
+    glint_pixels_finish(&error);
+    return ok;
+}
+
+/* The reflection where it is given. */
+static bool draw_given(struct picture *cell, const struct answer *a, const char *label, struct glint_error *err) {
+    size_t count = (size_t)a->found.width * a->found.height;
+    struct glint_pixels given = {a->found.width, a->found.height, a->found.components, NULL};
+    given.values = calloc(count * given.components, sizeof *given.values);
+    if (!given.values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < count; i++)
+        if (a->given[i])
+            memcpy(given.values + i * given.components, a->found.values + i * given.components,
+                   given.components * sizeof *given.values);
+    bool ok = draw(cell, &given, "reflection", label, err);
+    glint_pixels_finish(&given);
+    return ok;
+}
+
+/* The last picture of the run. */
+static bool draw_composed(struct picture *cell, struct glint_replay *replay, const char *label,
+                          struct glint_error *err) {
+    const struct glint_image *image = glint_replay_find_image(replay, "composed");
+    if (!image) return true;
+    struct glint_pixels pixels = {image->width, image->height, image->components, NULL};
+    pixels.values = malloc((size_t)image->width * image->height * image->components * sizeof *pixels.values);
+    bool ok = pixels.values ? glint_replay_read_image(replay, image, GLINT_F32, pixels.values, err) &&
+                                  draw(cell, &pixels, "composed", label, err)
+                            : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    glint_pixels_finish(&pixels);
+    return ok;
+}
+
+bool contest_draw(struct picture *cells, size_t columns, size_t column, const struct contestant *contestant,
+                  const struct answer *answer, const uint8_t *surfaces, struct glint_error *err) {
+    return draw_given(&cells[column], answer, contestant->label, err) &&
+           (!answer->truth.values || draw_error(&cells[columns + column], answer, surfaces, contestant->label, err)) &&
+           draw_composed(&cells[2 * columns + column], contestant->replay, contestant->label, err);
+}
+
+bool contest_draw_truth(struct picture *cells, size_t columns, const struct glint_pixels *truth,
+                        struct glint_capture *capture, struct glint_error *err) {
+    static const char *const rgb[] = {"R", "G", "B"};
+    const char *path = glint_capture_path(capture), *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    const struct glint_part_info *lit = glint_capture_find(capture, "lit");
+    if (truth && !draw(&cells[0], truth, "the true reflection", name, err)) return false;
+    if (!lit) return true;
+    struct glint_pixels pixels = {lit->width, lit->height, 3, NULL};
+    pixels.values = malloc((size_t)lit->width * lit->height * 3 * sizeof *pixels.values);
+    bool ok = pixels.values ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
+                                  draw(&cells[2 * columns], &pixels, "lit, without reflections", name, err)
+                            : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    glint_pixels_finish(&pixels);
+    return ok;
+}

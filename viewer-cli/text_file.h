@@ -1,0 +1,10 @@
+/* Texts as files. */
+#ifndef GLINT_VIEWER_TEXT_FILE_H
+#define GLINT_VIEWER_TEXT_FILE_H
+
+#include "glint/common.h"
+
+/* To a temporary file that is renamed when complete. */
+bool text_file_write(const char *path, const char *text, struct glint_error *err);
+
+#endif
