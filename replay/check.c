@@ -10,7 +10,7 @@ static bool is_uint(const struct glint_row *row) {
 
 void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
                       struct faults *faults) {
-    const bool array = size_is_array(image->size), cube = size_is_cube(image->size);
+    const bool array = size_is_array(image->size), cube = size_is_cube(image->size), layered = array || cube;
     const char *kind = binding->glsl, *is = NULL;
     if (image->size == GLINT_SIZE_LIST) {
         if (strcmp(kind, row_is_output(binding) ? "uimageBuffer" : "utextureBuffer") != 0)
@@ -18,10 +18,11 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
                                         : "a list, to be read as utextureBuffer";
     } else if (strstr(kind, "Buffer")) is = "no list";
     else if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
-    else if (row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), cube ? "image2DArray" : "image2D") != 0)
-        is = cube ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
-    else if (row_is_sampled(binding) && (strstr(kind, "Cube") || strstr(kind, "Array") ? !cube : cube))
+    else if (row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), layered ? "image2DArray" : "image2D") != 0)
+        is = layered ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
+    else if (row_is_sampled(binding) && (strstr(kind, "Cube") || strstr(kind, "Array") ? !layered : layered))
         is = array ? "an array of cube maps" : cube ? "a cube map" : "a plain image";
+    else if (strstr(kind, "Cube") && !cube) is = "an array of plain images";
     if (is)
         faults_add(faults, GLINT_ERROR_USAGE, "%s/%s %s %s as %s, but it is %s", pass->slot, pass->variant,
                    row_is_output(binding) ? "writes" : "reads", row_image(binding), kind, is);

@@ -85,6 +85,28 @@ static void fill_fog(struct frame_block *block, const struct glint_frame *frame,
         (vec4){(float)((eye[axis] * sign - fog->base) * metres), (float)(fog->scale_height * metres), 0, 0};
 }
 
+/* uv · depth and depth along the mirrored camera's axis, of points p relative to this one's in metres: its
+   view = R'·(p/u + eye) + t', times u metres a unit. */
+void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar) {
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    const struct projection p = projection_of(&planar->camera);
+    const vec4 uv = uv_from_view(&p, frame->clip_y);
+    double eye[3], offset = planar->plane[3], length = 0;
+    camera_eye(&frame->camera, eye);
+    mat4 view;
+    fill_previous(&view, planar->camera.world_to_view, eye, metres);
+    for (int c = 0; c < 4; c++) {
+        const float depth = (float)p.front * view.column[c][2];
+        block->mirror_uv_from_world.column[c][0] = uv.x * view.column[c][0] + uv.z * depth;
+        block->mirror_uv_from_world.column[c][1] = uv.y * view.column[c][1] + uv.w * depth;
+        block->mirror_uv_from_world.column[c][2] = block->mirror_uv_from_world.column[c][3] = depth;
+    }
+    for (int i = 0; i < 3; i++) offset += planar->plane[i] * eye[i], length += planar->plane[i] * planar->plane[i];
+    length = sqrt(length);
+    block->mirror_plane = (vec4){(float)(planar->plane[0] / length), (float)(planar->plane[1] / length),
+                                 (float)(planar->plane[2] / length), (float)(offset / length * metres)};
+}
+
 /* A first person's weapon and the like: the world behind it was never drawn. */
 static uvec4 foreground_of(const struct glint_frame *frame) {
     for (uint32_t i = 0; i < frame->class_count; i++) {

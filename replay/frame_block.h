@@ -23,7 +23,7 @@ struct frame_block {
 };
 
 struct frame_sizes {
-    uint32_t full[2], half[2];
+    uint32_t full[2], half[2], planar[2];
     uint32_t active, chain, cube_face, sky_face;
     bool history; /* what HISTORY rows name is there */
 };
@@ -33,5 +33,8 @@ void camera_eye(const struct glint_camera *camera, double eye[3]);
 /* Index of the up axis and its sign. */
 int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
+/* The mirror of the one planar map that passes see; its fields stay 0 without. */
+#define MIRROR_PART "planar.000"
+void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
 
 #endif

@@ -90,7 +90,7 @@ struct graph_image *graph_bound(const struct graph *graph, const struct glint_ro
 bool pass_remembers(const struct glint_pass *later, const struct glint_pass *earlier);
 
 bool size_is_cube(enum glint_size_class size);  /* one cube map or an array of them */
-bool size_is_array(enum glint_size_class size); /* of cube maps */
+bool size_is_array(enum glint_size_class size); /* with layers for each active cube map */
 bool size_has_levels(enum glint_size_class size);
 
 /* order.c */

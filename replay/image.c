@@ -7,7 +7,7 @@
 
 bool image_desc_equal(const struct image_desc *a, const struct image_desc *b) {
     return a->format == b->format && a->width == b->width && a->height == b->height && a->layers == b->layers &&
-           a->levels == b->levels && a->buffer == b->buffer;
+           a->cube == b->cube && a->levels == b->levels && a->buffer == b->buffer;
 }
 
 uint32_t image_layers(const struct image_desc *desc) {
@@ -96,7 +96,7 @@ struct image *image_create(struct glint_device *device, const char *name, const 
         return NULL;
     }
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-                                    .flags = desc->layers ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
+                                    .flags = desc->cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
                                     .imageType = VK_IMAGE_TYPE_2D,
                                     .format = format_vulkan(desc->format),
                                     .extent = {desc->width, desc->height, 1},
@@ -182,22 +182,20 @@ static bool bind_buffer(struct image *image, struct glint_device *device, struct
 }
 
 bool image_bind(struct image *image, struct glint_device *device, struct block *block, struct glint_error *err) {
-    const bool cube = image->desc.layers != 0;
+    const bool layered = image->desc.layers != 0, cube = image->desc.cube;
+    const VkImageViewType kind = layered ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     image->block = block;
     block->images++;
     if (!image->image) return bind_buffer(image, device, err);
     VkResult result = vkBindImageMemory(device->device, image->image, block->memory, 0);
     if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
     for (uint32_t i = 0; i < image->desc.levels; i++)
-        if (!create_view(image, device, cube ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D, i, 1,
-                         &image->levels[i].view, err))
-            return false;
-    return create_view(image, device, cube ? VK_IMAGE_VIEW_TYPE_CUBE : VK_IMAGE_VIEW_TYPE_2D, 0, image->desc.levels,
-                       &image->view, err) &&
-           (!cube ||
-            (create_view(image, device, VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, 0, image->desc.levels, &image->array_view,
-                         err) &&
-             create_view(image, device, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, image->desc.levels, &image->faces_view, err)));
+        if (!create_view(image, device, kind, i, 1, &image->levels[i].view, err)) return false;
+    return create_view(image, device, cube ? VK_IMAGE_VIEW_TYPE_CUBE : kind, 0, image->desc.levels, &image->view,
+                       err) &&
+           (!cube || create_view(image, device, VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, 0, image->desc.levels,
+                                 &image->array_view, err)) &&
+           (!layered || create_view(image, device, kind, 0, image->desc.levels, &image->faces_view, err));
 }
 
 void image_destroy(struct image **pointer, struct glint_device *device) {

@@ -21,7 +21,8 @@ struct block {
 /* What an image has to be; equal descriptions can reuse an image. */
 struct image_desc {
     enum glint_format format;
-    uint32_t width, height, layers; /* of one layer; layers: 6 · cubes, 0: a plain 2D image */
+    uint32_t width, height, layers; /* of one layer; 0: a plain 2D image */
+    bool cube;                      /* the layers are six faces for each cube map */
     uint32_t levels;                /* each half as large as the one before it, at least 1 × 1 */
     bool buffer;                    /* of the texels of a plain 2D image, row by row */
 };
@@ -41,7 +42,7 @@ struct image {
     VkBufferView buffer_view;
     VkImageView view;       /* to sample all levels */
     VkImageView array_view; /* of a cube image, as a cube array; `view` is a cube then. NULL otherwise */
-    VkImageView faces_view; /* of a cube image, as an array of its faces; NULL otherwise */
+    VkImageView faces_view; /* of an image with layers, as an array; NULL otherwise */
     struct block *block;
     uint64_t key;   /* hash of all that its contents depend on; 0: contents undefined */
     bool listed;    /* shown to callers */

@@ -61,7 +61,8 @@ static bool describe(const struct run *run, struct sum *sum, struct glint_error 
 static bool add_sum(struct run *run, struct image *of, struct glint_error *err) {
     struct glint_device *device = run->replay->device;
     struct sum *sum = &run->rays->sums[run->rays->count];
-    const struct image_desc desc = {GLINT_FORMAT_RGBA32F, of->desc.width, of->desc.height, 0, 1, false};
+    const struct image_desc desc = {
+        .format = GLINT_FORMAT_RGBA32F, .width = of->desc.width, .height = of->desc.height, .levels = 1};
     sum->of = of;
     if (!(sum->sum = image_create(device, "sum", &desc, err))) return false;
     run->rays->count++; /* it is released from here on */

@@ -129,6 +129,8 @@ static bool run_all(struct run *run, struct glint_error *err) {
         !run_sizes(run, err) || !run_history(run, err))
         return false;
     frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
+    const struct glint_part_info *mirror = glint_capture_find(replay->capture, MIRROR_PART);
+    if (mirror) frame_block_mirror(&run->block, glint_capture_frame(replay->capture), &mirror->planar);
     if (!run_allocate(run, err)) return false;
     if (options->cache && !replay_hash(replay, run->content, NULL)) run->content[0] = 0;
     run->touched = true;

@@ -17,14 +17,16 @@ const char *row_image(const struct glint_row *row) {
 }
 
 bool size_is_array(enum glint_size_class size) {
-    return size == GLINT_SIZE_CUBEMAPS || size == GLINT_SIZE_CUBEMAPS_MIPS || size == GLINT_SIZE_COCOON;
+    return size == GLINT_SIZE_CUBEMAPS || size == GLINT_SIZE_CUBEMAPS_MIPS || size == GLINT_SIZE_COCOON ||
+           size == GLINT_SIZE_PARABOLOIDS_MIPS;
 }
 bool size_is_cube(enum glint_size_class size) {
-    return size_is_array(size) || size == GLINT_SIZE_SKY || size == GLINT_SIZE_SKY_MIPS;
+    return (size_is_array(size) && size != GLINT_SIZE_PARABOLOIDS_MIPS) || size == GLINT_SIZE_SKY ||
+           size == GLINT_SIZE_SKY_MIPS;
 }
 bool size_has_levels(enum glint_size_class size) {
     return size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_CUBEMAPS_MIPS ||
-           size == GLINT_SIZE_SKY_MIPS;
+           size == GLINT_SIZE_SKY_MIPS || size == GLINT_SIZE_PARABOLOIDS_MIPS;
 }
 
 bool list_has(const char *const *list, const char *name) {

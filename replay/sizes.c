@@ -60,11 +60,13 @@ bool run_sizes(struct run *run, struct glint_error *err) {
     struct glint_capture *capture = run->replay->capture;
     struct frame_sizes *sizes = &run->sizes;
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"),
-                                 *sky = glint_capture_find(capture, "sky");
+                                 *sky = glint_capture_find(capture, "sky"),
+                                 *planar = glint_capture_find(capture, MIRROR_PART);
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
                                   .sky_face = sky ? sky->width : 0};
+    if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     if (traces_all_pixels(run->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
     const struct glint_part_info **parts;
     size_t count;
@@ -91,7 +93,14 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     const struct frame_sizes *sizes = &run->sizes;
     const struct glint_row *row = image->row;
     const bool cube = size_is_cube(row->size);
-    *desc = (struct image_desc){row->format, 1, 1, cube ? 6 : 0, 1, row->size == GLINT_SIZE_LIST};
+    const uint32_t layers = cube ? 6 : row->size == GLINT_SIZE_PARABOLOIDS_MIPS ? 2 : 0;
+    *desc = (struct image_desc){.format = row->format,
+                                .width = 1,
+                                .height = 1,
+                                .layers = layers,
+                                .cube = cube,
+                                .levels = 1,
+                                .buffer = row->size == GLINT_SIZE_LIST};
     if (run->options->float_precision) desc->format = format_widened(row->format);
     if (image->source == SOURCE_NOTHING) {
         if (row->size == GLINT_SIZE_LIST) desc->width = LIST_WIDTH; /* the header is there */
@@ -109,12 +118,13 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         break;
     case GLINT_SIZE_CUBEMAPS:
     case GLINT_SIZE_CUBEMAPS_MIPS:
+    case GLINT_SIZE_PARABOLOIDS_MIPS:
         expected[0] = expected[1] = sizes->cube_face;
-        desc->layers = 6 * (sizes->active ? sizes->active : 1);
+        desc->layers = layers * (sizes->active ? sizes->active : 1);
         break;
     case GLINT_SIZE_COCOON:
         expected[0] = expected[1] = sizes->active ? COCOON_SIZE : 0;
-        desc->layers = 6 * (sizes->active ? sizes->active : 1);
+        desc->layers = layers * (sizes->active ? sizes->active : 1);
         break;
     case GLINT_SIZE_SKY:
     case GLINT_SIZE_SKY_MIPS:
@@ -129,17 +139,20 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     case GLINT_SIZE_VOLUME:
         if (existing_size(run, image, found)) expected[0] = found[0], expected[1] = sizes->active;
         break;
+    case GLINT_SIZE_PLANAR:
+        expected[0] = sizes->planar[0], expected[1] = sizes->planar[1];
+        break;
     case GLINT_SIZE_LIST:
         expected[0] = LIST_WIDTH; /* behind the items a maker notes marks and a count of each block (compact.glsl) */
         expected[1] = 1 + (list_capacity(sizes) + 65 * list_blocks(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
         break;
     }
-    if (existing_size(run, image, found) && !(cube && !expected[0]) &&
+    if (existing_size(run, image, found) && !(layers && !expected[0]) &&
         (found[0] != expected[0] || found[1] != expected[1] * image_layers(desc)))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u, found %u x %u",
                           image->source == SOURCE_RUN ? run->options->inputs : glint_capture_path(run->replay->capture),
                           image->name, expected[0], expected[1] * image_layers(desc), found[0], found[1]);
-    if (!expected[0] || !expected[1]) desc->layers = cube ? 6 : 0; /* nothing is active: a stand-in */
+    if (!expected[0] || !expected[1]) desc->layers = layers; /* nothing is active: a stand-in */
     else desc->width = expected[0], desc->height = expected[1];
     if (size_has_levels(row->size)) desc->levels = level_count(desc->width, desc->height);
     if (desc->levels > LEVELS_MAX)

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame_block.h"
+
 static const char *const surveyed[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
 
 size_t channels_find(const struct channels *channels, const char *name, size_t length) {
@@ -94,6 +96,8 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
         survey->volumes += part->has_cubemap && part->cubemap.inner != GLINT_VOLUME_NONE;
     }
     survey->has_sky = glint_capture_find(capture, "sky") != NULL;
+    survey->has_planar = glint_capture_find(capture, MIRROR_PART) != NULL;
+    survey->has_water = glint_capture_find(capture, "water") != NULL;
     survey->has_previous = glint_capture_frame(capture)->has_previous;
 }
 
@@ -133,6 +137,12 @@ bool survey_fact(const struct glint_survey *survey, const char *fact, char *reas
     if (strcmp(fact, "sky") == 0) {
         snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels are sky", survey->sky, survey->pixels);
         return survey->sky > 0;
+    }
+    const bool water = strcmp(fact, "water") == 0;
+    if (water || strcmp(fact, "planar") == 0) {
+        const bool has = water ? survey->has_water : survey->has_planar;
+        snprintf(reason, size, "%s %s", has ? "a" : "no", water ? "water surface" : "planar reflection map");
+        return has;
     }
     *known = false;
     return false;

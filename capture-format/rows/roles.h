@@ -65,7 +65,7 @@ ROLE(water, "water", FRAME, false, false, false, false, "the water surface over 
     CHANNEL("R",           true, "radiance", "color",  "light scattered by the water itself")
     CHANNEL("G",           true, "radiance", "color",  "")
     CHANNEL("B",           true, "radiance", "color",  "")
-    CHANNEL("opacity",     true, "1",        "",       "in [0, 1]; 0 where there is no water")
+    CHANNEL("opacity",     true, "1",        "",       "share of the light from behind that a metre of the water takes, in [0, 1]; 0 where there is no water")
     CHANNEL("normal.X",    true, "1",        "normal", "")
     CHANNEL("normal.Y",    true, "1",        "normal", "")
     CHANNEL("normal.Z",    true, "1",        "normal", "absent when the encoding is octahedral or view_xy")

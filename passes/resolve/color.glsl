@@ -4,6 +4,7 @@
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
 #include "shared/fog.glsl"
+#include "shared/paraboloid.glsl"
 
 // A ray that has ended. `end`: camera-relative world, a unit direction when the ray went on for ever.
 struct Ray {
@@ -54,7 +55,20 @@ vec4 screen_color(Ray ray) {
     return vec4(picture(uv, pixel, ray, depth_m), 1.0);
 }
 
+// What stands for the cube maps where the pipeline converts them; one fetch, and no face to choose.
+vec4 paraboloid_texel(Ray ray, vec4 at) {
+    vec3 d = normalize(at.xyz) * paraboloid_axes(frame.up.xyz), uv = paraboloid_uv(d, float(frame.counts.z));
+    float level = 0.0;
+    if (ray.cone > 0.0 && cone_cubemap) {
+        float spread = ray.endless ? 1.0 : min(ray.travelled_m / max(length(at.xyz), 1e-12), 1e12);
+        level = paraboloid_level(cone_tangent(ray.cone) * spread, d.z, float(frame.counts.z), texel_scale);
+    }
+    uv.z += 2.0 * at.w;
+    return textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level);
+}
+
 vec4 cubemap_texel(Ray ray, vec4 at) {
+    if (has_paraboloids) return paraboloid_texel(ray, at);
     if (ray.cone > 0.0 && cone_cubemap && has_cubemap_color_mips) {
         float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
         if (level > 0.0) return textureLod(samplerCubeArray(cubemap_color_mips, linear_clamp), at, level);

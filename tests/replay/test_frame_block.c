@@ -70,6 +70,42 @@ static bool project(const struct glint_camera *camera, enum glint_clip_y clip_y,
     return true;
 }
 
+static void the_mirror_projects_as_its_camera_says(void **unused) {
+    (void)unused;
+    uint64_t state = 2;
+    int checked = 0;
+    for (int n = 0; n < 200; n++) {
+        struct glint_frame frame = {.metres_per_unit = n & 1 ? 0.01 : 1,
+                                    .clip_y = n & 2 ? GLINT_CLIP_Y_DOWN : GLINT_CLIP_Y_UP};
+        struct glint_planar planar = {.plane = {0, 3, 4, 0}};
+        struct frame_block block;
+        double eye[3], mirrored[3], world[3], uv[2], clip[4], view[4];
+        random_camera(&state, n & 4, n & 8 ? 1 : -1, 0, &frame.camera, eye);
+        random_camera(&state, n & 4, n & 8 ? 1 : -1, 0, &planar.camera, mirrored);
+        planar.plane[3] = -3 * eye[1] - 4 * eye[2] + 10; /* two units from the eye */
+        fill(&block, &frame);
+        assert_true(block.mirror_plane.x == 0 && block.mirror_uv_from_world.column[3][3] == 0);
+        frame_block_mirror(&block, &frame, &planar);
+        assert_true(fabs((double)block.mirror_plane.w - 2 * frame.metres_per_unit) < 1e-5 &&
+                    fabs((double)block.mirror_plane.y - 0.6) < 1e-6);
+        for (int i = 0; i < 3; i++) world[i] = mirrored[i] + 8 * (uniform(&state) - 0.5);
+        if (!project(&planar.camera, frame.clip_y, world, uv)) continue;
+        const double relative[4] = {(world[0] - eye[0]) * frame.metres_per_unit,
+                                    (world[1] - eye[1]) * frame.metres_per_unit,
+                                    (world[2] - eye[2]) * frame.metres_per_unit, 1};
+        const double point[4] = {world[0], world[1], world[2], 1};
+        apply(&block.mirror_uv_from_world, relative, clip);
+        transform(planar.camera.world_to_view, point, view);
+        const double depth = fabs(view[2]) * frame.metres_per_unit;
+        /* floats of coordinates below 100, over the depth */
+        assert_true(fabs(clip[3] - depth) < 1e-5 && clip[2] == clip[3]);
+        assert_true(fabs(clip[0] / clip[3] - uv[0]) < 1e-5 * (1 + fabs(uv[0])) / fmin(1, depth));
+        assert_true(fabs(clip[1] / clip[3] - uv[1]) < 1e-5 * (1 + fabs(uv[1])) / fmin(1, depth));
+        checked++;
+    }
+    assert_true(checked > 50);
+}
+
 static void points_project_as_the_matrices_say(void **unused) {
     (void)unused;
     uint64_t state = 1;
@@ -195,6 +231,7 @@ static void the_layout_is_std140(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_mirror_projects_as_its_camera_says),
         cmocka_unit_test(points_project_as_the_matrices_say),
         cmocka_unit_test(the_depth_range_is_that_of_the_projection),
         cmocka_unit_test(a_frame_far_from_the_origin_has_the_same_block),

@@ -45,11 +45,13 @@ enum glint_size_class {
     GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
     GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
     GLINT_SIZE_VOLUME,   /* 2D, what the longest description of an inner volume takes × active cube maps */
+    GLINT_SIZE_PLANAR,   /* 2D, as large as the capture's planar reflection map */
     /* the class of that name with all levels down to 1 × 1 */
     GLINT_SIZE_FULL_MIPS,
     GLINT_SIZE_HALF_MIPS,
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
+    GLINT_SIZE_PARABOLOIDS_MIPS, /* 2D array of two hemispheres for each active cube map, as wide as its faces, with levels */
     GLINT_SIZE_LIST /* a buffer of uints, shown as an image 256 wide. Row 0: workgroup counts x, y, z, number of items; then
                        up to HALF's pixels items, and room for its maker to work in. DISPATCH over it: 64 invocations for
                        each 32 × 32 pixels of HALF. A list that no pass makes: 0xFFFFFFFF everywhere, the header alone */

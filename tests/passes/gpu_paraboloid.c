@@ -1,0 +1,199 @@
+/* Dual paraboloids of a cube map whose colour is the direction it is seen in. Where the mirror shows a direction is derived
+   here from optics: the paraboloid's normal halves the angle between the direction and the axis. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { SIZE = 64 };
+/* The disc's radius in halves of the map's side: the rim lies in the middle of the outermost texels. */
+static const double disc = 1 - 1.0 / SIZE;
+
+static void colored_by_direction(uint32_t number, const double direction[3], float out[5]) {
+    (void)number;
+    for (int k = 0; k < 3; ++k) out[k] = (float)(0.5 + 0.5 * direction[k]);
+    out[3] = 1;
+    out[4] = 5;
+}
+
+static void load(struct gpu *gpu) {
+    char path[256];
+    const struct plain plain = {.width = 16,
+                                .height = 8,
+                                .fov_y_degrees = 60,
+                                .floor = true,
+                                .cube_size = SIZE,
+                                .cube_count = 2,
+                                .cube = colored_by_direction};
+    plain_capture(gpu_path(gpu, "directions", path), &plain);
+    gpu_load(gpu, "directions");
+    gpu_reset(gpu);
+    gpu_use(gpu, "cubemap_convert=dual_paraboloid");
+    gpu_use(gpu, "cubemap_trace=dual_paraboloid");
+    gpu_set(gpu, "screen_trace.length_m=0");
+}
+
+/* Up is +Y; the map's x is +X, its y -Z. */
+static double place_of(const double d[3], double place[2]) {
+    const double local[3] = {d[0], -d[2], fabs(d[1])}; /* the lower hemisphere is the upper one's mirror image */
+    place[0] = disc * local[0] / (local[2] + 1);       /* the normal, (x, y, 1), is along d + axis */
+    place[1] = disc * local[1] / (local[2] + 1);
+    return sqrt(place[0] * place[0] + place[1] * place[1]);
+}
+
+/* Bilinear, clamped at the border. */
+static void lookup(const float *layer, int size, const double place[2], double out[3]) {
+    double x = fmin(fmax((place[0] + 1) / 2 * size - 0.5, 0), size - 1),
+           y = fmin(fmax((place[1] + 1) / 2 * size - 0.5, 0), size - 1);
+    int x0 = (int)x, y0 = (int)y, x1 = x0 + 1 < size ? x0 + 1 : x0, y1 = y0 + 1 < size ? y0 + 1 : y0;
+    for (int k = 0; k < 3; ++k) {
+        double low = (double)layer[4 * (y0 * size + x0) + k] * (1 - (x - x0)) +
+                     (double)layer[4 * (y0 * size + x1) + k] * (x - x0);
+        double high = (double)layer[4 * (y1 * size + x0) + k] * (1 - (x - x0)) +
+                      (double)layer[4 * (y1 * size + x1) + k] * (x - x0);
+        out[k] = low * (1 - (y - y0)) + high * (y - y0);
+    }
+}
+
+static double angle_between(const double a[3], const double b[3]) {
+    double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return atan2(sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+/* Directions spread evenly over the sphere. */
+static void direction_of(int i, int count, double d[3]) {
+    double y = 1 - 2 * (i + 0.5) / count, r = sqrt(1 - y * y), turn = 2.399963229728653 * i;
+    d[0] = r * cos(turn), d[1] = y, d[2] = r * sin(turn);
+}
+
+static void directions_come_back(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_run(gpu);
+    uint32_t width, height;
+    float *map = gpu_floats(gpu, "paraboloids", &width, &height);
+    assert_int_equal(width, SIZE);
+    assert_int_equal(height, 4 * SIZE); /* two hemispheres of two cube maps */
+    enum { COUNT = 20000 };
+    static double errors[2][COUNT]; /* near the poles, near the rim */
+    size_t counts[2] = {0, 0};
+    for (int i = 0; i < COUNT; ++i) {
+        double d[3], place[2], color[3], back[3];
+        direction_of(i, COUNT, d);
+        double r = place_of(d, place);
+        lookup(map + 4 * SIZE * SIZE * (d[1] < 0), SIZE, place, color);
+        for (int k = 0; k < 3; ++k) back[k] = 2 * color[k] - 1;
+        size_t zone = r > tan(0.25 * acos(-1) / 2); /* 45 degrees from the axis */
+        errors[zone][counts[zone]++] = angle_between(d, back);
+    }
+    for (int zone = 0; zone < 2; ++zone) {
+        double median = quantile(errors[zone], counts[zone], 0.5), worst = errors[zone][counts[zone] - 1];
+        print_message("# %s: %zu directions, off by %.5f rad in the median, at most %.5f; a face's texel spans %.5f\n",
+                      zone ? "rim" : "pole", counts[zone], median, worst, 2.0 / SIZE);
+        assert_true(counts[zone] > 2000);
+        /* Colours are half floats between 0 and 1, rounded in the capture and in the map: 2^-12 each time, twice that as a
+           component of the direction, in two components. */
+        assert_true(median <= 1e-3 && worst <= 2e-3);
+    }
+    free(map);
+}
+
+/* Texels whose middle lies between two angles from the axis, for each steradian there. */
+static double density(double from, double to) {
+    size_t count = 0;
+    for (int i = 0; i < SIZE * SIZE; ++i) {
+        double x = 2 * (i % SIZE + 0.5) / SIZE - 1, y = 2 * (i / SIZE + 0.5) / SIZE - 1,
+               turned = 2 * atan(sqrt(x * x + y * y) / disc);
+        count += turned >= from && turned < to;
+    }
+    return (double)count / (2 * acos(-1) * (cos(from) - cos(to)));
+}
+
+/* The article: the projection preserves the details at the top and the bottom, at the expense of the sides. */
+static void the_rim_has_more_texels_than_the_pole(void **state) {
+    (void)state;
+    const double degree = acos(-1) / 180;
+    double pole = density(0, 20 * degree), rim = density(70 * degree, 90 * degree);
+    double face = SIZE * SIZE / 4.0; /* in the middle of a cube map's face */
+    print_message("# texels a steradian: %.0f around the pole, %.0f at the rim, %.0f in the middle of a face\n", pole,
+                  rim, face);
+    /* (N - 1)²/16 · 1/cos²(10°) and (N - 1)²/4 · (1 - tan²(35°))/(2 cos 70°), within what counting whole texels may err */
+    assert_true(fabs(pole / (disc * disc * face / 4) - 1.031) < 0.05);
+    assert_true(fabs(rim / (disc * disc * face) - 0.745) < 0.05);
+}
+
+/* At the equator both hemispheres hold the same directions; a level without what lies beyond the rim mixes in black. */
+static void filled_levels_meet_at_the_rim(void **state) {
+    struct gpu *gpu = *state;
+    double apart[2] = {0, 0}, dark[2] = {0, 0};
+    for (int fill = 0; fill < 2; ++fill) {
+        load(gpu);
+        gpu_set(gpu, fill ? "cubemap_convert.fill=true" : "cubemap_convert.fill=false");
+        gpu_run(gpu);
+        for (int level = 0, size = SIZE; level < 5; ++level, size /= 2) {
+            char name[32];
+            snprintf(name, sizeof name, level ? "paraboloids.level%d" : "paraboloids", level);
+            float *map = gpu_floats(gpu, name, NULL, NULL);
+            for (int i = 0; i < 360; ++i) {
+                double turn = i * acos(-1) / 180, d[3] = {cos(turn), 0, sin(turn)}, place[2], upper[3], lower[3];
+                place_of(d, place);
+                lookup(map, size, place, upper);
+                lookup(map + 4 * size * size, size, place, lower);
+                for (int k = 0; k < 3; ++k) {
+                    if (k != 1) apart[fill] = fmax(apart[fill], fabs(upper[k] - lower[k]));
+                }
+                double expected = 0.5 + 0.5 * d[0];
+                dark[fill] = fmax(dark[fill], expected - upper[0]);
+            }
+            free(map);
+        }
+    }
+    print_message(
+        "# at the rim, five levels: hemispheres %.4f apart, at most %.3f too dark; without fill %.4f and %.3f\n",
+        apart[1], dark[1], apart[0], dark[0]);
+    /* By symmetry about the equator nothing but half floats stands between them. */
+    assert_true(apart[1] <= 2e-3);
+    /* A texel of the fifth level spans an eighth of the disc's radius on either side of the rim, where a bilinear lookup
+       sees as far as one such texel: sin of its angle, less than 1 - cos(0.5 rad). */
+    assert_true(dark[1] <= 0.13 && dark[0] > 2 * dark[1]);
+}
+
+static void rays_see_the_direction_they_go_in(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_run(gpu);
+    uint32_t width, height;
+    float *color = gpu_floats(gpu, "reflection_half", &width, &height),
+          *travelled = gpu_floats(gpu, "travelled", NULL, NULL);
+    uint32_t *place = gpu_uints(gpu, "cubemap_index", NULL, NULL);
+    gpu_use(gpu, "cubemap_trace=lookup");
+    gpu_use(gpu, "cubemap_convert=none");
+    gpu_run(gpu);
+    float *cube = gpu_floats(gpu, "reflection_half", NULL, NULL);
+    size_t rays = 0;
+    for (uint32_t i = 0; i < width * height; ++i) {
+        if (place[i] > 1) continue;
+        rays++;
+        assert_true(isinf(travelled[i]));
+        for (int k = 0; k < 3; ++k) assert_true(fabsf(color[4 * i + (uint32_t)k] - cube[4 * i + (uint32_t)k]) <= 2e-3f);
+    }
+    assert_true(rays > width * height / 4);
+    free(color), free(travelled), free(place), free(cube);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(directions_come_back),
+        cmocka_unit_test(the_rim_has_more_texels_than_the_pole),
+        cmocka_unit_test(filled_levels_meet_at_the_rim),
+        cmocka_unit_test(rays_see_the_direction_they_go_in),
+    };
+    return cmocka_run_group_tests_name("gpu_paraboloid", tests, gpu_set_up, gpu_tear_down);
+}
