@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "contest.h"
+#include "pipe.h"
 #include "png_file.h"
 #include "text_file.h"
 
@@ -110,9 +111,12 @@ static bool write_all(const char *folder, const struct contest_table *table, con
 
 static bool run_capture(struct contest *contest, const char *path, struct showing *showings, struct picture *cells,
                         struct glint_error *err) {
-    struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    struct pipe pipe;
+    const char *file = pipe_input(&pipe, path, err);
+    struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
     bool ok = capture && contest_run(contest, capture, showings, cells, err);
     glint_capture_close(&capture);
+    pipe_finish(&pipe);
     return ok;
 }
 

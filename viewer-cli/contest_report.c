@@ -23,7 +23,7 @@ static void error_cell(struct table *table, const struct showing *s, int k) {
 }
 
 static void time_cell(struct table *table, const struct contest_time *time) {
-    if (time->n == 0) table_cell(table, "–");
+    if (time->n == 0 || time->max <= 0) table_cell(table, "–");
     else table_cell(table, "%.3f", time->median);
 }
 
@@ -64,29 +64,76 @@ static void print_errors(const struct contest_table *t) {
     table_destroy(&table);
 }
 
-static void print_ends(const struct contest_table *t) {
-    static const char *const titles[] = {"<capture",          "<preset", "<tracer", "<ray ended: it",
-                                         ">share of rays, %", ">error",  NULL};
-    struct table *table = table_create(titles);
-    for (size_t c = 0; c < t->capture_count; c++)
-        for (size_t p = 0; p < t->contest->count; p++) {
-            const struct showing *s = showing_of(t, c, p);
-            for (size_t i = 0; s->ran && i < s->ends.count; i++) {
-                const struct glint_end_row *r = &s->ends.rows[i];
-                table_cell(table, "%s", base_name(t->captures[c]));
-                table_cell(table, "%s", t->contest->contestants[p].label);
-                table_cell(table, "%s", r->tracer);
-                table_cell(table, "%s", r->text);
-                table_cell(table, "%.1f", 100 * r->share);
-                if (isfinite(r->error)) table_cell(table, "%.3f", r->error);
-                else table_cell(table, "–");
-            }
-        }
-    if (!table_is_empty(table)) {
-        puts("\nwhy rays ended, and the error of the pixels whose ray it is, where they are given a reflection:\n");
-        table_print(table, stdout);
+static const struct glint_end_row *same_end(const struct showing *s, const struct glint_end_row *row) {
+    for (size_t i = 0; s->ran && i < s->ends.count; i++)
+        if (!strcmp(s->ends.rows[i].tracer, row->tracer) && !strcmp(s->ends.rows[i].reason, row->reason))
+            return &s->ends.rows[i];
+    return NULL;
+}
+
+/* One tracer's reason, over all presets. */
+static void print_end(struct table *table, const struct contest_table *t, size_t capture,
+                      const struct glint_end_row *row) {
+    table_cell(table, "%s", base_name(t->captures[capture]));
+    table_cell(table, "%s", row->tracer);
+    table_cell(table, "%s", row->text);
+    for (size_t p = 0; p < t->contest->count; p++) {
+        const struct glint_end_row *r = same_end(showing_of(t, capture, p), row);
+        if (!r) table_cell(table, "–");
+        else if (!isfinite(r->error)) table_cell(table, "%.1f %%", 100 * r->share);
+        else table_cell(table, "%.1f %%, %.3f", 100 * r->share, r->error);
     }
-    table_destroy(&table);
+}
+
+/* Each reason once a capture, in the order in which the presets have them, tracer by tracer. */
+static void fill_ends(struct table *table, const struct contest_table *t, size_t capture, const char *tracer) {
+    for (size_t p = 0; p < t->contest->count; p++) {
+        const struct showing *s = showing_of(t, capture, p);
+        for (size_t i = 0; s->ran && i < s->ends.count; i++) {
+            const struct glint_end_row *row = &s->ends.rows[i];
+            bool told = strcmp(row->tracer, tracer) != 0;
+            for (size_t before = 0; before < p && !told; before++)
+                told = same_end(showing_of(t, capture, before), row) != NULL;
+            if (!told) print_end(table, t, capture, row);
+        }
+    }
+}
+
+/* The tracers of all presets. */
+static size_t list_tracers(const struct contest_table *t, const char *tracers[], size_t capacity) {
+    size_t count = 0;
+    for (size_t k = 0; k < t->capture_count * t->contest->count; k++)
+        for (size_t i = 0; t->showings[k].ran && i < t->showings[k].ends.count && count < capacity; i++) {
+            const char *name = t->showings[k].ends.rows[i].tracer;
+            bool told = false;
+            for (size_t n = 0; n < count; n++) told = told || !strcmp(tracers[n], name);
+            if (!told) tracers[count++] = name;
+        }
+    return count;
+}
+
+static void print_ends(const struct contest_table *t) {
+    const char *tracers[16];
+    size_t presets = t->contest->count, count = list_tracers(t, tracers, sizeof tracers / sizeof *tracers);
+    const char **titles = calloc(presets + 4, sizeof *titles);
+    char(*names)[65] = calloc(presets + 1, sizeof *names);
+    if (count && titles && names) {
+        static const char *const first[] = {"<capture", "<tracer", "<the ray"};
+        memcpy(titles, first, sizeof first);
+        for (size_t p = 0; p < presets; p++) {
+            snprintf(names[p], sizeof names[p], ">%.63s", t->contest->contestants[p].label);
+            titles[3 + p] = names[p];
+        }
+        struct table *table = table_create(titles);
+        for (size_t c = 0; c < t->capture_count; c++)
+            for (size_t n = 0; n < count; n++) fill_ends(table, t, c, tracers[n]);
+        puts("\nwhy rays ended: share of all rays, and the error of the pixels whose ray it is, of those that are "
+             "given:\n");
+        table_print(table, stdout);
+        table_destroy(&table);
+    }
+    free(names);
+    free(titles);
 }
 
 static void print_notes(const struct contest_table *t) {
