@@ -37,14 +37,22 @@ static bool allocate(struct glint_pixels *pixels, uint32_t width, uint32_t heigh
     return pixels->values || glint_fail(err, GLINT_ERROR_MEMORY, "reflection: no memory for %u × %u", width, height);
 }
 
-/* The last of the pass's images that holds a reflection at full resolution. */
-static const struct glint_image *reflection_of(struct glint_replay *replay, const struct glint_pass *pass) {
+static bool reads(const struct glint_pass *pass, const char *image) {
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (pass->rows[i].kind == GLINT_ROW_READ && !strcmp(pass->rows[i].name, image)) return true;
+    return false;
+}
+
+/* The last of the pass's images that holds a reflection at full resolution, of those that `compose` reads where the run
+   has it: water and glass are laid over the picture afterwards, and maps that only they read are no reflection of it. */
+static const struct glint_image *reflection_of(struct glint_replay *replay, const struct glint_pass *pass,
+                                               const struct glint_pass *compose) {
     const struct glint_image *last = NULL;
     for (size_t i = 0; i < pass->row_count; i++) {
         const struct glint_row *row = &pass->rows[i];
         if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
         const struct glint_image *image = glint_replay_find_image(replay, row->name);
-        if (image) last = image;
+        if (image && (!compose || reads(compose, row->name))) last = image;
     }
     return last;
 }
@@ -53,10 +61,13 @@ bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pi
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     const struct glint_image *last = NULL;
+    const struct glint_pass *compose = NULL;
     *pixels = (struct glint_pixels){0};
+    for (size_t i = 0; i < count; i++)
+        if (results[i].ran && !strcmp(results[i].pass->slot, COMPOSE)) compose = results[i].pass;
     for (size_t i = 0; i < count; i++) {
         const struct glint_image *image =
-            results[i].ran && strcmp(results[i].pass->slot, COMPOSE) ? reflection_of(replay, results[i].pass) : NULL;
+            results[i].ran && results[i].pass != compose ? reflection_of(replay, results[i].pass, compose) : NULL;
         if (image) last = image;
     }
     if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection at full resolution to compare");
@@ -66,12 +77,18 @@ bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pi
 
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err) {
     const struct glint_run_image *last = NULL;
+    const struct glint_pass *compose = NULL;
     uint32_t widest = 0;
     *pixels = (struct glint_pixels){0};
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
+        if (!strcmp(image->slot, COMPOSE)) compose = glint_pass_find(image->slot, image->variant);
+    }
+    for (size_t i = 0; i < glint_run_image_count(run); i++) {
+        const struct glint_run_image *image = glint_run_image(run, i);
         if (strcmp(image->unit, "radiance") || !strcmp(image->slot, COMPOSE) || image->integer) continue;
         if (image->height % (6 * image->width) == 0 || image->width < widest) continue; /* cubes; half resolution */
+        if (compose && !reads(compose, image->name)) continue;
         widest = image->width;
         last = image;
     }

@@ -73,7 +73,7 @@ bool glint_study_distances(const float *found, const float *truth, const uint8_t
 
 /* ---- What is compared ---- */
 
-/* The reflection of the last run at full resolution, as the passes before `compose` left it. False with an error when
+/* The reflection of the last run at full resolution, as the passes left it for `compose`. False with an error when
    there is none. */
 bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err);
 /* The same of a run folder. */
