@@ -200,6 +200,60 @@ bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels
            part_done(&part, dump, err);
 }
 
+bool dump_scene(const struct dump *dump, const struct water_pixel *water, struct glint_error *err) {
+    struct part part;
+    return color_part(&part, dump, "scene", dump->view->width, dump->view->height, in_half, &water->scene,
+                      sizeof *water, err) &&
+           part_done(&part, dump, err);
+}
+
+bool dump_water(const struct dump *dump, const struct water_pixel *water, struct glint_error *err) {
+    static const char *const normal[3] = {"normal.X", "normal.Y", "normal.Z"};
+    const struct glint_encodings *e = &dump->encodings;
+    size_t count = (size_t)dump->view->width * dump->view->height, stride = sizeof *water;
+    struct water_pixel *w = malloc(count * sizeof *w);
+    struct part part;
+    bool ok = w || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part water");
+    ok = ok &&
+         color_part(&part, dump, "water", dump->view->width, dump->view->height, in_half, &water->color, stride, err);
+    for (size_t i = 0; ok && i < count; i++) {
+        w[i] = water[i];
+        w[i].depth = encode_depth(e->depth, dump->view, water[i].depth);
+        w[i].normal = encode_normal(e->normal, e->normal_space, dump->view, water[i].normal);
+    }
+    if (ok) {
+        struct storage storage = storage_normal(e->normal);
+        put(&part, "opacity", in_half, &w->opacity, stride);
+        put(&part, normal[0], storage, &w->normal.x, stride);
+        put(&part, normal[1], storage, &w->normal.y, stride);
+        if (e->normal != GLINT_NORMAL_OCTAHEDRAL) put(&part, normal[2], storage, &w->normal.z, stride);
+        put(&part, "depth.Z", storage_depth(e->depth), &w->depth, stride);
+        put(&part, "thickness.Z", in_half, &w->thickness, stride);
+        ok = part_done(&part, dump, err);
+    }
+    free(w);
+    return ok;
+}
+
+bool dump_planar(const struct dump *dump, const struct view *mirrored, const struct glint_planar *planar,
+                 const struct texel *texels, struct glint_error *err) {
+    size_t count = (size_t)mirrored->width * mirrored->height;
+    float *depth = malloc(count * sizeof *depth);
+    struct part part;
+    bool ok = depth || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part planar.000");
+    ok = ok && color_part(&part, dump, "planar.000", mirrored->width, mirrored->height, in_half, &texels->color,
+                          sizeof *texels, err);
+    for (size_t i = 0; ok && i < count; i++)
+        depth[i] = encode_depth(dump->encodings.depth, mirrored, texels[i].distance);
+    if (ok) {
+        put(&part, "depth.Z", storage_depth(dump->encodings.depth), depth, sizeof *depth);
+        part.part.planar = planar;
+        ok = part_done(&part, dump, err);
+    }
+    free(depth);
+    return ok;
+}
+
 static int by_value(const void *a, const void *b) {
     float x = *(const float *)a, y = *(const float *)b;
     return (x > y) - (x < y);

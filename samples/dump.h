@@ -2,7 +2,7 @@
 #ifndef SAMPLES_DUMP_H
 #define SAMPLES_DUMP_H
 
-#include "render.h"
+#include "water.h"
 
 struct dump {
     const char
@@ -23,6 +23,12 @@ bool dump_cubemap(const struct dump *dump, uint32_t index, const struct glint_cu
 bool dump_cubemap_elsewhere(const struct dump *dump, uint32_t index, const struct glint_cubemap *map, uint32_t size,
                             const char *sibling, struct glint_error *err);
 bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels, struct glint_error *err);
+bool dump_water(const struct dump *dump, const struct water_pixel *water, struct glint_error *err);
+/* The finished picture. */
+bool dump_scene(const struct dump *dump, const struct water_pixel *water, struct glint_error *err);
+/* By the mirrored camera; `planar` holds the plane and that camera as they are stored. */
+bool dump_planar(const struct dump *dump, const struct view *mirrored, const struct glint_planar *planar,
+                 const struct texel *texels, struct glint_error *err);
 bool dump_truth(const struct dump *dump, const struct truth *truth, uint32_t samples, struct glint_error *err);
 
 #endif

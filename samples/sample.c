@@ -76,6 +76,9 @@ static bool check_options(const struct glint_sample_options *o, struct glint_err
     if (o->width > MAX_SIDE || o->height > MAX_SIDE || !o->width != !o->height)
         return glint_fail(err, GLINT_ERROR_USAGE, "size %u x %u: expected 1 to %d a side", o->width, o->height,
                           MAX_SIDE);
+    if (o->planar_width > MAX_SIDE || o->planar_height > MAX_SIDE || !o->planar_width != !o->planar_height)
+        return glint_fail(err, GLINT_ERROR_USAGE, "planar map of %u x %u: expected 1 to %d a side", o->planar_width,
+                          o->planar_height, MAX_SIDE);
     if (o->cube_size > MAX_CUBE)
         return glint_fail(err, GLINT_ERROR_USAGE, "cube size %u: expected at most %d", o->cube_size, MAX_CUBE);
     if (o->frames > MAX_FRAME || o->first_frame > MAX_FRAME)
@@ -204,6 +207,26 @@ static bool average_truth(struct session *s, uint32_t number, struct glint_error
     return ok;
 }
 
+/* The water over the frame, the picture with it, and the map that its reflections come from. */
+static bool write_water(struct session *s, const struct dump *dump, const struct view *view, uint32_t number,
+                        struct glint_error *err) {
+    const struct glint_sample_options *o = &s->options;
+    struct view straight = view_through(&s->scene, o, o->planar_width, o->planar_height, number, VIEW_PLACES);
+    struct view mirrored = mirrored_view(&s->scene.water, &straight);
+    struct glint_planar planar = {.plane = {0, 1, 0, -(double)s->scene.water.level - o->offset[1]},
+                                  .camera = mirrored.camera};
+    struct water_pixel *water = calloc((size_t)o->width * o->height, sizeof *water);
+    struct texel *texels = calloc((size_t)o->planar_width * o->planar_height, sizeof *texels);
+    move_camera(&planar.camera, o->offset);
+    bool ok = (water && texels) || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the water");
+    ok = ok && render_water(s->now, view, s->pixels, water, &s->job, 0, err) && dump_water(dump, water, err) &&
+         dump_scene(dump, water, err) && render_planar(s->now, &mirrored, texels, &s->job, 0, err) &&
+         dump_planar(dump, &mirrored, &planar, texels, err);
+    free(water);
+    free(texels);
+    return ok;
+}
+
 static bool write_parts(struct session *s, const struct dump *dump, const struct view *view,
                         const struct view *previous, uint32_t number, bool shot, struct glint_error *err) {
     if (!dump_gbuffer(dump, "gbuffer", view, s->pixels, err) || !dump_lit(dump, "lit", s->pixels, err) ||
@@ -211,6 +234,7 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
         !dump_lit(dump, "previous.lit", s->previous, err))
         return false;
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
+    if (s->scene.water.there && !write_water(s, dump, view, number, err)) return false;
     if (!s->truth) return true;
     return render_truth(s->now, view, s->pixels, s->options.truth_samples, 0, s->truth, &s->job,
                         s->options.truth_samples, err) &&
@@ -284,6 +308,7 @@ static void set_defaults(struct session *s) {
         o->height = DEFAULT_HEIGHT;
     }
     if (!o->cube_size) o->cube_size = DEFAULT_CUBE;
+    if (!o->planar_width) o->planar_width = 240, o->planar_height = 120;
     if (!o->frames) o->frames = 1;
     if (!o->first_frame) o->first_frame = 1;
     if (!o->probes_given) o->probes = s->scene.probes;

@@ -61,6 +61,15 @@ struct contact {
     vec3 low, high, step;
 };
 
+/* A level surface everywhere at this height, which only water.h sees. */
+struct water {
+    bool there;
+    float level;
+    float opacity; /* share of the light from behind that a metre takes */
+    float ripple;  /* slope of the steepest ripples, about */
+    vec3 color;    /* of the light that deep water sends back */
+};
+
 #define SCENE_MAX_LIGHTS 48
 #define SCENE_MAX_CONTACTS 4
 #define SCENE_MAX_CUBEMAPS 32
@@ -100,6 +109,7 @@ struct scene {
     enum glint_probes probes;
     struct glint_cubemap cubemaps[SCENE_MAX_CUBEMAPS];
     uint32_t cubemap_count;
+    struct water water;
     bool has_fog;
     struct glint_fog fog;
     struct glint_stencil_class classes[8];

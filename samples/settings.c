@@ -53,6 +53,8 @@ static void take_options(XXH3_state_t *state, const struct scene *scene, const s
                      (int)o->camera_given, (int)o->compression);
     take(state, text, (size_t)n);
     take(state, o->offset, sizeof o->offset);
+    take(state, &o->planar_width, sizeof o->planar_width);
+    take(state, &o->planar_height, sizeof o->planar_height);
     take(state, &o->cut, sizeof o->cut);
     take(state, &o->unjittered, sizeof o->unjittered);
     take(state, &o->truth_of_pixels, sizeof o->truth_of_pixels);

@@ -20,6 +20,7 @@ struct arguments {
 enum {
     KEY_SIZE = 256,
     KEY_CUBE_SIZE,
+    KEY_PLANAR,
     KEY_FRAMES,
     KEY_FIRST_FRAME,
     KEY_CUT,
@@ -49,6 +50,7 @@ static const struct argp_option options[] = {
     {"json",        'j',             NULL,    0, "With --list: print JSON", 0},
     {"size",        KEY_SIZE,        "WxH",   0, "Picture size (default 1280x720)", 0},
     {"cube-size",   KEY_CUBE_SIZE,   "N",     0, "Face size of the cube maps (default 256)", 0},
+    {"planar-size", KEY_PLANAR,      "WxH",   0, "Size of the planar reflection map of a scene with water (default 240x120)", 0},
     {"frames",      KEY_FRAMES,      "N",     0, "Length of the shot; its captures share their cube maps (default 1)", 0},
     {"first-frame", KEY_FIRST_FRAME, "N",     0, "Number of the first frame (default 1)", 0},
     {"cut",         KEY_CUT,         NULL,    0, "The first frame follows another shot: nothing of the frame before is of use", 0},
@@ -194,6 +196,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_CUBE_SIZE:
         s->cube_size = arg_uint("cube-size", arg, 4, 4096, state);
+        return 0;
+    case KEY_PLANAR:
+        arg_size("planar-size", arg, &s->planar_width, &s->planar_height, state);
         return 0;
     case KEY_FRAMES:
         s->frames = arg_uint("frames", arg, 1, 9999, state);

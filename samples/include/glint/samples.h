@@ -15,12 +15,13 @@ enum glint_probes {
 };
 
 struct glint_sample_options {
-    uint32_t width, height; /* 0: 1280 × 720 */
-    uint32_t cube_size;     /* 0: 256 */
-    uint32_t frames;        /* 0: 1; more make a shot OUT.0001.exr … that shares its cube maps */
-    uint32_t first_frame;   /* number of the first frame */
-    bool cut;               /* the first frame follows another shot */
-    bool probes_given;      /* false: the scene's default */
+    uint32_t width, height;               /* 0: 1280 × 720 */
+    uint32_t cube_size;                   /* 0: 256 */
+    uint32_t planar_width, planar_height; /* of the planar reflection map of a scene with water; 0: 240 × 120 */
+    uint32_t frames;                      /* 0: 1; more make a shot OUT.0001.exr … that shares its cube maps */
+    uint32_t first_frame;                 /* number of the first frame */
+    bool cut;                             /* the first frame follows another shot */
+    bool probes_given;                    /* false: the scene's default */
     enum glint_probes probes;
     struct glint_encodings encodings;
     /* Rays a pixel for truth.*; 0: none of these parts. The parts of a lobe say it in `truthSamples`, and in

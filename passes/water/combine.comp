@@ -1,0 +1,87 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "combine.pass.h"
+#include "shared/push_begin.glsl"
+#include "combine.pass.h"
+};
+#include "shared/camera.glsl"
+
+struct Water {
+    vec3 position, towards, normal, own; // own: the light it scatters
+    float thickness_m, opacity;
+};
+
+// Fresnel's formulas for unpolarised light, from outside; `cosine` to the surface's normal.
+float reflected_share(float cosine) {
+    float within = sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
+    float s = (cosine - index * within) / (cosine + index * within), p = (within - index * cosine) / (within + index * cosine);
+    return 0.5 * (s * s + p * p);
+}
+
+// How far the refracted ray goes to a bottom that the view ray `towards` meets after thickness_m: both sink as deep.
+float way_through(vec3 towards, float thickness_m, vec3 refracted) {
+    float sinks = max(-dot(refracted, frame.up.xyz), 0.05);
+    return thickness_m * max(-dot(towards, frame.up.xyz), 0.0) / sinks;
+}
+
+// What is behind the water. The bottom's depth is first taken where the view ray meets it, then where the refracted ray
+// does; a place where no water is, or something stands before it, shows nothing of the bottom.
+vec3 seen_through(Water water, ivec2 pixel) {
+    vec3 bottom = texelFetch(composed, pixel, 0).rgb;
+    float way_m = water.thickness_m;
+    if (refraction) {
+        vec3 ray = refract(water.towards, water.normal, 1.0 / index);
+        float straight_m = way_m;
+        way_m = way_through(water.towards, straight_m, ray);
+        vec2 size = vec2(frame.size.xy);
+        vec3 end = mat3(frame.view_from_world) * (water.position + way_m * ray);
+        ivec2 at = clamp(ivec2(project(end, frame.uv_from_view, frame.depth_range.z) * size), ivec2(0), ivec2(size) - 1);
+        float there_m = texelFetch(water_normal, at, 0).w;
+        if (there_m > 0.0) {
+            vec3 towards = mat3(frame.world_from_view) * view_position((vec2(at) + 0.5) / size, 1.0, frame.view_from_uv, frame.depth_range.z);
+            way_m = way_through(normalize(towards), there_m, ray);
+            end = mat3(frame.view_from_world) * (water.position + way_m * ray);
+            vec2 uv = project(end, frame.uv_from_view, frame.depth_range.z);
+            at = clamp(ivec2(uv * size), ivec2(0), ivec2(size) - 1);
+            if (texelFetch(water_normal, at, 0).w > 0.0) bottom = textureLod(sampler2D(composed, linear_clamp), uv, 0.0).rgb;
+        }
+    }
+    float left = pow(max(1.0 - water.opacity, 0.0), depth ? way_m : 1.0);
+    return mix(water.own, bottom, left);
+}
+
+vec3 mirrored(Water water, ivec2 pixel) {
+    vec4 planar = has_planar_reflection ? texelFetch(planar_reflection, pixel, 0) : vec4(0.0);
+    if (planar.a >= 1.0) return planar.rgb;
+    vec3 ray = reflect(water.towards, water.normal);
+    ray += max(-dot(ray, frame.up.xyz), 0.0) * frame.up.xyz;
+    vec3 color = textureLod(samplerCube(sky, linear_clamp), ray, 0.0).rgb;
+    if (environment && frame.counts.x > 0u) {
+        vec4 around = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray, 0.0), 0.0);
+        color = around.rgb + color * (1.0 - around.a);
+    }
+    return mix(color, planar.rgb, planar.a);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(finished)))) return;
+    float depth_m = texelFetch(water_depth, pixel, 0).x;
+    vec4 normal = texelFetch(water_normal, pixel, 0), own = texelFetch(water_color, pixel, 0);
+    vec3 color = texelFetch(composed, pixel, 0).rgb;
+    if (own.a > 0.0 && reflects(depth_m, normal.xyz)) {
+        vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
+        Water water;
+        water.position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        water.towards = normalize(water.position);
+        water.normal = normalize(normal.xyz);
+        water.own = own.rgb;
+        water.thickness_m = normal.w;
+        water.opacity = own.a;
+        float cosine = fresnel ? clamp(-dot(water.towards, water.normal), 0.0, 1.0) : 1.0;
+        color = mix(seen_through(water, pixel), mirrored(water, pixel), clamp(intensity * reflected_share(cosine), 0.0, 1.0));
+    }
+    imageStore(finished, pixel, vec4(color, 1.0));
+}

@@ -1,0 +1,13 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Water over the picture")
+READ(texture2D, composed)
+READ(texture2D, water_depth)
+READ(texture2D, water_normal)
+READ(texture2D, water_color)
+OPTIONAL_READ(texture2D, planar_reflection, RGBA16F, FULL, 0)
+READ(textureCubeArray, cubemap_color)
+READ(textureCube, sky)
+WRITE(image2D, finished, RGBA16F, "radiance", FULL, "R G B A", 0, "composed, with the water over it; a: 1")
+DISPATCH(finished)
+NEEDS(water)

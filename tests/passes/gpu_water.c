@@ -1,0 +1,153 @@
+/* Water over the picture on the scene lake, against what its path tracer says the camera sees: Fresnel's formulas, the
+   reflected and the refracted ray each followed to its end. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+
+enum { WIDTH = 192, HEIGHT = 108 };
+
+static float *part(struct gpu *gpu, const char *name, const char *const *channels, size_t count) {
+    struct glint_error err = {0};
+    const struct glint_part_info *info = glint_capture_find(gpu->capture, name);
+    assert_non_null(info);
+    float *values = malloc((size_t)info->width * info->height * count * sizeof *values);
+    assert_non_null(values);
+    if (!glint_capture_read(gpu->capture, info, channels, count, GLINT_F32, values, 0, &err))
+        fail_msg("%s", err.message);
+    return values;
+}
+
+static void load(struct gpu *gpu) {
+    gpu_sample(gpu, "lake", "lake",
+               &(struct glint_sample_options){.width = WIDTH,
+                                              .height = HEIGHT,
+                                              .cube_size = 32,
+                                              .light_samples = 8,
+                                              .planar_width = 96,
+                                              .planar_height = 54});
+    gpu_reset(gpu);
+    gpu_use(gpu, "planar=lookup");
+    gpu_use(gpu, "water=combine");
+}
+
+/* Mean of |seen - true| / (seen + true + 0.05) over the pixels of the water. */
+static double error_of(struct gpu *gpu, const float *opacity, const float *scene) {
+    double sum = 0;
+    size_t count = 0;
+    float *finished = gpu_floats(gpu, "finished", NULL, NULL);
+    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
+        if (!(opacity[i] > 0)) continue;
+        for (size_t c = 0; c < 3; ++c, ++count) {
+            double a = (double)finished[4 * i + c], b = (double)scene[3 * i + c];
+            sum += fabs(a - b) / (a + b + 0.05);
+        }
+    }
+    free(finished);
+    assert_true(count > WIDTH * HEIGHT / 2);
+    return sum / (double)count;
+}
+
+static void every_part_of_it_brings_the_picture_nearer(void **state) {
+    struct gpu *gpu = *state;
+    static const char *const off[] = {NULL,
+                                      "planar.perturb=false",
+                                      "planar.near=false",
+                                      "water.refraction=false",
+                                      "water.depth=false",
+                                      "water.fresnel=false",
+                                      "water.intensity=0"};
+    double errors[7];
+    load(gpu);
+    float *opacity = part(gpu, "water", (const char *[]){"opacity"}, 1),
+          *scene = part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
+    for (int i = 0; i < 7; ++i) {
+        load(gpu);
+        if (off[i]) gpu_set(gpu, off[i]);
+        gpu_run(gpu);
+        errors[i] = error_of(gpu, opacity, scene);
+        print_message("# %-24s %.4f\n", off[i] ? off[i] : "all", errors[i]);
+        if (i) assert_true(errors[i] > errors[0]);
+    }
+    gpu_use(gpu, "planar=none");
+    gpu_set(gpu, "water.intensity=1");
+    gpu_run(gpu);
+    double around = error_of(gpu, opacity, scene);
+    print_message("# %-24s %.4f\n", "planar=none", around);
+    assert_true(around > errors[0]);
+    free(opacity), free(scene);
+}
+
+/* Where no water is, and what stands before it, is the picture as it was, bit for bit. */
+static void all_else_stays(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_run(gpu);
+    float *opacity = part(gpu, "water", (const char *[]){"opacity"}, 1);
+    float *finished = gpu_floats(gpu, "finished", NULL, NULL), *composed = gpu_floats(gpu, "composed", NULL, NULL);
+    float *planar = gpu_floats(gpu, "planar_reflection", NULL, NULL);
+    size_t dry = 0, wet = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
+        if (opacity[i] > 0) {
+            wet += memcmp(finished + 4 * i, composed + 4 * i, 3 * sizeof(float)) != 0;
+            continue;
+        }
+        dry++;
+        assert_memory_equal(finished + 4 * i, composed + 4 * i, 3 * sizeof(float));
+        assert_true(planar[4 * i + 3] == 0);
+    }
+    assert_true(dry > 2000 && wet > 2000);
+    free(opacity), free(finished), free(composed), free(planar);
+}
+
+/* Without ripples the mirror ray is the one that the map was rendered for: the lookup is at the pixel's own place in it, since
+   the plane's points are seen at the same place by both cameras. */
+static void a_flat_mirror_is_looked_up_in_place(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_set(gpu, "planar.perturb=false");
+    gpu_run(gpu);
+    const struct glint_part_info *info = glint_capture_find(gpu->capture, "planar.000");
+    const uint32_t w = info->width, h = info->height;
+    float *map = part(gpu, "planar.000", (const char *[]){"R", "G", "B"}, 3),
+          *opacity = part(gpu, "water", (const char *[]){"opacity"}, 1);
+    float *planar = gpu_floats(gpu, "planar_reflection", NULL, NULL);
+    const double *jitter = glint_capture_frame(gpu->capture)->jitter_px;
+    double *errors = malloc(WIDTH * HEIGHT * sizeof *errors);
+    assert_non_null(errors);
+    size_t count = 0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
+        /* of the same aspect, without the jitter of the frame's camera */
+        double x = ((double)(i % WIDTH) + 0.5 - jitter[0]) / WIDTH * w - 0.5,
+               y = ((double)(i / WIDTH) + 0.5 - jitter[1]) / HEIGHT * h - 0.5;
+        if (!(opacity[i] > 0) || x < 0 || y < 0 || x >= w - 1 || y >= h - 1) continue;
+        assert_true(planar[4 * i + 3] == 1);
+        size_t at = (size_t)y * w + (size_t)x;
+        double u = x - floor(x), v = y - floor(y), expected = 0;
+        for (size_t k = 0; k < 4; ++k)
+            expected += (double)map[3 * (at + k % 2 + k / 2 * w)] * (k % 2 ? u : 1 - u) * (k / 2 ? v : 1 - v);
+        errors[count++] = fabs((double)planar[4 * i] - expected);
+    }
+    double p99 = quantile(errors, count, 0.99), worst = errors[count - 1];
+    print_message("# %zu pixels: off by %.2g (99th percentile), at most %.2g\n", count, p99, worst);
+    assert_true(count > 5000);
+    assert_true(p99 <=
+                4e-3); /* half floats up to 2, and a sampler's 8 bits between texels, of edges between sky and firs */
+    free(map), free(opacity), free(planar), free(errors);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_part_of_it_brings_the_picture_nearer),
+        cmocka_unit_test(all_else_stays),
+        cmocka_unit_test(a_flat_mirror_is_looked_up_in_place),
+    };
+    return cmocka_run_group_tests_name("gpu_water", tests, gpu_set_up, gpu_tear_down);
+}
