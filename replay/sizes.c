@@ -114,7 +114,11 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         break;
     case GLINT_SIZE_HALF:
     case GLINT_SIZE_HALF_MIPS:
+    case GLINT_SIZE_HALF_MIPS3:
         expected[0] = sizes->half[0], expected[1] = sizes->half[1];
+        break;
+    case GLINT_SIZE_EIGHTH:
+        for (int i = 0; i < 2; i++) expected[i] = sizes->half[i] / 4 ? sizes->half[i] / 4 : 1;
         break;
     case GLINT_SIZE_CUBEMAPS:
     case GLINT_SIZE_CUBEMAPS_MIPS:
@@ -155,6 +159,7 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
     if (!expected[0] || !expected[1]) desc->layers = layers; /* nothing is active: a stand-in */
     else desc->width = expected[0], desc->height = expected[1];
     if (size_has_levels(row->size)) desc->levels = level_count(desc->width, desc->height);
+    if (row->size == GLINT_SIZE_HALF_MIPS3 && desc->levels > 3) desc->levels = 3;
     if (desc->levels > LEVELS_MAX)
         return glint_fail(err, GLINT_ERROR_LIMIT, "image %s: %u levels, expected at most %d", image->name, desc->levels,
                           LEVELS_MAX);

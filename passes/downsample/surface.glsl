@@ -22,6 +22,24 @@ vec3 draw(vec2 u, vec3 view, float roughness, float kept) {
                           : sample_blinn_phong(u, roughness, share, threshold);
 }
 
+// A ray around the mirror direction, as the normal that leads to it. It has the lobe of a view along the normal, which is round;
+// the true one of an oblique view is not.
+vec3 around_reflection(vec3 normal, float roughness, vec3 to_viewer, uvec2 pixel) {
+    vec3 mirror = reflect(-to_viewer, normal), tangent, bitangent;
+    tangent_frame(mirror, tangent, bitangent);
+    float kept = ggx_kept(roughness * roughness, share, threshold);
+    vec2 u = first_numbers(pixel);
+    for (int i = 1; i <= tries; ++i) {
+        vec3 h = draw(u, vec3(0.0, 0.0, 1.0), roughness, kept);
+        vec2 across = 2.0 * h.z * h.xy;
+        float along = 2.0 * h.z * h.z - 1.0;
+        vec3 direction = across.x * tangent + across.y * bitangent + along * mirror, both = direction + to_viewer;
+        if (dot(direction, normal) > 0.0 && dot(both, both) > 1e-6) return normalize(both);
+        u = random4(pixel, random_frame(), RANDOM_NDF + uint(i)).xy;
+    }
+    return normal;
+}
+
 vec3 jittered(vec3 normal, float roughness, vec3 to_viewer, uvec2 pixel) {
     vec3 tangent, bitangent;
     tangent_frame(normal, tangent, bitangent);
@@ -45,8 +63,11 @@ void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen) {
         vec2 uv = picked_uv(pixel, chosen, frame.size);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
-        if (jitter && roughness > 0.0) ray_normal = jittered(normal, roughness, to_viewer, uvec2(pixel));
+        if (jitter && roughness > 0.0)
+            ray_normal = lobe == lobe_reflection ? around_reflection(normal, roughness, to_viewer, uvec2(pixel))
+                                                 : jittered(normal, roughness, to_viewer, uvec2(pixel));
         float sampled = jitter ? share : 0.0, cosine = clamp(dot(normal, to_viewer), 0.0, 1.0);
+        if (lobe == lobe_reflection) cosine = 1.0; // the lobe of a view along the normal
         cone = cone_factor * (ndf == ndf_ggx ? ggx_cone(roughness * roughness, sampled, threshold, cosine)
                                              : blinn_phong_cone(roughness, sampled, threshold, cosine));
         // What a cone holds of the surface itself or behind it is not reflected.

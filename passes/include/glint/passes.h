@@ -44,11 +44,13 @@ enum glint_size_class {
     GLINT_SIZE_SKY,      /* the sky's cube map */
     GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
     GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
+    GLINT_SIZE_EIGHTH,   /* the coarsest level of HALF_MIPS3, alone */
     GLINT_SIZE_VOLUME,   /* 2D, what the longest description of an inner volume takes × active cube maps */
     GLINT_SIZE_PLANAR,   /* 2D, as large as the capture's planar reflection map */
     /* the class of that name with all levels down to 1 × 1 */
     GLINT_SIZE_FULL_MIPS,
     GLINT_SIZE_HALF_MIPS,
+    GLINT_SIZE_HALF_MIPS3, /* its three finest levels alone */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PARABOLOIDS_MIPS, /* 2D array of two hemispheres for each active cube map, as wide as its faces, with levels */

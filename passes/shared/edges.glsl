@@ -1,0 +1,26 @@
+// Edges between the texels of a level, four of two bits in a byte: how far the surfaces of neighbours are one, in thirds.
+// Levels are those of downsample/mips: texel t stands for texels 2t and 2t + 1 of the finer level, and an odd last row or
+// column belongs to none.
+#ifndef GLINT_EDGES
+#define GLINT_EDGES
+
+const uint SIDE_LEFT = 0u, SIDE_RIGHT = 1u, SIDE_UP = 2u, SIDE_DOWN = 3u;
+
+float open_side(uint edges, uint side) { return float(edges >> 2u * side & 3u) / 3.0; }
+
+uint packed_side(float open, uint side) { return uint(clamp(open, 0.0, 1.0) * 3.0 + 0.5) << 2u * side; }
+
+// How far each texel of a 2x2 block is of one surface with texel `from` of it, both x + 2y; a diagonal by the better way round.
+// edges: of the block, in that order.
+vec4 open_in_block(uvec4 edges, uint from) {
+    vec2 across = vec2(open_side(edges.x, SIDE_RIGHT), open_side(edges.z, SIDE_RIGHT));
+    vec2 down = vec2(open_side(edges.x, SIDE_DOWN), open_side(edges.y, SIDE_DOWN));
+    uint x = from & 1u, y = from >> 1u;
+    vec4 open;
+    open[from] = 1.0;
+    open[from ^ 1u] = across[y];
+    open[from ^ 2u] = down[x];
+    open[from ^ 3u] = max(across[y] * down[x ^ 1u], down[x] * across[y ^ 1u]);
+    return open;
+}
+#endif

@@ -1,0 +1,8 @@
+/* The four nearest texels, those of them that edges do not part from the pixel's own surface. */
+PASS("Bilinear up to edges", "001, Downscaled Depth and Normals")
+#include "slot.h"
+DISPATCH(reflection)
+#line 202
+READ(utexture2D, edge_levels)
+SPEC(bool,  edges,      true, 0,   1,    "1", "001, Downscaled Depth and Normals", "leave out what is beyond an edge; off: depth alone decides")
+PUSH(float, depth_part, 0.02, 0.0, 10.0, "1", "glint", "a texel farther than this part of the depth from the pixel's plane weighs next to nothing; 10: no such test")
