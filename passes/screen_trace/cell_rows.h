@@ -1,6 +1,7 @@
 /* What variants that walk through cells share. */
 #line 202
 READ(texture2D, normal_half)
+READ(texture2D, inverse_half)
 SPEC(bool,  sky,         true,  0,   1,     "1", "chosen by measuring", "a ray whose vanishing point shows the sky ends there; off: the cube maps decide")
 SPEC(bool,  pass_behind, true,  0,   1,     "1", "chosen by measuring", "go on behind objects; off: stop there")
 PUSH(float, length_m,    1e5, 0.0, 1e6,  "m", "002, Linear ray march", "no farther than this; 0: no ray is traced")

@@ -4,9 +4,9 @@
 
 struct CellRay {
     vec2 start, across, per_across; // texels; 1/across, -1e30 for a component that is 0: its edges are never reached
-    ivec2 forward;                  // 1 for a component that grows
+    vec2 forward;                   // 1 for a component that grows, else 0
     float inverse, inverse_rate;    // 1/z = inverse + s · inverse_rate
-    float end;
+    float end, texel;               // texel: one of them, along the axis that the ray goes along
 };
 
 // The sample of a texel lies in its middle: other texels of a reduced picture may hold another pixel of their block.
@@ -15,22 +15,24 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
     cells.start = vec2(texel) + 0.5;
     cells.across = ray.across / reduction(frame.size);
     cells.per_across = 1.0 / mix(cells.across, vec2(-1e-30), lessThan(abs(cells.across), vec2(1e-30)));
-    cells.forward = ivec2(greaterThan(cells.per_across, vec2(0.0)));
+    cells.forward = vec2(greaterThan(cells.per_across, vec2(0.0)));
     cells.inverse = 1.0 / ray.depth_m;
     cells.inverse_rate = -ray.rate / ray.depth_m;
     cells.end = ray.end;
+    cells.texel = 1.0 / max(abs(cells.across.x), abs(cells.across.y));
     return cells;
 }
 
 precise float inverse_at(CellRay ray, float s) { return ray.inverse + s * ray.inverse_rate; }
 
-// Where the ray leaves a cell, one value an axis, by its far edges.
-precise vec2 cell_exits(CellRay ray, ivec2 cell, int level) {
-    return (vec2((cell + ray.forward) << level) - ray.start) * ray.per_across;
+// Cells are whole numbers in floats, which hold them exactly: conversions cost as much as a division.
+// Where the ray leaves a cell of so many texels, one value an axis, by its far edges.
+precise vec2 cell_exits(CellRay ray, vec2 cell, float width) {
+    return ((cell + ray.forward) * width - ray.start) * ray.per_across;
 }
 // Where it came in, by the near edges.
-precise float cell_entry(CellRay ray, ivec2 cell) {
-    vec2 entries = (vec2(cell + 1 - ray.forward) - ray.start) * ray.per_across;
+precise float cell_entry(CellRay ray, vec2 cell) {
+    vec2 entries = (cell + 1.0 - ray.forward - ray.start) * ray.per_across;
     return max(max(entries.x, entries.y), 0.0);
 }
 
@@ -44,37 +46,37 @@ struct Crossing {
 // The ray's inverse depth less the facet's is linear within the texel: positive in front, negative behind. A surface that
 // a viewer sees is crossed from front to behind. A ray that is behind where it comes in and goes deeper met the surface's
 // plane before: within the last texel or so, where two surfaces meet, or by less than the thickness; or it passed a rim.
-precise Crossing cross(CellRay ray, ivec2 cell, float s_in, float s_out, float depth_m, vec2 slopes) {
-    float inverse = 1.0 / depth_m;
-    vec2 rate = inverse * slopes * ray.across, from = (ray.start - vec2(cell) - 0.5) * inverse * slopes;
+precise Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float inverse, vec2 slopes) {
+    vec2 rate = inverse * slopes * ray.across, from = (ray.start - cell - 0.5) * inverse * slopes;
     float at_start = ray.inverse - inverse - from.x - from.y, rise = ray.inverse_rate - rate.x - rate.y;
     float gap_in = at_start + s_in * rise, gap_out = at_start + s_out * rise;
     if (gap_out >= -bias * inverse) return Crossing(CELL_FRONT, s_out);
     // Behind by d: a part thickness of the surface's depth, as 1/z - 1/(z + d) has it.
-    float depth = thickness + thickness_m * inverse, texel = 1.0 / max(abs(ray.across.x), abs(ray.across.y));
-    float tolerance = inverse * depth / (1.0 + depth), reach = -seam * texel * rise;
+    float depth = thickness + thickness_m * inverse;
+    float tolerance = inverse * depth / (1.0 + depth), reach = -seam * ray.texel * rise;
     if (thickness_m < EVERYTHING_M && (gap_in < -tolerance - reach || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
-    float s = rise < 0.0 ? clamp(-at_start / rise, s_in - seam * texel, s_out) : s_in;
+    float s = rise < 0.0 ? clamp(-at_start / rise, s_in - seam * ray.texel, s_out) : s_in;
     bool sure = thickness_m >= EVERYTHING_M || gap_in >= -tolerance;
     return Crossing(sure ? CELL_HIT : CELL_SEAM, max(s, 0.0));
 }
 
 // The texel that the ray comes from.
-ivec2 cell_before(CellRay ray, ivec2 cell) {
-    vec2 entries = (vec2(cell + 1 - ray.forward) - ray.start) * ray.per_across;
-    return cell - (2 * ray.forward - 1) * (entries.x > entries.y ? ivec2(1, 0) : ivec2(0, 1));
+vec2 cell_before(CellRay ray, vec2 cell) {
+    vec2 entries = (cell + 1.0 - ray.forward - ray.start) * ray.per_across;
+    return cell - (2.0 * ray.forward - 1.0) * (entries.x > entries.y ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
 }
 
-precise float facet_inverse(CellRay ray, ivec2 cell, float s, float depth_m, vec2 slopes) {
-    return (1.0 + dot(slopes, ray.start + s * ray.across - vec2(cell) - 0.5)) / depth_m;
+precise float facet_inverse(CellRay ray, vec2 cell, float s, float inverse, vec2 slopes) {
+    return (1.0 + dot(slopes, ray.start + s * ray.across - cell - 0.5)) * inverse;
 }
 
 // Whether two texels' surfaces meet at the border that a ray crosses at s: both are near the ray there.
-precise bool joined(CellRay ray, float s, ivec2 cell, float depth_m, vec2 slopes, ivec2 before, float before_m, vec2 before_slopes) {
+precise bool joined(CellRay ray, float s, vec2 cell, float inverse, vec2 slopes, vec2 before, float before_inverse,
+                    vec2 before_slopes) {
     float here = inverse_at(ray, s);
-    float apart = abs(facet_inverse(ray, cell, s, depth_m, slopes) - here) +
-                  abs(facet_inverse(ray, before, s, before_m, before_slopes) - here);
-    return apart * depth_m <= jump;
+    float apart = abs(facet_inverse(ray, cell, s, inverse, slopes) - here) +
+                  abs(facet_inverse(ray, before, s, before_inverse, before_slopes) - here);
+    return apart <= jump * inverse;
 }
 
 // What a ray has gone hidden behind surfaces, without a break of more than the texels that a stippled surface leaves out.
@@ -85,14 +87,14 @@ struct Hidden {
 
 // One more texel behind whose surface a ray went, from s_in to s_out.
 void hide(inout Hidden hidden, CellRay ray, float s_in, float s_out) {
-    if ((s_in - hidden.s_last) * max(abs(ray.across.x), abs(ray.across.y)) > STIPPLE) hidden.s_first = s_in;
+    if (s_in - hidden.s_last > STIPPLE * ray.texel) hidden.s_first = s_in;
     hidden.s_last = s_out;
 }
 
 // Behind a surface an object is taken to be `solid` times as deep as the way that a ray has gone hidden by it: one that
 // lies less far behind has met a side that the picture does not show. With t = s P.w/(1 - s D.w) the way is
 // (s_last - s_first) (1/P.w)/(u_first u_last) for inverse depths u, so that z - depth < solid · way needs no division.
-precise bool blocked(Hidden hidden, CellRay ray, float depth_m) {
-    float behind = (1.0 - depth_m * inverse_at(ray, hidden.s_last)) * inverse_at(ray, hidden.s_first);
-    return behind < solid * (hidden.s_last - hidden.s_first) * ray.inverse;
+precise bool blocked(Hidden hidden, CellRay ray, float inverse) {
+    float behind = (inverse - inverse_at(ray, hidden.s_last)) * inverse_at(ray, hidden.s_first);
+    return behind < solid * (hidden.s_last - hidden.s_first) * ray.inverse * inverse;
 }

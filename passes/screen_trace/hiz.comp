@@ -15,8 +15,8 @@ int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 
 // then all are passed at once.
 precise bool passes_behind(inout Hidden hidden, CellRay ray, float s_in, float s_out, float farthest_m) {
     if (!pass_behind || !(farthest_m < LARGEST)) return false;
-    float before = s_in - 0.5 / max(abs(ray.across.x), abs(ray.across.y)); // a seam's reach
-    float highest = max(max(inverse_at(ray, before), inverse_at(ray, s_in)), inverse_at(ray, s_out));
+    float before = s_in - 0.5 * ray.texel; // a seam's reach
+    float highest = max(inverse_at(ray, before), inverse_at(ray, s_out));
     if (highest * (farthest_m * (1.0 + thickness) + thickness_m) >= 0.999999) return false;
     Hidden ahead = hidden;
     hide(ahead, ray, s_in, s_out);
@@ -26,59 +26,68 @@ precise bool passes_behind(inout Hidden hidden, CellRay ray, float s_in, float s
     return true;
 }
 
+// Whether the texel's facet ends the ray, which crosses it from s to s_out: true for a hit, or for what blocks it.
+bool meets(CellRay cells, vec2 cell, float s_out, inout Hidden hidden, inout float s, out bool front, inout Result result) {
+    result.fetches += 2u;
+    float inverse = texelFetch(inverse_half, ivec2(cell), 0).x;
+    vec2 slopes = texelFetch(depth_slopes, ivec2(cell), 0).xy;
+    s = cell_entry(cells, cell);
+    Crossing crossing = cross(cells, cell, s, s_out, inverse, slopes);
+    if (crossing.what == CELL_SEAM) {
+        vec2 before = cell_before(cells, cell);
+        result.fetches += 2u;
+        bool meet = joined(cells, s, cell, inverse, slopes, before, texelFetch(inverse_half, ivec2(before), 0).x,
+                           texelFetch(depth_slopes, ivec2(before), 0).xy);
+        crossing.what = meet ? CELL_HIT : CELL_BEHIND;
+    }
+    front = crossing.what == CELL_FRONT;
+    if (front) return false;
+    result.end = END_hit;
+    if (crossing.what == CELL_HIT) {
+        s = crossing.s;
+        return true;
+    }
+    result.end = END_behind;
+    hide(hidden, cells, s, s_out);
+    return !pass_behind || blocked(hidden, cells, inverse);
+}
+
 Result march(ScreenRay ray, ivec2 texel) {
     CellRay cells = cell_ray(ray, texel);
     Result result = Result(0.0, false, END_steps_exhausted, 0u, 0u);
-    ivec2 stride = 2 * cells.forward - 1, last = ivec2(frame.size.zw) - 1;
+    vec2 stride = 2.0 * cells.forward - 1.0, size = vec2(frame.size.zw), cell = vec2(texel);
     int coarsest = coarsest_level(), level = 0;
+    float width = 1.0, per_rate = 1.0 / cells.inverse_rate; // width of a cell in texels
     // Its own texel cannot stop a ray.
-    ivec2 cell = texel;
-    precise vec2 exits = cell_exits(cells, cell, 0);
+    precise vec2 exits = cell_exits(cells, cell, width);
     precise float s = min(min(exits.x, exits.y), cells.end);
     precise float s_front = s;
     Hidden hidden = Hidden(0.0, 0.0);
     if (exits.x <= exits.y) cell.x += stride.x;
     else cell.y += stride.y;
-    bool inside = s < cells.end && all(greaterThanEqual(cell, ivec2(0))) && all(lessThanEqual(cell, last));
+    bool inside = s < cells.end && all(greaterThanEqual(cell, vec2(0.0))) && all(lessThan(cell, size));
     if (!inside) result.end = ray.limit;
     for (int i = 0; inside && i < steps; ++i) {
-        exits = cell_exits(cells, cell, level);
+        exits = cell_exits(cells, cell, width);
         precise float s_out = min(min(exits.x, exits.y), cells.end);
-        bool front = true;
+        bool front;
         result.steps++;
         if (level > 0) {
             result.fetches++;
-            vec2 range_m = texelFetch(hiz, min(cell, (last + 1 >> level) - 1), level).xy;
+            ivec2 last = (ivec2(frame.size.zw) >> level) - 1;
+            vec2 range_m = texelFetch(hiz, min(ivec2(cell), last), level).xy;
             front = max(min(inverse_at(cells, s), inverse_at(cells, s_out)), 1e-30) * range_m.x > 1.000001;
             if (!front && !passes_behind(hidden, cells, s, s_out, range_m.y)) {
                 // A ray that goes away from the viewer cannot meet anything before it reaches the nearest depth.
-                if (cells.inverse_rate < 0.0)
-                    s = clamp((1.0 / range_m.x - cells.inverse) / cells.inverse_rate - 1e-6, s, s_out);
+                if (cells.inverse_rate < 0.0) s = clamp((1.0 / range_m.x - cells.inverse) * per_rate - 1e-6, s, s_out);
                 --level;
-                cell = clamp(ivec2(floor(cells.start + s * cells.across)) >> level, 2 * cell, 2 * cell + 1);
+                width *= 0.5;
+                cell = clamp(floor((cells.start + s * cells.across) / width), 2.0 * cell, 2.0 * cell + 1.0);
                 continue;
             }
-        } else {
-            result.fetches += 2u;
-            float depth_m = texelFetch(depth_half, cell, 0).x;
-            vec2 slopes = texelFetch(depth_slopes, cell, 0).xy;
-            s = cell_entry(cells, cell);
-            Crossing crossing = cross(cells, cell, s, s_out, depth_m, slopes);
-            if (crossing.what == CELL_SEAM) {
-                ivec2 before = cell_before(cells, cell);
-                result.fetches += 2u;
-                bool meet = joined(cells, s, cell, depth_m, slopes, before, texelFetch(depth_half, before, 0).x,
-                                   texelFetch(depth_slopes, before, 0).xy);
-                crossing.what = meet ? CELL_HIT : CELL_BEHIND;
-            }
-            if (crossing.what == CELL_HIT)
-                return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
-            front = crossing.what == CELL_FRONT;
-            if (!front) hide(hidden, cells, s, s_out);
-            if (!front && (!pass_behind || blocked(hidden, cells, depth_m))) {
-                result.end = END_behind;
-                break;
-            }
+        } else if (meets(cells, cell, s_out, hidden, s, front, result)) {
+            if (result.end == END_behind) break;
+            return Result(travelled_at(ray, s), true, END_hit, result.steps, result.fetches);
         }
         if (front) s_front = s_out;
         if (s_out >= cells.end) {
@@ -86,18 +95,21 @@ Result march(ScreenRay ray, ivec2 texel) {
             break;
         }
         s = s_out;
-        ivec2 parent = cell >> 1;
-        if (exits.x <= exits.y) cell.x += stride.x;
-        else cell.y += stride.y;
-        ivec2 reached = cell << level;
-        if (any(lessThan(cell, ivec2(0))) || any(greaterThan(reached, last))) {
+        bool along_x = exits.x <= exits.y;
+        cell += along_x ? vec2(stride.x, 0.0) : vec2(0.0, stride.y);
+        if (any(lessThan(cell, vec2(0.0))) || any(greaterThanEqual(cell * width, size))) {
             result.end = END_left_screen;
             break;
         }
-        if (level < coarsest && parent != cell >> 1) {
-            cell >>= 1;
+        // The other parent's cell: an even one when the ray grows along the axis, an odd one when it does not.
+        float half_cell = 0.5 * (along_x ? cell.x : cell.y);
+        bool other_parent = (fract(half_cell) == 0.0) == (along_x ? stride.x > 0.0 : stride.y > 0.0);
+        if (level < coarsest && other_parent) {
+            cell = floor(0.5 * cell);
             ++level;
+            width *= 2.0;
         }
+        result.end = END_steps_exhausted;
     }
     result.travelled_m = travelled_at(ray, min(s_front, ray.end));
     return result;
