@@ -67,7 +67,8 @@ Result march(ScreenRay ray, ivec2 texel) {
     else cell.y += stride.y;
     bool inside = s < cells.end && all(greaterThanEqual(cell, vec2(0.0))) && all(lessThan(cell, size));
     if (!inside) result.end = ray.limit;
-    for (int i = 0; inside && i < steps; ++i) {
+    int most = steps_lq == steps || texelFetch(normal_half, texel, 0).w <= hq_roughness ? steps : steps_lq;
+    for (int i = 0; inside && i < most; ++i) {
         exits = cell_exits(cells, cell, width);
         precise float s_out = min(min(exits.x, exits.y), cells.end);
         bool front;
