@@ -45,6 +45,7 @@ TIME = ("ms of all passes", "time", lambda ms: ms)
 
 MIRROR = ["set downsample.jitter=false"]
 MANY = ["set pipeline.rays=16"]
+LINEAR = ["use screen_trace=linear", "use hiz=none"]
 CUBES = MIRROR + ["set screen_trace.length_m=0"]
 HISTORY = ["use temporal=rough", "use temporal_sharp=clamped"]
 CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
@@ -74,13 +75,21 @@ ROWS = [
     ("pre-filtering", "colour filtered for cones", "room", [], "use cubemap_mips=plain", GLOSSY),
     ("pre-filtering", "screen MIPs", "street", [], "use lit_mips=none", GLOSSY),
     ("pre-filtering", "sky MIPs", "street", [], "use sky_mips=none", ROUGH),
-    ("screen trace", "dither", "street", MIRROR, "set screen_trace.dither=false", SMOOTH_RMSE, "bands for noise"),
-    ("screen trace", "1/z between texels", "room", MIRROR, "set screen_trace.interpolate=false", RAYS),
-    ("screen trace", "refinement", "room", MIRROR, "set screen_trace.refine=false", RAYS),
-    ("screen trace", "look again", "room", MIRROR, "set screen_trace.verify=false", RAYS),
-    ("screen trace", "back faces refused", "room", MIRROR, "set screen_trace.back_faces=false", RAYS),
+    ("screen trace (linear)", "dither", "street", LINEAR + MIRROR, "set screen_trace.dither=false", SMOOTH_RMSE, "bands for noise"),
+    ("screen trace (linear)", "1/z between texels", "room", LINEAR + MIRROR, "set screen_trace.interpolate=false", RAYS),
+    ("screen trace (linear)", "refinement", "room", LINEAR + MIRROR, "set screen_trace.refine=false", RAYS),
+    ("screen trace (linear)", "look again", "room", LINEAR + MIRROR, "set screen_trace.verify=false", RAYS),
+    ("screen trace (linear)", "back faces refused", "room", LINEAR + MIRROR, "set screen_trace.back_faces=false", RAYS),
+    ("screen trace", "pyramid against the linear march", "room", MIRROR, "use screen_trace=linear use hiz=none", RAYS, "time for error"),
+    ("screen trace", "pyramid against the linear march", "street", [], "use screen_trace=linear use hiz=none", PICTURE),
+    ("screen trace", "pyramid against the linear march", "full:street", [], "use screen_trace=linear use hiz=none", TIME),
+    ("screen trace", "on behind objects", "room", MIRROR, "set screen_trace.pass_behind=false", RAYS),
+    ("screen trace", "objects as deep as the way behind them", "room", MIRROR, "set screen_trace.solid=0", RAYS),
+    ("screen trace", "seams", "street", MIRROR, "set screen_trace.seam=0", RAYS),
+    ("screen trace", "fewer cells for rough surfaces", "street", [], "set screen_trace.cells_lq=96", ROUGH, "error for time"),
+    ("screen trace", "fewer cells for rough surfaces", "full:street", [], "set screen_trace.cells_lq=96", TIME),
     ("screen trace", "ends in the sky", "street", MIRROR, "set screen_trace.sky=false", PICTURE),
-    ("screen trace", "growing steps", "room", MIRROR, "set screen_trace.growth=1", RAYS),
+    ("screen trace (linear)", "growing steps", "room", LINEAR + MIRROR, "set screen_trace.growth=1", RAYS),
     ("screen trace", "thickness", "room", MIRROR, "set screen_trace.thickness_m=1e6", RAYS),
     ("screen trace", "the screen at all", "room", MIRROR, "set screen_trace.length_m=0", SMOOTH),
     ("active cube maps", "forced outdoor map", "hotel", MIRROR, "set cubemap_active.force_outdoor=false", SMOOTH),
@@ -98,8 +107,12 @@ ROWS = [
     ("cube-map trace", "each ray its own step scale", "room", MANY, "set cubemap_trace.random_scale=false", PICTURE,
      "bands for noise"),
     ("cube-map trace", "step back after a switch", "room", CUBES, "set cubemap_trace.step_back=false", RAYS),
-    ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", RAYS),
-    ("cube-map trace", "inner volumes", "room", CUBES, "set cubemap_trace.skip_volume=false", COST, "error for fetches"),
+    ("cube-map trace", "inner volumes", "room", CUBES + ["set cubemap_trace.skip_volume=true"],
+     "set cubemap_trace.skip_volume=false", RAYS),
+    ("cube-map trace", "inner volumes", "room", CUBES + ["set cubemap_trace.skip_volume=true"],
+     "set cubemap_trace.skip_volume=false", COST, "time for fetches"),
+    ("cube-map trace", "inner volumes", "full:street", ["set cubemap_trace.skip_volume=true"],
+     "set cubemap_trace.skip_volume=false", TIME),
     ("cube-map trace", "distance MIPs by roughness", "room", ["set cubemap_trace.rough_level=3"],
      "set cubemap_trace.rough_level=0", ROUGH),
     ("cube-map trace", "HQ/LQ split", "room", [], LQ_AS_HQ, ROUGH, "error for fetches and time"),
@@ -152,6 +165,7 @@ REASONS = {
     "not, are 7 % worse",
     ("fade", None): "No cube map of this capture is being faded; gpu_cubemap_select tests the term.",
     ("inner volumes", "mirror rays that end elsewhere, %"): "What is skipped is empty.",
+    ("inner volumes", "ms of all passes"): "few rays start in one or come into one; to ask costs a GPU more than it saves, so that the preset goes without",
     ("half resolution", None): PRICE,
     ("another pixel each frame", None): "a jittered camera covers the block already. What is left is that a texel's history holds pixels of "
     "other roughness; to refuse them mends that (-6 % on rough pixels of centred:street) and costs 3 % where the camera is jittered",

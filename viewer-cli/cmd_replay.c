@@ -45,7 +45,7 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint replay street.exr -o run", "all passes of the preset mafia3, every image written"},
     {"glint replay street.exr --repeat 20", "times only, median of 20 rounds"},
-    {"glint replay street.exr -o run --set screen_trace.steps=64", "with another step count"},
+    {"glint replay street.exr -o run --set screen_trace.cells=64", "with another limit of steps"},
     {"glint replay street.exr -o end --passes upscale,compose --inputs run", "only the end of the pipeline"},
     {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "with a shader of your own"},
     {"glint replay street.exr --against truth --set downsample.jitter=false", "how many rays are right, and why not"},

@@ -113,7 +113,7 @@ bool check_use(const char *assignment, struct glint_error *err) {
 
 bool check_set(const char *assignment, struct glint_error *err) {
     size_t slot = 0, all = 0, count = 0;
-    static const char example[] = "SLOT.PARAMETER=VALUE, such as screen_trace.steps=64";
+    static const char example[] = "SLOT.PARAMETER=VALUE, such as screen_trace.cells=64";
     if (!split(assignment, '=', example, &all, err) || !split(assignment, '.', example, &slot, err)) return false;
     if (slot >= all) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", assignment, example);
     /* The pipeline itself is not a pass; the library knows its parameters. */

@@ -10,39 +10,39 @@
 #include "shared/facet_at.glsl"
 
 Result march(ScreenRay ray, ivec2 texel) {
-    CellRay cells = cell_ray(ray, texel);
+    CellRay path = cell_ray(ray, texel);
     Result result = Result(0.0, false, END_steps_exhausted, 0u, 0u);
     ivec2 last = ivec2(frame.size.zw) - 1;
-    vec2 cell = vec2(texel), stride = 2.0 * cells.forward - 1.0;
+    vec2 cell = vec2(texel), stride = 2.0 * path.forward - 1.0;
     precise float s_front = 0.0, s_in = 0.0;
     Hidden hidden = Hidden(0.0, 0.0);
-    for (int i = 0; i < steps; ++i) {
-        precise vec2 exits = cell_exits(cells, cell, 1.0);
-        precise float s_out = min(min(exits.x, exits.y), cells.end);
+    for (int i = 0; i < cells; ++i) {
+        precise vec2 exits = cell_exits(path, cell, 1.0);
+        precise float s_out = min(min(exits.x, exits.y), path.end);
         if (i > 0) { // its own texel cannot stop a ray
             float depth_m = texelFetch(depth_half, ivec2(cell), 0).x, inverse = texelFetch(inverse_half, ivec2(cell), 0).x;
             result.steps++;
             result.fetches += 2u;
             Crossing crossing = Crossing(CELL_FRONT, s_out);
             // In front of all that a facet of this depth can be: it rises to twice its inverse depth at most.
-            if (min(inverse_at(cells, s_in), inverse_at(cells, s_out)) * depth_m < 1.0 + STEEPEST) {
+            if (min(inverse_at(path, s_in), inverse_at(path, s_out)) * depth_m < 1.0 + STEEPEST) {
                 result.fetches += 5u;
-                crossing = cross(cells, cell, s_in, s_out, inverse, facet_slopes_at(ivec2(cell), depth_m));
+                crossing = cross(path, cell, s_in, s_out, inverse, facet_slopes_at(ivec2(cell), depth_m));
             }
             if (crossing.what == CELL_SEAM) {
-                vec2 before = cell_before(cells, cell);
+                vec2 before = cell_before(path, cell);
                 float before_m = texelFetch(depth_half, ivec2(before), 0).x;
                 float before_inverse = texelFetch(inverse_half, ivec2(before), 0).x;
                 result.fetches += 12u;
-                bool meet = joined(cells, s_in, cell, inverse, facet_slopes_at(ivec2(cell), depth_m), before,
+                bool meet = joined(path, s_in, cell, inverse, facet_slopes_at(ivec2(cell), depth_m), before,
                                    before_inverse, facet_slopes_at(ivec2(before), before_m));
                 crossing.what = meet ? CELL_HIT : CELL_BEHIND;
             }
             if (crossing.what == CELL_HIT)
                 return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
             if (crossing.what == CELL_BEHIND) {
-                hide(hidden, cells, s_in, s_out);
-                if (!pass_behind || blocked(hidden, cells, inverse)) {
+                hide(hidden, path, s_in, s_out);
+                if (!pass_behind || blocked(hidden, path, inverse)) {
                     result.end = END_behind;
                     break;
                 }
@@ -52,7 +52,7 @@ Result march(ScreenRay ray, ivec2 texel) {
         } else {
             s_front = s_out;
         }
-        if (s_out >= cells.end) {
+        if (s_out >= path.end) {
             result.end = ray.limit;
             break;
         }

@@ -3,4 +3,4 @@ PASS("Walk over every texel", "002 names it; McGuire and Mara, JCGT 3(4), 2014")
 #include "slot.h"
 #include "cell_rows.h"
 #line 302
-SPEC(int,   steps,       4096,  1,   65536, "texels", "McGuire and Mara 2014", "texels crossed at most")
+SPEC(int,   cells,       4096,  1,   65536, "texels", "McGuire and Mara 2014", "texels crossed at most")

@@ -27,16 +27,16 @@ precise bool passes_behind(inout Hidden hidden, CellRay ray, float s_in, float s
 }
 
 // Whether the texel's facet ends the ray, which crosses it from s to s_out: true for a hit, or for what blocks it.
-bool meets(CellRay cells, vec2 cell, float s_out, inout Hidden hidden, inout float s, out bool front, inout Result result) {
+bool meets(CellRay path, vec2 cell, float s_out, inout Hidden hidden, inout float s, out bool front, inout Result result) {
     result.fetches += 2u;
     float inverse = texelFetch(inverse_half, ivec2(cell), 0).x;
     vec2 slopes = texelFetch(depth_slopes, ivec2(cell), 0).xy;
-    s = cell_entry(cells, cell);
-    Crossing crossing = cross(cells, cell, s, s_out, inverse, slopes);
+    s = cell_entry(path, cell);
+    Crossing crossing = cross(path, cell, s, s_out, inverse, slopes);
     if (crossing.what == CELL_SEAM) {
-        vec2 before = cell_before(cells, cell);
+        vec2 before = cell_before(path, cell);
         result.fetches += 2u;
-        bool meet = joined(cells, s, cell, inverse, slopes, before, texelFetch(inverse_half, ivec2(before), 0).x,
+        bool meet = joined(path, s, cell, inverse, slopes, before, texelFetch(inverse_half, ivec2(before), 0).x,
                            texelFetch(depth_slopes, ivec2(before), 0).xy);
         crossing.what = meet ? CELL_HIT : CELL_BEHIND;
     }
@@ -48,50 +48,50 @@ bool meets(CellRay cells, vec2 cell, float s_out, inout Hidden hidden, inout flo
         return true;
     }
     result.end = END_behind;
-    hide(hidden, cells, s, s_out);
-    return !pass_behind || blocked(hidden, cells, inverse);
+    hide(hidden, path, s, s_out);
+    return !pass_behind || blocked(hidden, path, inverse);
 }
 
 Result march(ScreenRay ray, ivec2 texel) {
-    CellRay cells = cell_ray(ray, texel);
+    CellRay path = cell_ray(ray, texel);
     Result result = Result(0.0, false, END_steps_exhausted, 0u, 0u);
-    vec2 stride = 2.0 * cells.forward - 1.0, size = vec2(frame.size.zw), cell = vec2(texel);
+    vec2 stride = 2.0 * path.forward - 1.0, size = vec2(frame.size.zw), cell = vec2(texel);
     int coarsest = coarsest_level(), level = 0;
-    float width = 1.0, per_rate = 1.0 / cells.inverse_rate; // width of a cell in texels
+    float width = 1.0, per_rate = 1.0 / path.inverse_rate; // width of a cell in texels
     // Its own texel cannot stop a ray.
-    precise vec2 exits = cell_exits(cells, cell, width);
-    precise float s = min(min(exits.x, exits.y), cells.end);
+    precise vec2 exits = cell_exits(path, cell, width);
+    precise float s = min(min(exits.x, exits.y), path.end);
     precise float s_front = s;
     Hidden hidden = Hidden(0.0, 0.0);
     if (exits.x <= exits.y) cell.x += stride.x;
     else cell.y += stride.y;
-    bool inside = s < cells.end && all(greaterThanEqual(cell, vec2(0.0))) && all(lessThan(cell, size));
+    bool inside = s < path.end && all(greaterThanEqual(cell, vec2(0.0))) && all(lessThan(cell, size));
     if (!inside) result.end = ray.limit;
-    int most = steps_lq == steps || texelFetch(normal_half, texel, 0).w <= hq_roughness ? steps : steps_lq;
+    int most = cells_lq == cells || texelFetch(normal_half, texel, 0).w <= hq_roughness ? cells : cells_lq;
     for (int i = 0; inside && i < most; ++i) {
-        exits = cell_exits(cells, cell, width);
-        precise float s_out = min(min(exits.x, exits.y), cells.end);
+        exits = cell_exits(path, cell, width);
+        precise float s_out = min(min(exits.x, exits.y), path.end);
         bool front;
         result.steps++;
         if (level > 0) {
             result.fetches++;
             ivec2 last = (ivec2(frame.size.zw) >> level) - 1;
             vec2 range_m = texelFetch(hiz, min(ivec2(cell), last), level).xy;
-            front = max(min(inverse_at(cells, s), inverse_at(cells, s_out)), 1e-30) * range_m.x > 1.000001;
-            if (!front && !passes_behind(hidden, cells, s, s_out, range_m.y)) {
+            front = max(min(inverse_at(path, s), inverse_at(path, s_out)), 1e-30) * range_m.x > 1.000001;
+            if (!front && !passes_behind(hidden, path, s, s_out, range_m.y)) {
                 // A ray that goes away from the viewer cannot meet anything before it reaches the nearest depth.
-                if (cells.inverse_rate < 0.0) s = clamp((1.0 / range_m.x - cells.inverse) * per_rate - 1e-6, s, s_out);
+                if (path.inverse_rate < 0.0) s = clamp((1.0 / range_m.x - path.inverse) * per_rate - 1e-6, s, s_out);
                 --level;
                 width *= 0.5;
-                cell = clamp(floor((cells.start + s * cells.across) / width), 2.0 * cell, 2.0 * cell + 1.0);
+                cell = clamp(floor((path.start + s * path.across) / width), 2.0 * cell, 2.0 * cell + 1.0);
                 continue;
             }
-        } else if (meets(cells, cell, s_out, hidden, s, front, result)) {
+        } else if (meets(path, cell, s_out, hidden, s, front, result)) {
             if (result.end == END_behind) break;
             return Result(travelled_at(ray, s), true, END_hit, result.steps, result.fetches);
         }
         if (front) s_front = s_out;
-        if (s_out >= cells.end) {
+        if (s_out >= path.end) {
             result.end = ray.limit;
             break;
         }

@@ -167,7 +167,7 @@ static void hiz_as_dda(struct gpu *gpu, const char *what) {
     set_up(gpu, "dda");
     struct traced expected = trace(gpu);
     set_up(gpu, "hiz");
-    gpu_set(gpu, "screen_trace.steps=65536"); /* the way is compared, not where it is given up */
+    gpu_set(gpu, "screen_trace.cells=65536"); /* the way is compared, not where it is given up */
     struct traced t = trace(gpu);
     double fetches = 0, texels = 0;
     struct paths paths = paths_of(gpu, &t);

@@ -270,8 +270,8 @@ static void unknown_names_are_refused_with_the_nearest(void **state) {
     (void)state;
     glint_fails(2, "did you mean screen_trace?", "replay", capture, "--use", "screen_trac=linear");
     glint_fails(2, "did you mean linear?", "replay", capture, "--use", "screen_trace=liner");
-    glint_fails(2, "did you mean steps?", "replay", capture, "--set", "screen_trace.step=4");
-    glint_fails(2, "1024", "replay", capture, "--set", "screen_trace.steps=5000");
+    glint_fails(2, "did you mean cells?", "replay", capture, "--set", "screen_trace.cell=4");
+    glint_fails(2, "65536", "replay", capture, "--set", "screen_trace.cells=500000");
     glint_fails(2, "expected SLOT.PARAMETER=VALUE", "replay", capture, "--set", "steps");
     glint_fails(2, "did you mean resolve?", "replay", capture, "--passes", "resolv");
     glint_fails(2, "did you mean travelled?", "plan", capture, "--outputs", "traveled");
@@ -294,7 +294,7 @@ static void passes_describe_what_replay_accepts(void **state) {
     json_t *json = parse_json(text);
     for (size_t i = 0; i < SLOTS; i++) named(json_object_get(json, "passes"), "slot", slots[i]);
     const json_t *trace = named(json_object_get(json, "passes"), "slot", "screen_trace");
-    const json_t *steps = named(json_object_get(trace, "parameters"), "name", "screen_trace.steps");
+    const json_t *steps = named(json_object_get(trace, "parameters"), "name", "screen_trace.cells");
     assert_true(number(steps, "lowest") <= number(steps, "default"));
     named(json_object_get(trace, "reads"), "name", "depth_half");
     named(json_object_get(trace, "writes"), "name", "screen_travelled");

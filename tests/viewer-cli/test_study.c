@@ -92,18 +92,18 @@ static void an_interrupted_shot_is_completed(void **state) {
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
     age(in_folder("shot/s.0001/run.json"), &first);
     /* other settings, another capture, a lost file: made again */
-    free(glint_ok("replay", SHOT, "--set=screen_trace.steps=9"));
+    free(glint_ok("replay", SHOT, "--set=screen_trace.cells=9"));
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.0002.exr"), "--size=32x18", "--cube-size=16"));
     age(in_folder("shot/s.0001/run.json"), &first);
     age(in_folder("shot/s.0002/run.json"), &last);
-    free(glint_ok("replay", SHOT, "--set=screen_trace.steps=9"));
+    free(glint_ok("replay", SHOT, "--set=screen_trace.cells=9"));
     assert_false(newer(in_folder("shot/s.0001/run.json"), &first));
     assert_true(newer(in_folder("shot/s.0002/run.json"), &last));
     struct outcome removed = run_program("sh", "-c", "rm \"$0\"/*-compose.exr", in_folder("shot/s.0001"), NULL);
     assert_int_equal(removed.status, 0);
     outcome_free(&removed);
-    free(glint_ok("replay", SHOT, "--set=screen_trace.steps=9"));
+    free(glint_ok("replay", SHOT, "--set=screen_trace.cells=9"));
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
 }
 
