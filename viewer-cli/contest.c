@@ -7,6 +7,8 @@
 
 #include "pass_names.h"
 
+const char *const contest_over[CONTEST_OVER] = {"water", "transparent"};
+
 static void label_of(char label[64], const char *preset) {
     const char *name = strrchr(preset, '/') ? strrchr(preset, '/') + 1 : preset;
     size_t length = strlen(name);
@@ -89,6 +91,7 @@ void showing_finish(struct showing *showing) {
 static void answer_finish(struct answer *answer) {
     glint_pixels_finish(&answer->found);
     glint_pixels_finish(&answer->truth);
+    glint_pixels_finish(&answer->picture);
     free(answer->truth_error);
     free(answer->given);
     *answer = (struct answer){0};
@@ -160,6 +163,23 @@ static bool read_found(const struct contestant *c, const struct glint_part_info 
     return (a->found.values && a->given) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
+/* The finished picture, and how far it is from the true one where something covers the opaque surfaces. */
+static bool read_picture(const struct contestant *c, struct glint_capture *capture, struct showing *s, struct answer *a,
+                         struct glint_error *err) {
+    const struct glint_image *image = glint_study_picture(c->replay);
+    if (!image) return true;
+    a->picture = (struct glint_pixels){image->width, image->height, image->components, NULL};
+    snprintf(a->picture_name, sizeof a->picture_name, "%s", image->name);
+    a->picture.values = malloc((size_t)image->width * image->height * image->components * sizeof(float));
+    bool ok = a->picture.values ? glint_replay_read_image(c->replay, image, GLINT_F32, a->picture.values, err)
+                                : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (int k = 0; ok && k < CONTEST_OVER; k++) {
+        s->over[k].drawn = glint_study_draws(c->replay, contest_over[k]);
+        ok = glint_study_over(&a->picture, capture, contest_over[k], &s->over[k].error, err);
+    }
+    return ok;
+}
+
 /* The run whose images are looked at: with diagnostics, which the timed ones are without. */
 static bool look(const struct contest *contest, struct contestant *c, struct glint_capture *capture,
                  const uint8_t *surfaces, struct showing *s, struct answer *a, struct glint_error *err) {
@@ -167,7 +187,8 @@ static bool look(const struct contest *contest, struct contestant *c, struct gli
     struct glint_error no_truth = {0};
     if (!glint_replay_load(c->replay, capture, err) ||
         !glint_replay_run(c->replay, c->pipeline, &options, progress_report, contest->progress, err) ||
-        !note_passes(s, c, err) || !read_found(c, glint_capture_find(capture, "gbuffer"), a, err))
+        !note_passes(s, c, err) || !read_found(c, glint_capture_find(capture, "gbuffer"), a, err) ||
+        !read_picture(c, capture, s, a, err))
         return false;
     size_t pixels = (size_t)a->found.width * a->found.height;
     count_given(s, a->given, surfaces, pixels);

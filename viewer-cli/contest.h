@@ -15,6 +15,10 @@ struct contestant {
     struct glint_replay *replay;
 };
 
+/* Parts of a capture that cover its opaque surfaces. */
+enum { CONTEST_OVER = 2 };
+extern const char *const contest_over[CONTEST_OVER];
+
 /* Of the rounds' sums over the passes, in ms. */
 struct contest_time {
     uint32_t n;
@@ -29,6 +33,11 @@ struct showing {
     uint64_t reflecting[GLINT_SURFACE_COUNT], given[GLINT_SURFACE_COUNT];
     struct glint_image_errors own;    /* where the preset gives a reflection */
     struct glint_image_errors shared; /* where every preset does */
+    /* the finished picture against the capture's `scene` where water or glass covers it; no pixels without them */
+    struct {
+        bool drawn; /* some pass looked at it */
+        struct glint_image_error error;
+    } over[CONTEST_OVER];
     struct glint_ends ends;
     struct contest_time frame, cubemaps; /* cubemaps: work that is paid when a cube map changes */
     double *frame_ms, *cubemaps_ms;      /* each round's; malloc'd */
@@ -61,6 +70,8 @@ struct answer {
     struct glint_pixels found, truth; /* truth: of the lobe that the preset draws from; empty without one */
     float *truth_error;
     uint8_t *given;
+    struct glint_pixels picture; /* the last one; empty without one */
+    char picture_name[64];
 };
 bool contest_draw_truth(struct picture *cells, size_t columns, const struct glint_pixels *truth,
                         struct glint_capture *capture, struct glint_error *err);

@@ -136,6 +136,28 @@ static void print_ends(const struct contest_table *t) {
     free(titles);
 }
 
+/* Water and glass lie over what the other table compares. */
+static void print_over(const struct contest_table *t) {
+    static const char *const titles[] = {"<capture", "<preset", "<part", ">pixels", ">error", "<", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < t->capture_count * t->contest->count; i++)
+        for (int k = 0; k < CONTEST_OVER; k++) {
+            const struct glint_image_error *e = &t->showings[i].over[k].error;
+            if (!t->showings[i].ran || e->pixels == 0) continue;
+            table_cell(table, "%s", base_name(t->captures[i / t->contest->count]));
+            table_cell(table, "%s", t->contest->contestants[i % t->contest->count].label);
+            table_cell(table, "%s", contest_over[k]);
+            table_cell(table, "%llu", (unsigned long long)e->pixels);
+            table_cell(table, "%.3f", e->symmetric);
+            table_cell(table, "%s", t->showings[i].over[k].drawn ? "" : "not drawn");
+        }
+    if (!table_is_empty(table)) {
+        puts("\nthe finished picture against the capture's scene, where water or glass covers the opaque surfaces:\n");
+        table_print(table, stdout);
+    }
+    table_destroy(&table);
+}
+
 static void print_notes(const struct contest_table *t) {
     for (size_t c = 0; c < t->capture_count; c++)
         for (size_t p = 0; p < t->contest->count; p++) {
@@ -156,6 +178,7 @@ void contest_print(const struct contest_table *t) {
     print_errors(t);
     printf("\ntimes: median of %u rounds in turns on %s%s\n", t->contest->rounds, device->name,
            device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+    print_over(t);
     print_ends(t);
     print_notes(t);
 }
@@ -193,6 +216,18 @@ static json_t *ends_json(const struct showing *s) {
     return rows;
 }
 
+static json_t *over_json(const struct showing *s) {
+    json_t *rows = json_array();
+    for (int k = 0; k < CONTEST_OVER; k++) {
+        const struct glint_image_error *e = &s->over[k].error;
+        if (e->pixels)
+            json_array_append_new(rows, json_pack("{s:s, s:b, s:I, s:o, s:o}", "part", contest_over[k], "drawn",
+                                                  s->over[k].drawn, "pixels", (json_int_t)e->pixels, "symmetric",
+                                                  json_number(e->symmetric), "rmse", json_number(e->rmse)));
+    }
+    return rows;
+}
+
 static json_t *time_json(const struct contest_time *time) {
     return time->n ? json_pack("{s:I, s:f, s:f, s:f}", "n", (json_int_t)time->n, "min", time->min, "median",
                                time->median, "max", time->max)
@@ -203,10 +238,11 @@ static json_t *showing_json(const struct contestant *c, const struct showing *s)
     json_t *json = json_pack("{s:s, s:b, s:s}", "preset", c->label, "ran", s->ran, "notes", s->notes ? s->notes : "");
     if (s->failure[0]) json_object_set_new(json, s->ran ? "not_compared" : "failure", json_string(s->failure));
     if (!s->ran) return json;
-    json_object_update_new(json, json_pack("{s:o, s:o, s:I, s:f, s:f, s:o, s:o, s:O}", "surfaces", surfaces_json(s),
-                                           "ends", ends_json(s), "rays", (json_int_t)s->ends.rays, "steps",
-                                           s->ends.steps, "fetches", s->ends.fetches, "frame_ms", time_json(&s->frame),
-                                           "cubemaps_ms", time_json(&s->cubemaps), "passes", s->passes));
+    json_object_update_new(json, json_pack("{s:o, s:o, s:o, s:I, s:f, s:f, s:o, s:o, s:O}", "surfaces",
+                                           surfaces_json(s), "over", over_json(s), "ends", ends_json(s), "rays",
+                                           (json_int_t)s->ends.rays, "steps", s->ends.steps, "fetches", s->ends.fetches,
+                                           "frame_ms", time_json(&s->frame), "cubemaps_ms", time_json(&s->cubemaps),
+                                           "passes", s->passes));
     return json;
 }
 
@@ -247,6 +283,8 @@ static void put_showing(FILE *out, const struct showing *s) {
         put_number(out, compared, s->own.of[of].rmse);
     }
     put_number(out, s->ran && s->shared.of[0].pixels, s->shared.of[0].symmetric);
+    for (int k = 0; k < CONTEST_OVER; k++)
+        put_number(out, s->ran && s->over[k].error.pixels, s->over[k].error.symmetric);
     put_number(out, s->ends.rays > 0, s->ends.steps);
     put_number(out, s->ends.rays > 0, s->ends.fetches);
     put_number(out, s->frame.n > 0, s->frame.median);
@@ -263,7 +301,7 @@ char *contest_csv(const struct contest_table *t) {
         const char *name = glint_surface_name((enum glint_surface)(k % GLINT_SURFACE_COUNT));
         fprintf(out, ",%s coverage,%s error,%s RMSE", name, name, name);
     }
-    fputs(",shared error,steps,fetches,frame ms,cube maps ms,notes\n", out);
+    fputs(",shared error,water error,transparent error,steps,fetches,frame ms,cube maps ms,notes\n", out);
     for (size_t c = 0; c < t->capture_count; c++)
         for (size_t p = 0; p < t->contest->count; p++) {
             const struct showing *s = showing_of(t, c, p);

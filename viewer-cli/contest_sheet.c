@@ -54,42 +54,12 @@ static bool draw_given(struct picture *cell, const struct answer *a, const char 
     return ok;
 }
 
-/* The last picture at full resolution that a run makes: composed, or what lays water or glass over it. */
-static const struct glint_image *last_picture(struct glint_replay *replay) {
-    size_t count = 0;
-    const struct glint_pass_result *results = glint_replay_results(replay, &count);
-    const struct glint_image *last = NULL;
-    bool composed = false;
-    for (size_t i = 0; i < count; i++) {
-        composed = composed || !strcmp(results[i].pass->slot, "compose");
-        for (size_t r = 0; composed && results[i].ran && r < results[i].pass->row_count; r++) {
-            const struct glint_row *row = &results[i].pass->rows[r];
-            if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
-            const struct glint_image *image = glint_replay_find_image(replay, row->name);
-            if (image) last = image;
-        }
-    }
-    return last;
-}
-
-static bool draw_picture(struct picture *cell, struct glint_replay *replay, const char *label,
-                         struct glint_error *err) {
-    const struct glint_image *image = last_picture(replay);
-    if (!image) return true;
-    struct glint_pixels pixels = {image->width, image->height, image->components, NULL};
-    pixels.values = malloc((size_t)image->width * image->height * image->components * sizeof *pixels.values);
-    bool ok = pixels.values ? glint_replay_read_image(replay, image, GLINT_F32, pixels.values, err) &&
-                                  draw(cell, &pixels, image->name, label, err)
-                            : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    glint_pixels_finish(&pixels);
-    return ok;
-}
-
 bool contest_draw(struct picture *cells, size_t columns, size_t column, const struct contestant *contestant,
                   const struct answer *answer, const uint8_t *surfaces, struct glint_error *err) {
     return draw_given(&cells[column], answer, contestant->label, err) &&
            (!answer->truth.values || draw_error(&cells[columns + column], answer, surfaces, contestant->label, err)) &&
-           draw_picture(&cells[2 * columns + column], contestant->replay, contestant->label, err);
+           (!answer->picture.values ||
+            draw(&cells[2 * columns + column], &answer->picture, answer->picture_name, contestant->label, err));
 }
 
 bool contest_draw_truth(struct picture *cells, size_t columns, const struct glint_pixels *truth,

@@ -89,6 +89,15 @@ struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeli
    reflection's alpha and, where the run makes one, the image `contribution`. malloc'd, NULL on failure. */
 uint8_t *glint_study_given(struct glint_replay *replay, const struct glint_pixels *reflection, struct glint_error *err);
 
+/* The last picture at full resolution, composed or with what is laid over it; NULL when there is none. */
+const struct glint_image *glint_study_picture(struct glint_replay *replay);
+/* Whether a pass of the last run read `part` of the capture ("water", "transparent"). */
+bool glint_study_draws(struct glint_replay *replay, const char *part);
+/* A picture against the capture's `scene` where `part` covers the opaque surfaces; 0 pixels where the capture lacks one of
+   them. */
+bool glint_study_over(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
+                      struct glint_image_error *error, struct glint_error *err);
+
 /* ---- Rays ---- */
 
 /* Rays that ended for one reason in one tracer, by what the tracers' diagnostics say, whatever the truth. */
