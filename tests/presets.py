@@ -73,6 +73,17 @@ def shared(compared):
     return table(["shared", *SURFACES], rows)
 
 
+def over(compared):
+    """The finished picture where water or glass covers what the other tables compare."""
+    parts = dict.fromkeys(o["part"] for p in compared if p["ran"] for o in p["over"])
+    def cell(p, part):
+        there = next(o for o in p["over"] if o["part"] == part)
+        return f"{there['symmetric']:.3f}" + ("" if there["drawn"] else ", not drawn")
+
+    rows = [[f"`{p['preset']}`", *(cell(p, part) for part in parts)] for p in compared if p["ran"]]
+    return "\nThe finished picture against the capture's, where these cover the opaque surfaces:\n\n" + table(["", *parts], rows) if parts else ""
+
+
 def ends(compared):
     """Why rays ended: a row for each reason that occurs, a column for each preset with rays."""
     traced = [p for p in compared if p["ran"] and p["rays"]]
@@ -140,7 +151,7 @@ the pixels that every preset gives. The truth is the lobe that the preset draws 
         if any(p.get("surfaces") for p in compared):
             text += f"![{scene}: the true reflection, what each preset gives, its error, the composed picture](presets-{scene}.jpg)\n\n"
             text += errors(compared, timed)
-            text += "\n" + shared(compared)
+            text += "\n" + shared(compared) + over(compared)
             traced = ends(compared)
             text += f"\nWhy rays ended: share of all rays in %, error of their pixels.\n\n{traced}" if traced else ""
         told = notes(compared)

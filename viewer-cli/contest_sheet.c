@@ -66,13 +66,15 @@ bool contest_draw_truth(struct picture *cells, size_t columns, const struct glin
                         struct glint_capture *capture, struct glint_error *err) {
     static const char *const rgb[] = {"R", "G", "B"};
     const char *path = glint_capture_path(capture), *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-    const struct glint_part_info *lit = glint_capture_find(capture, "lit");
+    const struct glint_part_info *scene = glint_capture_find(capture, "scene");
+    const struct glint_part_info *lit = scene ? scene : glint_capture_find(capture, "lit");
     if (truth && !draw(&cells[0], truth, "the true reflection", name, err)) return false;
     if (!lit) return true;
     struct glint_pixels pixels = {lit->width, lit->height, 3, NULL};
     pixels.values = malloc((size_t)lit->width * lit->height * 3 * sizeof *pixels.values);
     bool ok = pixels.values ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
-                                  draw(&cells[2 * columns], &pixels, "lit, without reflections", name, err)
+                                  draw(&cells[2 * columns], &pixels,
+                                       scene ? "the true picture" : "lit, without reflections", name, err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     glint_pixels_finish(&pixels);
     return ok;

@@ -87,6 +87,23 @@ static void several_captures_make_one_table_and_one_sheet(void **state) {
     free(sheet.rgb);
 }
 
+/* What lies over the opaque surfaces is compared in the finished picture; who lays nothing there is further from it. */
+static void water_is_compared_in_the_finished_picture(void **state) {
+    (void)state;
+    free(glint_ok("sample", "lake", "-o", in_folder("lake.exr"), "--size=48x27", "--cube-size=16", "--truth=1"));
+    char *text = glint_ok("compare", in_folder("lake.exr"), "--presets=gtav,kf2", "--repeat=1", "--json");
+    json_t *json = parse_json(text);
+    const json_t *with = named(json_object_get(preset_of(json, 0, "gtav"), "over"), "part", "water");
+    const json_t *without = named(json_object_get(preset_of(json, 0, "kf2"), "over"), "part", "water");
+    assert_true(json_is_true(json_object_get(with, "drawn")) && json_is_false(json_object_get(without, "drawn")));
+    assert_true(number(with, "pixels") > 200 && number(with, "pixels") == number(without, "pixels"));
+    assert_true(number(with, "symmetric") < 0.7 * number(without, "symmetric"));
+    /* the reflection of opaque surfaces is no water's */
+    assert_true(number(surfaces_of(preset_of(json, 0, "gtav"), "all"), "pixels") < number(with, "pixels"));
+    json_decref(json);
+    free(text);
+}
+
 static void settings_reach_their_preset_alone(void **state) {
     (void)state;
     char *text = glint_ok("compare", in_folder("box.exr"), "--presets=kf2,mafia3_shipped", "--repeat=1", "--json",
@@ -111,6 +128,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_are_those_of_replay),
         cmocka_unit_test(several_captures_make_one_table_and_one_sheet),
+        cmocka_unit_test(water_is_compared_in_the_finished_picture),
         cmocka_unit_test(settings_reach_their_preset_alone),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
