@@ -127,7 +127,7 @@ def measure(glint, scenes, names, docs, repeat):
             told = json.loads((out / "table.json").read_text())
             found[scene], device = told["captures"][0], told["device"]
             if any(p.get("surfaces") for p in found[scene]["presets"]):
-                run("oiiotool", out / "sheet.png", "--ch", "R,G,B", "--compression", "jpeg:88", "-o", docs / f"presets-{scene}.jpg")
+                run("oiiotool", out / "sheet.png", "--ch", "R,G,B", "--compression", "jpeg:80", "-o", docs / f"presets-{scene}.jpg")
             capture.unlink()
     return found, device
 
