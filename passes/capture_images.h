@@ -5,6 +5,7 @@ CAPTURE(normal_full,      RGBA16F, "1",  FULL,     "gbuffer", "normal.X normal.Y
 CAPTURE(vertex_normal_full, RGBA16F, "1", FULL,   "gbuffer", "vertexNormal.X vertexNormal.Y vertexNormal.Z -", false, 0, "xyz: unit geometric normal, world axes")
 CAPTURE(albedo_full,      RGBA16F, "1",  FULL,     "gbuffer", "albedo.R albedo.G albedo.B material.metalness", true, 0, "rgb: base colour; a: metalness")
 CAPTURE(specular_full,    R16F,    "1",  FULL,     "gbuffer", "material.specular", true, 0, "dielectric reflectance / 0.08; 0 reflects nothing")
+CAPTURE(fresnel_full,     R16F,    "1",  FULL,     "gbuffer", "material.fresnel", false, 1, "how much of its rise towards grazing angles the reflectance makes")
 CAPTURE(motion_full,      RG32F,   "uv", FULL,     "gbuffer", "motion.X motion.Y", false, 0, "uv one frame earlier minus uv now")
 CAPTURE(motion_depth_full, R32F,  "m",  FULL,     "gbuffer", "motion.Z", false, 0, "depth one frame earlier minus depth now")
 CAPTURE(stencil_full,     R8UI,    "id", FULL,     "gbuffer", "stencil.id", false, 0, "the engine's own ids, their lowest 8 bits; frame.foreground says which are of a class")

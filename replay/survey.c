@@ -97,6 +97,8 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     }
     survey->has_sky = glint_capture_find(capture, "sky") != NULL;
     survey->has_planar = glint_capture_find(capture, MIRROR_PART) != NULL;
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
+    survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
     survey->has_water = glint_capture_find(capture, "water") != NULL;
     survey->has_previous = glint_capture_frame(capture)->has_previous;
 }
@@ -143,6 +145,11 @@ bool survey_fact(const struct glint_survey *survey, const char *fact, char *reas
         const bool has = water ? survey->has_water : survey->has_planar;
         snprintf(reason, size, "%s %s", has ? "a" : "no", water ? "water surface" : "planar reflection map");
         return has;
+    }
+    if (strcmp(fact, "fresnel") == 0) {
+        snprintf(reason, size, "materials %s how they rise towards grazing angles",
+                 survey->has_fresnel ? "say" : "do not say");
+        return survey->has_fresnel;
     }
     *known = false;
     return false;

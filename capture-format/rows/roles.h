@@ -11,6 +11,7 @@ ROLE(gbuffer, "gbuffer", FRAME, true, false, true, false, "the opaque surface se
     CHANNEL("material.roughness", true,  "1",  "roughness",     "perceptual roughness r in [0, 1]; GGX alpha = r²")
     CHANNEL("material.metalness", true,  "1",  "",              "0 dielectric, 1 metal")
     CHANNEL("material.specular",  true,  "1",  "",              "dielectric reflectance at normal incidence / 0.08, in [0, 1]; 0 reflects nothing")
+    CHANNEL("material.fresnel",   false, "1",  "",              "how much of its rise towards grazing angles the reflectance makes, in [0, 1]; 1 where absent")
     CHANNEL("albedo.R",           true,  "1",  "",              "linear base colour, Rec. 709 primaries, in [0, 1]")
     CHANNEL("albedo.G",           true,  "1",  "",              "")
     CHANNEL("albedo.B",           true,  "1",  "",              "")

@@ -20,7 +20,8 @@ vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
     vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
     float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0; // NaN is 0
-    return environment_reflectance(f0, roughness, cosine);
+    float rise = fact_fresnel ? texelFetch(fresnel_full, pixel, 0).x : 1.0;
+    return environment_reflectance(f0, roughness, cosine, rise);
 }
 
 // The last of the reflection images that the pipeline makes.

@@ -26,27 +26,29 @@ float way_through(vec3 towards, float thickness_m, vec3 refracted) {
     return thickness_m * max(-dot(towards, frame.up.xyz), 0.0) / sinks;
 }
 
+ivec2 pixel_at(vec2 uv) { return clamp(ivec2(uv * vec2(frame.size.xy)), ivec2(0), ivec2(frame.size.xy) - 1); }
+
+// Where a point is seen.
+vec2 seen_at(vec3 point) { return project(mat3(frame.view_from_world) * point, frame.uv_from_view, frame.depth_range.z); }
+
 // What is behind the water. The bottom's depth is first taken where the view ray meets it, then where the refracted ray
-// does; a place where no water is, or something stands before it, shows nothing of the bottom.
+// does; a place where no water is, or something stands before it, says nothing of the bottom.
 vec3 seen_through(Water water, ivec2 pixel) {
     vec3 bottom = texelFetch(composed, pixel, 0).rgb;
     float way_m = water.thickness_m;
     if (refraction) {
         vec3 ray = refract(water.towards, water.normal, 1.0 / index);
-        float straight_m = way_m;
-        way_m = way_through(water.towards, straight_m, ray);
-        vec2 size = vec2(frame.size.xy);
-        vec3 end = mat3(frame.view_from_world) * (water.position + way_m * ray);
-        ivec2 at = clamp(ivec2(project(end, frame.uv_from_view, frame.depth_range.z) * size), ivec2(0), ivec2(size) - 1);
-        float there_m = texelFetch(water_normal, at, 0).w;
-        if (there_m > 0.0) {
-            vec3 towards = mat3(frame.world_from_view) * view_position((vec2(at) + 0.5) / size, 1.0, frame.view_from_uv, frame.depth_range.z);
+        way_m = way_through(water.towards, way_m, ray);
+        vec2 uv = seen_at(water.position + way_m * ray);
+        float there_m = texelFetch(water_normal, pixel_at(uv), 0).w;
+        for (int i = 0; i < refinements && there_m > 0.0; ++i) {
+            vec2 middle = (vec2(pixel_at(uv)) + 0.5) / vec2(frame.size.xy);
+            vec3 towards = mat3(frame.world_from_view) * view_position(middle, 1.0, frame.view_from_uv, frame.depth_range.z);
             way_m = way_through(normalize(towards), there_m, ray);
-            end = mat3(frame.view_from_world) * (water.position + way_m * ray);
-            vec2 uv = project(end, frame.uv_from_view, frame.depth_range.z);
-            at = clamp(ivec2(uv * size), ivec2(0), ivec2(size) - 1);
-            if (texelFetch(water_normal, at, 0).w > 0.0) bottom = textureLod(sampler2D(composed, linear_clamp), uv, 0.0).rgb;
+            uv = seen_at(water.position + way_m * ray);
+            there_m = texelFetch(water_normal, pixel_at(uv), 0).w;
         }
+        if (there_m > 0.0) bottom = textureLod(sampler2D(composed, linear_clamp), uv, 0.0).rgb;
     }
     float left = pow(max(1.0 - water.opacity, 0.0), depth ? way_m : 1.0);
     return mix(water.own, bottom, left);

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -48,14 +49,21 @@ static void fill(const struct plain *plain, float *values) {
 static void add_part(struct glint_writer *writer, const char *name, const struct plain *plain, const char *const *names,
                      const float *values, size_t count, const uint32_t *ids) {
     struct glint_error err = {0};
-    struct glint_channel channels[PLAIN_CHANNELS + 1] = {{0}};
+    struct glint_channel channels[PLAIN_CHANNELS + 2] = {{0}};
+    const size_t pixels = (size_t)plain->width * plain->height;
+    float *fresnel = plain->fresnel && strcmp(name, "gbuffer") == 0 ? malloc(pixels * sizeof *fresnel) : NULL;
+    for (size_t i = 0; fresnel && i < pixels; ++i) fresnel[i] = *plain->fresnel;
+    if (fresnel)
+        channels[count] = (struct glint_channel){.name = "material.fresnel", .type = GLINT_F32, .data = fresnel};
     for (size_t k = 0; k < count; ++k)
         channels[k] = (struct glint_channel){
             .name = names[k], .type = GLINT_F32, .data = &values[k * plain->width * plain->height]};
+    count += fresnel != NULL;
     if (ids) channels[count++] = (struct glint_channel){.name = "stencil.id", .type = GLINT_U32, .data = ids};
     const struct glint_part part = {
         .name = name, .width = plain->width, .height = plain->height, .channels = channels, .channel_count = count};
     check(glint_writer_add_part(writer, &part, &err), &err);
+    free(fresnel);
 }
 
 void plain_direction(uint32_t face, double x, double y, uint32_t size, double out[3]) {
