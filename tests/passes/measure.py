@@ -27,7 +27,8 @@ CUBEMAP = [
 def measure(glint, capture, settings):
     command = [glint, 'replay', str(capture), '--json', '--against', 'truth']
     # What comes after the traces, or serves rough surfaces alone, is left out.
-    for slot in ('cubemap_mips', 'sky_mips', 'lit_mips', 'blur', 'temporal', 'resolve_sharp', 'temporal_sharp'):
+    command += ['--use', 'screen_trace=linear']
+    for slot in ('hiz', 'cubemap_mips', 'sky_mips', 'lit_mips', 'blur', 'temporal', 'resolve_sharp', 'temporal_sharp'):
         command += ['--use', f'{slot}=none']
     for s in MIRROR + settings:
         command += ['--set', s]
