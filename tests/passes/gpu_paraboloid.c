@@ -29,6 +29,7 @@ static void load(struct gpu *gpu) {
                                 .height = 8,
                                 .fov_y_degrees = 60,
                                 .floor = true,
+                                .color_only = true,
                                 .cube_size = SIZE,
                                 .cube_count = 2,
                                 .cube = colored_by_direction};

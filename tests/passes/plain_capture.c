@@ -101,7 +101,9 @@ static void add_cube(struct glint_writer *writer, const struct plain *plain, uin
                                     .width = size,
                                     .height = 6 * size,
                                     .channels = channels,
-                                    .channel_count = is_sky ? 3 : 5,
+                                    .channel_count = is_sky              ? 3
+                                                     : plain->color_only ? 4
+                                                                         : 5,
                                     .cubemap = is_sky ? NULL : &plain->cubes[number]};
     check(glint_writer_add_part(writer, &part, &err), &err);
     /* The writer has copied them. */

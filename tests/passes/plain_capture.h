@@ -44,6 +44,7 @@ struct plain {
     double jitter_px[2], previous_jitter_px[2]; /* of the projection; the wall's motion says both */
     /* Cube maps, cube_size wide: R G B A and distance in a unit direction. NULL: none. */
     uint32_t cube_size, cube_count;
+    bool color_only; /* without distances */
     struct glint_cubemap cubes[4];
     void (*cube)(uint32_t number, const double direction[3], float out[5]);
     void (*sky)(const double direction[3], float out[3]); /* as wide as the cube maps; NULL: none */

@@ -158,6 +158,20 @@ static void plan_lists_every_pass_with_a_reason(void **state) {
     free(text);
 }
 
+/* A preset for water, on a scene that has none. */
+static void plan_says_what_the_scene_has_nothing_for(void **state) {
+    (void)state;
+    char *text = glint_ok("plan", capture, "--preset=gtav", "--json");
+    json_t *json = parse_json(text), *passes = json_object_get(json, "passes");
+    const json_t *water = named(passes, "slot", "water"), *planar = named(passes, "slot", "planar");
+    assert_true(json_is_false(json_object_get(water, "runs")) && json_is_false(json_object_get(planar, "runs")));
+    assert_string_equal(json_string_value(json_object_get(water, "reason")), "no water surface");
+    assert_contains(json_string_value(json_object_get(planar, "reason")), "no planar reflection map");
+    assert_true(json_is_true(json_object_get(named(passes, "slot", "compose"), "runs")));
+    json_decref(json);
+    free(text);
+}
+
 static void replay_reports_times_and_leaves_a_run(void **state) {
     (void)state;
     char *text = glint_ok("replay", capture, "-o", in_folder("timed"), "--repeat=3", "--json");
@@ -450,6 +464,7 @@ int main(void) {
         cmocka_unit_test(ranges_equal_those_of_oiiotool),
         cmocka_unit_test(validate_accepts_it_and_refuses_a_damaged_one),
         cmocka_unit_test(plan_lists_every_pass_with_a_reason),
+        cmocka_unit_test(plan_says_what_the_scene_has_nothing_for),
         cmocka_unit_test(replay_reports_times_and_leaves_a_run),
         cmocka_unit_test(replay_finds_cube_map_work_of_an_earlier_call),
         cmocka_unit_test(replay_compares_with_the_truth),
