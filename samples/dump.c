@@ -102,12 +102,12 @@ static void encode_pixels(const struct dump *dump, const struct view *view, cons
 }
 
 static void put_normal(struct part *part, const char *const names[3], enum glint_normal_encoding encoding,
-                       const vec3 *source) {
+                       const vec3 *source, size_t stride_bytes) {
     struct storage storage = storage_normal(encoding);
-    put(part, names[0], storage, &source->x, sizeof(struct pixel));
-    put(part, names[1], storage, &source->y, sizeof(struct pixel));
+    put(part, names[0], storage, &source->x, stride_bytes);
+    put(part, names[1], storage, &source->y, stride_bytes);
     if (encoding == GLINT_NORMAL_SIGNED || encoding == GLINT_NORMAL_UNORM)
-        put(part, names[2], storage, &source->z, sizeof(struct pixel));
+        put(part, names[2], storage, &source->z, stride_bytes);
 }
 
 bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *view, const struct pixel *pixels,
@@ -124,8 +124,8 @@ bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *
     struct part part;
     part_init(&part, dump, name, view->width, view->height);
     put(&part, "depth.Z", storage_depth(e->depth), &p->depth, stride);
-    put_normal(&part, normal, e->normal, &p->normal);
-    put_normal(&part, vertex, e->vertex_normal, &p->vertex_normal);
+    put_normal(&part, normal, e->normal, &p->normal, stride);
+    put_normal(&part, vertex, e->vertex_normal, &p->vertex_normal, stride);
     put(&part, "material.roughness", storage_roughness(e->roughness), &p->roughness, stride);
     put(&part, "material.metalness", byte, &p->metalness, stride);
     put(&part, "material.specular", byte, &p->specular, stride);
@@ -200,10 +200,9 @@ bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels
            part_done(&part, dump, err);
 }
 
-bool dump_scene(const struct dump *dump, const struct water_pixel *water, struct glint_error *err) {
+bool dump_scene(const struct dump *dump, const vec3 *scene, size_t stride_bytes, struct glint_error *err) {
     struct part part;
-    return color_part(&part, dump, "scene", dump->view->width, dump->view->height, in_half, &water->scene,
-                      sizeof *water, err) &&
+    return color_part(&part, dump, "scene", dump->view->width, dump->view->height, in_half, scene, stride_bytes, err) &&
            part_done(&part, dump, err);
 }
 
@@ -222,16 +221,39 @@ bool dump_water(const struct dump *dump, const struct water_pixel *water, struct
         w[i].normal = encode_normal(e->normal, e->normal_space, dump->view, water[i].normal);
     }
     if (ok) {
-        struct storage storage = storage_normal(e->normal);
         put(&part, "opacity", in_half, &w->opacity, stride);
-        put(&part, normal[0], storage, &w->normal.x, stride);
-        put(&part, normal[1], storage, &w->normal.y, stride);
-        if (e->normal != GLINT_NORMAL_OCTAHEDRAL) put(&part, normal[2], storage, &w->normal.z, stride);
+        put_normal(&part, normal, e->normal, &w->normal, stride);
         put(&part, "depth.Z", storage_depth(e->depth), &w->depth, stride);
         put(&part, "thickness.Z", in_half, &w->thickness, stride);
         ok = part_done(&part, dump, err);
     }
     free(w);
+    return ok;
+}
+
+bool dump_glass(const struct dump *dump, const struct glass_pixel *glass, struct glint_error *err) {
+    static const char *const normal[3] = {"normal.X", "normal.Y", "normal.Z"};
+    const struct glint_encodings *e = &dump->encodings;
+    size_t count = (size_t)dump->view->width * dump->view->height, stride = sizeof *glass;
+    struct glass_pixel *g = malloc(count * sizeof *g);
+    struct part part;
+    bool ok = g || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part transparent");
+    ok = ok && color_part(&part, dump, "transparent", dump->view->width, dump->view->height, in_half, &glass->color,
+                          stride, err);
+    for (size_t i = 0; ok && i < count; i++) {
+        g[i] = glass[i];
+        g[i].depth = encode_depth(e->depth, dump->view, glass[i].depth);
+        g[i].normal = encode_normal(e->normal, e->normal_space, dump->view, glass[i].normal);
+        g[i].roughness = encode_roughness(e->roughness, glass[i].roughness);
+    }
+    if (ok) {
+        put(&part, "A", in_half, &g->opacity, stride);
+        put_normal(&part, normal, e->normal, &g->normal, stride);
+        put(&part, "depth.Z", storage_depth(e->depth), &g->depth, stride);
+        put(&part, "material.roughness", storage_roughness(e->roughness), &g->roughness, stride);
+        ok = part_done(&part, dump, err);
+    }
+    free(g);
     return ok;
 }
 

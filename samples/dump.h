@@ -2,6 +2,7 @@
 #ifndef SAMPLES_DUMP_H
 #define SAMPLES_DUMP_H
 
+#include "glass.h"
 #include "water.h"
 
 struct dump {
@@ -25,7 +26,9 @@ bool dump_cubemap_elsewhere(const struct dump *dump, uint32_t index, const struc
 bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels, struct glint_error *err);
 bool dump_water(const struct dump *dump, const struct water_pixel *water, struct glint_error *err);
 /* The finished picture. */
-bool dump_scene(const struct dump *dump, const struct water_pixel *water, struct glint_error *err);
+/* The finished picture. */
+bool dump_scene(const struct dump *dump, const vec3 *scene, size_t stride_bytes, struct glint_error *err);
+bool dump_glass(const struct dump *dump, const struct glass_pixel *glass, struct glint_error *err);
 /* By the mirrored camera; `planar` holds the plane and that camera as they are stored. */
 bool dump_planar(const struct dump *dump, const struct view *mirrored, const struct glint_planar *planar,
                  const struct texel *texels, struct glint_error *err);

@@ -220,10 +220,27 @@ static bool write_water(struct session *s, const struct dump *dump, const struct
     move_camera(&planar.camera, o->offset);
     bool ok = (water && texels) || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the water");
     ok = ok && render_water(s->now, view, s->pixels, water, &s->job, 0, err) && dump_water(dump, water, err) &&
-         dump_scene(dump, water, err) && render_planar(s->now, &mirrored, texels, &s->job, 0, err) &&
+         dump_scene(dump, &water->scene, sizeof *water, err) &&
+         render_planar(s->now, &mirrored, texels, &s->job, 0, err) &&
          dump_planar(dump, &mirrored, &planar, texels, err);
     free(water);
     free(texels);
+    return ok;
+}
+
+/* The panes over the frame, and the picture with them. */
+static bool write_glass(struct session *s, const struct dump *dump, const struct view *view, double time,
+                        struct glint_error *err) {
+    bool any = false;
+    for (uint32_t i = 0; i < s->scene.mesh_count; i++) any |= (s->scene.meshes[i].flags & MESH_GLASS) != 0;
+    if (!any) return true;
+    struct glass_pixel *glass = calloc((size_t)view->width * view->height, sizeof *glass);
+    struct world *panes = world_create(&s->scene, WORLD_GLASS, time, err);
+    bool ok = panes && (glass || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the glass"));
+    ok = ok && render_glass(s->now, panes, view, s->pixels, glass, &s->job, 0, err) && dump_glass(dump, glass, err) &&
+         dump_scene(dump, &glass->scene, sizeof *glass, err);
+    world_destroy(&panes);
+    free(glass);
     return ok;
 }
 
@@ -235,6 +252,7 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
         return false;
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
     if (s->scene.water.there && !write_water(s, dump, view, number, err)) return false;
+    if (!write_glass(s, dump, view, (double)number - 1, err)) return false;
     if (!s->truth) return true;
     return render_truth(s->now, view, s->pixels, s->options.truth_samples, 0, s->truth, &s->job,
                         s->options.truth_samples, err) &&

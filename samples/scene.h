@@ -33,6 +33,7 @@ enum mesh_flags {
     MESH_DETAIL = 1,     /* not in imperfect cube maps */
     MESH_SIMPLIFIED = 2, /* only in imperfect cube maps */
     MESH_MOVING = 4,     /* not in imperfect cube maps; moves by `step` each frame */
+    MESH_GLASS = 16,     /* panes, which glass.h alone sees */
     MESH_STIPPLED = 8    /* the camera sees it in every other pixel, as engines fade things near it or far away */
 };
 

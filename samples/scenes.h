@@ -11,6 +11,7 @@
     SCENE(matte, "sunlit blocks of specular 0: nothing reflects")                                                      \
     SCENE(street,                                                                                                      \
           "wet road at dusk with puddles, lit windows, stippled shrubs, thin rails, a car that no cube map holds")     \
+    SCENE(glasshouse, "hall of glass on a terrace by day: panes before and behind what they reflect")                  \
     SCENE(room, "corridor and room with windows, polished tiles, a metal column, stairs, flower pots")                 \
     SCENE(lake, "rippling water between hills, with a jetty and a boathouse; a planar reflection map of it")           \
     SCENE(hotel, "lobby with a gallery and the street before it at night; 22 cube maps on three floors and outdoors")

@@ -22,9 +22,10 @@ static vec3 displacement(const struct world *world, const struct mesh *mesh) {
 
 static bool part_of(const struct mesh *mesh, enum world_kind kind) {
     if (!mesh->triangle_count) return false;
-    static const uint32_t left_out[] = {[WORLD_ALL] = MESH_SIMPLIFIED,
-                                        [WORLD_STATIC] = MESH_SIMPLIFIED | MESH_MOVING,
-                                        [WORLD_SIMPLIFIED] = MESH_DETAIL | MESH_MOVING};
+    if (kind == WORLD_GLASS) return mesh->flags & MESH_GLASS;
+    static const uint32_t left_out[] = {[WORLD_ALL] = MESH_SIMPLIFIED | MESH_GLASS,
+                                        [WORLD_STATIC] = MESH_SIMPLIFIED | MESH_MOVING | MESH_GLASS,
+                                        [WORLD_SIMPLIFIED] = MESH_DETAIL | MESH_MOVING | MESH_GLASS};
     return !(mesh->flags & left_out[kind]);
 }
 

@@ -7,6 +7,7 @@
 enum world_kind {
     WORLD_ALL,       /* the very scene */
     WORLD_STATIC,    /* what does not move, for baked light */
+    WORLD_GLASS,     /* the panes alone */
     WORLD_SIMPLIFIED /* as imperfect cube maps see it: static, simplified meshes, metals as diffuse */
 };
 
