@@ -21,4 +21,7 @@ CAPTURE(planar_depth,     R32F,    "m",  PLANAR,   "planar.000", "depth.Z", fals
 CAPTURE(water_color,      RGBA16F, "radiance", FULL, "water", "R G B opacity", false, 0, "rgb: light scattered by the water; a: share of the light behind it that a metre of it takes; 0 where there is none")
 CAPTURE(water_normal,     RGBA16F, "1",  FULL,     "water",   "normal.X normal.Y normal.Z thickness.Z", false, 0, "xyz: unit normal, world axes; w: way through the water along the view ray in m")
 CAPTURE(water_depth,      R32F,    "m",  FULL,     "water",   "depth.Z", false, INFINITY, "view-linear depth of the surface; +inf where there is none")
+CAPTURE(transparent_color, RGBA16F, "radiance", FULL, "transparent", "R G B A", false, 0, "rgb: what the nearest transparent surface shows by itself; a: its opacity; 0 where there is none")
+CAPTURE(transparent_normal, RGBA16F, "1", FULL,   "transparent", "normal.X normal.Y normal.Z material.roughness", false, 0, "xyz: its unit normal, world axes; w: perceptual roughness")
+CAPTURE(transparent_depth, R32F,   "m",  FULL,    "transparent", "depth.Z", false, INFINITY, "view-linear depth of it; +inf where there is none")
 CAPTURE(sky,              RGBA16F, "radiance", SKY, "sky",    "R G B -", false, 0, "the sky alone")

@@ -100,6 +100,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
     survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
     survey->has_water = glint_capture_find(capture, "water") != NULL;
+    survey->has_transparent = glint_capture_find(capture, "transparent") != NULL;
     survey->has_previous = glint_capture_frame(capture)->has_previous;
 }
 
@@ -139,6 +140,10 @@ bool survey_fact(const struct glint_survey *survey, const char *fact, char *reas
     if (strcmp(fact, "sky") == 0) {
         snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels are sky", survey->sky, survey->pixels);
         return survey->sky > 0;
+    }
+    if (strcmp(fact, "transparent") == 0) {
+        snprintf(reason, size, "%s transparent surface", survey->has_transparent ? "a" : "no");
+        return survey->has_transparent;
     }
     const bool water = strcmp(fact, "water") == 0;
     if (water || strcmp(fact, "planar") == 0) {

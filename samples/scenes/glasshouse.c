@@ -88,6 +88,6 @@ void build_glasshouse(struct scene *scene) {
     scene->fov_y_rad = 1.0f;
     scene->player = v3(3.4f, 0, 2.4f);
     scene->player_step = scene->eye_step;
-    for (int i = 0; i < 6; i++)
-        scene_cubemap(scene, v3(-4.5f + 4.5f * (float)(i % 3), 1.6f, i < 3 ? 0.6f : -4.0f), true);
+    for (int i = 0; i < 8; i++)
+        scene_cubemap(scene, v3(-4.8f + 3.2f * (float)(i % 4), 1.6f, i < 4 ? 0.6f : -4.0f), true);
 }

@@ -65,7 +65,7 @@ struct glint_survey {
     uint64_t roughness[GLINT_SURVEY_BINS]; /* reflecting pixels by roughness, bins of 0.1 */
     float depth_m[2], roughness_range[2], specular_range[2], metalness_range[2]; /* lowest and highest without sky */
     uint32_t cubemaps, volumes; /* volumes: cube maps with an inner volume */
-    bool has_sky, has_previous, has_planar, has_water, has_fresnel;
+    bool has_sky, has_previous, has_planar, has_water, has_transparent, has_fresnel;
 };
 /* Reads the G-buffer. */
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err);

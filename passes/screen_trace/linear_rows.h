@@ -1,0 +1,16 @@
+/* The linear march through depth_half; of every pass that does it. */
+#line 702
+READ(texture2D, normal_half)
+READ(texture2D, inverse_half)
+SPEC(int,   steps,       32,    1,   1024,  "samples", "002, Linear ray march", "samples along the ray")
+SPEC(bool,  dither,      true,  0,   1,     "1", "002, Dithering", "shift the samples of each ray by a random part of a step")
+SPEC(bool,  interpolate, true,  0,   1,     "1", "glint", "1/z between texels (exact on planes); off: the nearest texel")
+SPEC(bool,  refine,      true,  0,   1,     "1", "000, Secant refine", "meet the surface within the last step; off: the sample that is behind it")
+SPEC(bool,  verify,       true,  0,  1,     "1", "chosen by measuring", "look again where the ray met the surface; off: the step that went behind decides")
+SPEC(bool,  back_faces,  true,  0,   1,     "1", "002, Back-face attenuation", "refuse a surface that is seen from its other side; off: it is hit")
+SPEC(bool,  pass_behind, false, 0,   1,     "1", "chosen by measuring", "go on behind thin objects; off: stop there")
+PUSH(float, length_m,    1000.0, 0.0, 1e6,  "m", "002, Linear ray march", "no farther than this; 0: no ray is traced")
+PUSH(float, growth,      1.5,   0.5, 8.0,   "1", "chosen by measuring", "sample i of n lies at (i/n)^growth of the way; 1: equal steps")
+PUSH(float, thickness,   0.02,  0.0, 100.0, "1", "chosen by measuring", "a ray farther than this part of its depth behind a surface did not hit it")
+PUSH(float, thickness_m, 0.0,   0.0, 1e6,   "m", "002 has none; chosen by measuring", "the same in metres, added; 1e6: all is solid")
+PUSH(float, bias,        0.001, 0.0, 1.0,   "1", "002, Linear ray march", "part of the depth by which a ray must be behind a surface")

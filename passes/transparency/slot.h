@@ -1,0 +1,16 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Transparent surfaces over the picture")
+READ(texture2D, composed)
+READ(texture2D, depth_half)
+READ(utexture2D, pick)
+READ(utexture2D, cubemap_best)
+READ(texture2D, transparent_color)
+READ(texture2D, transparent_normal)
+READ(texture2D, transparent_depth)
+WRITE(image2D, transparent_reflection, RGBA16F, "radiance", HALF, "R G B depth", 0, "what the nearest transparent surface mirrors; a: its depth in m, 0 where there is none")
+WRITE(image2D, finished, RGBA16F, "radiance", FULL, "R G B A", 0, "composed, with the transparent surface over it; a: 1")
+SELF(texture2D, reflected, transparent_reflection)
+DISPATCH(transparent_reflection)
+DISPATCH(finished)
+NEEDS(transparent)
