@@ -46,19 +46,35 @@ Result trace_screen(ivec2 texel, vec2 start, vec3 view, vec3 view_normal) {
     return result;
 }
 
-// Where a ray meets the sphere around the cube map's centre that is as far as what the map shows where the ray was thought to
-// end, again and again. +inf: the sky, or nowhere.
-float ends_in_cubemap(vec3 position, vec3 direction, float travelled_m, uint place) {
+// How much farther the cube map shows its surface than the ray is: negative behind it; the sky is in front of nothing.
+float gap_in_cubemap(vec3 from_center, uint place) {
+    float distance_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(from_center, place), 0.0).x;
+    return min(distance_m, LARGEST) - length(from_center);
+}
+
+// Marched as the screen is: growing steps, closing in on the first surface that the ray was in front of and then behind.
+// +inf: the sky, or nowhere.
+float ends_in_cubemap(vec3 position, vec3 direction, float start_m, uint place) {
     vec3 origin = position - active_centers[place].xyz;
-    float along = dot(origin, direction), across2 = dot(origin, origin) - along * along;
-    for (int i = 0; i < lookups; ++i) {
-        vec4 at = vec4(origin + direction * travelled_m, place);
-        float distance_m = textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), at, 0.0).x;
-        float inside = distance_m * distance_m - across2;
-        if (!(distance_m < LARGEST) || !(inside > 0.0) || sqrt(inside) <= along) return INFINITE;
-        travelled_m = sqrt(inside) - along;
+    float ratio = pow(max(cubemap_length_m / start_m, 1.0), 1.0 / float(max(cubemap_steps, 1))), at_m = start_m, front_m = -1.0;
+    for (int i = 0; i <= cubemap_steps && cubemap_steps > 0; ++i, at_m *= ratio) {
+        if (gap_in_cubemap(origin + at_m * direction, place) >= 0.0) {
+            front_m = at_m;
+        } else if (front_m >= 0.0) {
+            float low = front_m, high = at_m;
+            for (int k = 0; k < 5; ++k) {
+                float middle = 0.5 * (low + high);
+                bool front = gap_in_cubemap(origin + middle * direction, place) >= 0.0;
+                low = front ? middle : low;
+                high = front ? high : middle;
+            }
+            // It is there, or the ray went behind its silhouette.
+            vec3 end = origin + high * direction;
+            if (-gap_in_cubemap(end, place) <= high - low + 0.02 * length(end)) return high;
+            front_m = -1.0;
+        }
     }
-    return lookups > 0 ? travelled_m : INFINITE;
+    return INFINITE;
 }
 
 vec4 traced(ivec2 texel) {

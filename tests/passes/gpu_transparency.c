@@ -52,7 +52,7 @@ static double error_of(struct gpu *gpu, const float *opacity, const float *scene
 
 static void every_part_of_it_brings_the_picture_nearer(void **state) {
     struct gpu *gpu = *state;
-    static const char *const off[] = {NULL, "transparency.length_m=0", "transparency.lookups=0",
+    static const char *const off[] = {NULL, "transparency.length_m=0", "transparency.cubemap_steps=0",
                                       "transparency.fresnel=false", "transparency.intensity=0"};
     double errors[5];
     load(gpu, "glasshouse");
@@ -68,8 +68,8 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
         /* Nothing is laid over what no pane covers; both were rounded to half floats. */
         assert_true(error_of(gpu, opacity, scene, true) < 1e-3);
     }
-    /* Most of what a pane shows is behind it, and exact; without its reflection it errs several times as much. */
-    assert_true(errors[4] > 2.5 * errors[0]);
+    /* Half of the error is the reflection of what no buffer shows; the other half goes. */
+    assert_true(errors[4] > 1.5 * errors[0]);
     free(opacity), free(scene);
 }
 
