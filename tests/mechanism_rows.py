@@ -85,7 +85,6 @@ ROWS = [
     ("screen trace", "pyramid against the linear march", "full:street", [], "use screen_trace=linear use hiz=none", TIME),
     ("screen trace", "on behind objects", "room", MIRROR, "set screen_trace.pass_behind=false", RAYS),
     ("screen trace", "objects as deep as the way behind them", "room", MIRROR, "set screen_trace.solid=0", RAYS),
-    ("screen trace", "seams", "street", MIRROR, "set screen_trace.seam=0", RAYS),
     ("screen trace", "fewer cells for rough surfaces", "street", [], "set screen_trace.cells_lq=96", ROUGH, "error for time"),
     ("screen trace", "fewer cells for rough surfaces", "full:street", [], "set screen_trace.cells_lq=96", TIME),
     ("screen trace", "ends in the sky", "street", MIRROR, "set screen_trace.sky=false", PICTURE),
@@ -167,6 +166,9 @@ REASONS = {
     ("inner volumes", "mirror rays that end elsewhere, %"): "What is skipped is empty.",
     ("inner volumes", "ms of all passes"): "few rays start in one or come into one; to ask costs a GPU more than it saves, so that the preset goes without",
     ("half resolution", None): PRICE,
+    ("pyramid against the linear march", "ms of all passes"): PRICE,
+    ("extra samples where history is missing", "RMSE, rough"): "few pixels of a moving frame are without history; what those gain is in the "
+    "first frame's row",
     ("another pixel each frame", None): "a jittered camera covers the block already. What is left is that a texel's history holds pixels of "
     "other roughness; to refuse them mends that (-6 % on rough pixels of centred:street) and costs 3 % where the camera is jittered",
     ("29 taps", "error, rough"): "levels made by a box are wider than their cone, and stand for less noise where light is even; glossy "
