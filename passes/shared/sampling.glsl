@@ -56,6 +56,7 @@ float ggx_kept(float alpha, float share, float threshold) {
 // kept: the slides' cut carried over to GGX. What is kept is the cap's middle, so that rays stay in the middle of the lobe
 // that the viewer sees, which for oblique views and rough surfaces lies far from the mirror direction.
 vec3 sample_ggx_visible(vec2 u, vec3 view, float alpha, float kept) {
+    if (alpha == 0.0) return vec3(0.0, 0.0, 1.0); // a device may normalise (0, 0, z) to something else
     vec3 stretched = normalize(vec3(alpha * view.xy, max(view.z, 1e-6)));
     float away = kept * u.x * (1.0 + stretched.z); // 1 - z
     float sine = sqrt(max(away * (2.0 - away), 0.0));
