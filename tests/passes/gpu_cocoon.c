@@ -396,13 +396,13 @@ static void the_fallback_ends_where_the_ray_leaves_the_cocoon(void **state) {
     struct ends in_sphere = {0}, in_box = {0};
     fall_back(*state, "sphere", sphere, -2, out_of_sphere, &in_sphere);
     assert_true(in_sphere.inside > 50 && in_sphere.enters > 200 && in_sphere.missed > 200);
-    assert_true(in_sphere.near >= 0.95 * (double)(in_sphere.inside + in_sphere.enters));
+    assert_true((double)in_sphere.near >= 0.95 * (double)(in_sphere.inside + in_sphere.enters));
     /* Bilinear samples, 2/31 apart, stand up to (2/31)²/4 = 0.1 % inside a sphere, and a ray that grazes it ends ten
        times as far off. */
     assert_true(in_sphere.low > -0.015 && in_sphere.high < 0.001);
     fall_back(*state, "box", box, -2, out_of_box, &in_box);
     assert_true(in_box.inside > 500);
-    assert_true(in_box.near >= 0.95 * (double)(in_box.inside + in_box.enters));
+    assert_true((double)in_box.near >= 0.95 * (double)(in_box.inside + in_box.enters));
     /* A texel of the level below holds the farthest of what it covers, 2/16 of a face's half; between two of them the
        corner of two walls is cut by half of that, 3 % where a ray meets a wall as steeply as these. */
     assert_true(in_box.low > -0.03);
