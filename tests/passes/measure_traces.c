@@ -199,7 +199,9 @@ static void print(const char *name, const struct tally *t, double pyramid_ms, do
 
 static void run(struct glint_replay *replay, struct glint_pipeline *pipeline, uint32_t repeat, bool diagnostics) {
     struct glint_error err = {0};
-    struct glint_replay_options options = {.diagnostics = diagnostics, .repeat = repeat, .no_cache = repeat > 0};
+    /* So many rounds until a GPU that was idle has raised its clocks. */
+    struct glint_replay_options options = {
+        .diagnostics = diagnostics, .repeat = repeat, .warmup = 20 * repeat, .no_cache = repeat > 0};
     if (!glint_replay_run(replay, pipeline, &options, NULL, NULL, &err)) die(&err);
 }
 
