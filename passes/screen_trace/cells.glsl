@@ -16,8 +16,8 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
     cells.across = ray.across / reduction(frame.size);
     cells.per_across = 1.0 / mix(cells.across, vec2(-1e-30), lessThan(abs(cells.across), vec2(1e-30)));
     cells.forward = vec2(greaterThan(cells.per_across, vec2(0.0)));
-    cells.inverse = 1.0 / ray.depth_m;
-    cells.inverse_rate = -ray.rate / ray.depth_m;
+    cells.inverse = ray.inverse;
+    cells.inverse_rate = ray.inverse_rate;
     cells.end = ray.end;
     cells.texel = 1.0 / max(abs(cells.across.x), abs(cells.across.y));
     return cells;

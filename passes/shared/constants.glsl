@@ -6,4 +6,7 @@ const float HALF_PI = 1.57079632679489662;
 const float INFINITE = 1.0 / 0.0;
 const float LARGEST = 3.0e38;      // anything above is treated as infinite
 const float EVERYTHING_M = 1.0e6;  // a thickness of it and more: all is solid
+
+// A colour that may take part in a mean.
+bool finite(vec4 color) { return all(lessThan(abs(color), vec4(LARGEST))); }
 #endif

@@ -24,13 +24,9 @@ Footprint footprint(int texel, int size, int finer) {
     return f;
 }
 
-// A colour that may take part in a mean.
-bool finite(vec4 color) { return all(lessThan(abs(color), vec4(LARGEST))); }
-
 // 000, MIP pre-filtering: taps on the points of a lattice that are no farther than `reach`; 3 makes the slides' 29. The
 // cone's rim, texel_scale texels away, lies half a step beyond the last.
 bool is_tap(ivec2 point, int reach) { return point.x * point.x + point.y * point.y <= reach * reach; }
-float tap_spacing(int reach, float texel_scale) { return texel_scale / (float(reach) + 0.5); }
 
 // A tap of a cube map: the lattice lies in the plane that touches the unit sphere. weight: the lobe cosⁿ whose cone the
 // level stands for, times cos³ for the solid angle of a piece of that plane.

@@ -22,6 +22,4 @@ bool in_plane(vec3 offset, vec3 normal, float depth_m, float part) { return abs(
 
 // 0 at `from`, 1 at `to`.
 float fade(float x, float from, float to) { return to > from ? clamp((x - from) / (to - from), 0.0, 1.0) : float(x >= to); }
-
-bool finite(vec4 color) { return all(lessThan(abs(color), vec4(LARGEST))); }
 #endif
