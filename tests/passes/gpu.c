@@ -73,6 +73,25 @@ void gpu_use(struct gpu *gpu, const char *assignment) {
     check(glint_pipeline_use(gpu->pipeline, assignment, &err), &err);
 }
 
+void gpu_without(struct gpu *gpu, const char *const *slots) {
+    char assignment[64];
+    for (; *slots; slots++) {
+        snprintf(assignment, sizeof assignment, "%s=none", *slots);
+        gpu_use(gpu, assignment);
+    }
+}
+
+float *gpu_part(struct gpu *gpu, const char *name, const char *const *channels, size_t count) {
+    struct glint_error err = {0};
+    const struct glint_part_info *info = glint_capture_find(gpu->capture, name);
+    assert_non_null(info);
+    float *values = malloc((size_t)info->width * info->height * count * sizeof *values);
+    assert_non_null(values);
+    if (!glint_capture_read(gpu->capture, info, channels, count, GLINT_F32, values, 0, &err))
+        fail_msg("%s", err.message);
+    return values;
+}
+
 void gpu_shader(struct gpu *gpu, const char *slot, const char *file) {
     struct glint_error err = {0};
     char assignment[1024];

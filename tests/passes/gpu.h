@@ -23,6 +23,8 @@ int gpu_tear_down(void **state);
 void gpu_reset(struct gpu *gpu);
 void gpu_set(struct gpu *gpu, const char *assignment);
 void gpu_use(struct gpu *gpu, const char *assignment);
+/* Leaves slots out; the list ends with NULL. */
+void gpu_without(struct gpu *gpu, const char *const *slots);
 void gpu_shader(struct gpu *gpu, const char *slot, const char *file);
 /* A path in the folder; valid until the next call with the same buffer. */
 const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]);
@@ -34,6 +36,9 @@ void gpu_run(struct gpu *gpu);
 /* Images of the last run; the caller frees. width and height may be NULL. */
 float *gpu_floats(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);
 uint32_t *gpu_uints(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);
+
+/* Channels of a part of the capture, interleaved; the caller frees. */
+float *gpu_part(struct gpu *gpu, const char *name, const char *const *channels, size_t count);
 
 /* The value below which `part` of the values lie; sorts them. */
 double quantile(double *values, size_t count, double part);

@@ -16,13 +16,9 @@ static const double degrees = 60, wall_m = 5;
 static double light = 1; /* factor on the wall's */
 
 static void set_up(struct gpu *gpu) {
-    static const char *const without[] = {"cubemap_active", "cubemap_select", "cubemap_trace"};
-    char text[64];
+    static const char *const without[] = {"cubemap_active", "cubemap_select", "cubemap_trace", NULL};
     gpu_reset(gpu);
-    for (size_t i = 0; i < sizeof without / sizeof without[0]; ++i) {
-        snprintf(text, sizeof text, "%s=none", without[i]);
-        gpu_use(gpu, text);
-    }
+    gpu_without(gpu, without);
     gpu_use(gpu, "downsample=none");
     gpu_set(gpu, "downsample.jitter=false");
     gpu_use(gpu, "hiz=nearest");

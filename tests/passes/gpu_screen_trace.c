@@ -29,14 +29,11 @@ struct traced {
 
 /* Screen rays alone, for every pixel. */
 static void set_up(struct gpu *gpu, const char *variant) {
-    static const char *const without[] = {"cubemap_active", "cubemap_select", "cubemap_trace",
-                                          "resolve",        "upscale",        "compose"};
+    static const char *const without[] = {
+        "cubemap_active", "cubemap_select", "cubemap_trace", "resolve", "upscale", "compose", NULL};
     char text[64];
     gpu_reset(gpu);
-    for (size_t i = 0; i < sizeof without / sizeof without[0]; ++i) {
-        snprintf(text, sizeof text, "%s=none", without[i]);
-        gpu_use(gpu, text);
-    }
+    gpu_without(gpu, without);
     gpu_use(gpu, "downsample=none");
     gpu_set(gpu, "downsample.jitter=false");
     gpu_use(gpu, "hiz=nearest");

@@ -14,17 +14,6 @@
 
 enum { WIDTH = 240, HEIGHT = 136 };
 
-static float *part(struct gpu *gpu, const char *name, const char *const *channels, size_t count) {
-    struct glint_error err = {0};
-    const struct glint_part_info *info = glint_capture_find(gpu->capture, name);
-    assert_non_null(info);
-    float *values = malloc((size_t)info->width * info->height * count * sizeof *values);
-    assert_non_null(values);
-    if (!glint_capture_read(gpu->capture, info, channels, count, GLINT_F32, values, 0, &err))
-        fail_msg("%s", err.message);
-    return values;
-}
-
 static void load(struct gpu *gpu, const char *scene) {
     gpu_sample(gpu, scene, scene,
                &(struct glint_sample_options){
@@ -56,8 +45,8 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
                                       "transparency.fresnel=false", "transparency.intensity=0"};
     double errors[5];
     load(gpu, "glasshouse");
-    float *opacity = part(gpu, "transparent", (const char *[]){"A"}, 1),
-          *scene = part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
+    float *opacity = gpu_part(gpu, "transparent", (const char *[]){"A"}, 1),
+          *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
     for (int i = 0; i < 5; ++i) {
         load(gpu, "glasshouse");
         if (off[i]) gpu_set(gpu, off[i]);

@@ -14,17 +14,6 @@
 
 enum { WIDTH = 192, HEIGHT = 108 };
 
-static float *part(struct gpu *gpu, const char *name, const char *const *channels, size_t count) {
-    struct glint_error err = {0};
-    const struct glint_part_info *info = glint_capture_find(gpu->capture, name);
-    assert_non_null(info);
-    float *values = malloc((size_t)info->width * info->height * count * sizeof *values);
-    assert_non_null(values);
-    if (!glint_capture_read(gpu->capture, info, channels, count, GLINT_F32, values, 0, &err))
-        fail_msg("%s", err.message);
-    return values;
-}
-
 static void load(struct gpu *gpu) {
     gpu_sample(gpu, "lake", "lake",
                &(struct glint_sample_options){.width = WIDTH,
@@ -66,8 +55,8 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
                                       "water.intensity=0"};
     double errors[7];
     load(gpu);
-    float *opacity = part(gpu, "water", (const char *[]){"opacity"}, 1),
-          *scene = part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
+    float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1),
+          *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
     for (int i = 0; i < 7; ++i) {
         load(gpu);
         if (off[i]) gpu_set(gpu, off[i]);
@@ -90,7 +79,7 @@ static void all_else_stays(void **state) {
     struct gpu *gpu = *state;
     load(gpu);
     gpu_run(gpu);
-    float *opacity = part(gpu, "water", (const char *[]){"opacity"}, 1);
+    float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1);
     float *finished = gpu_floats(gpu, "finished", NULL, NULL), *composed = gpu_floats(gpu, "composed", NULL, NULL);
     float *planar = gpu_floats(gpu, "planar_reflection", NULL, NULL);
     size_t dry = 0, wet = 0;
@@ -116,8 +105,8 @@ static void a_flat_mirror_is_looked_up_in_place(void **state) {
     gpu_run(gpu);
     const struct glint_part_info *info = glint_capture_find(gpu->capture, "planar.000");
     const uint32_t w = info->width, h = info->height;
-    float *map = part(gpu, "planar.000", (const char *[]){"R", "G", "B"}, 3),
-          *opacity = part(gpu, "water", (const char *[]){"opacity"}, 1);
+    float *map = gpu_part(gpu, "planar.000", (const char *[]){"R", "G", "B"}, 3),
+          *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1);
     float *planar = gpu_floats(gpu, "planar_reflection", NULL, NULL);
     const double *jitter = glint_capture_frame(gpu->capture)->jitter_px;
     double *errors = malloc(WIDTH * HEIGHT * sizeof *errors);
@@ -162,8 +151,8 @@ static void encodings_change_nothing(void **state) {
                                                                     .normal_space = GLINT_SPACE_VIEW,
                                                                     .color = GLINT_COLOR_SRGB}});
         gpu_run(gpu);
-        float *opacity = part(gpu, "water", (const char *[]){"opacity"}, 1),
-              *scene = part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
+        float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1),
+              *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
         errors[i] = error_of(gpu, opacity, scene);
         free(opacity), free(scene);
     }
