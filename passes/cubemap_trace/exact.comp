@@ -7,10 +7,9 @@
 #include "exact.pass.h"
 };
 #include "shared/camera.glsl"
-#include "shared/cubemap.glsl"
 #include "shared/end_reasons.glsl"
-
-const uint NO_PLACE = 255u;
+#include "cubemap_trace/place.glsl"
+#include "cubemap_trace/texels.glsl"
 
 // Distance of the surface in a direction, +inf for sky. On a plane, major axis over distance is linear in the place on the
 // face, and stays so across the face's border; four texels that are not of one plane give the nearest.
@@ -19,21 +18,17 @@ float seen_distance(vec3 from_center, uint place) {
     if (!interpolate || size < 2)
         return texelFetch(cubemap_distance, face_texel(from_center, place, size), 0).x;
     vec3 face = face_from_direction(from_center), a = abs(from_center);
-    vec2 texel = face.xy * float(size) - 0.5;
-    ivec2 corner = clamp(ivec2(floor(texel)), ivec2(0), ivec2(size - 2));
-    vec2 part = texel - vec2(corner);
-    vec3 between = vec3((vec2(corner) + 1.0) / float(size), 6.0 * float(place) + face.z);
-    // Gather's order: (0,1) (1,1) (1,0) (0,0).
-    vec4 distance_m = textureGather(sampler2DArray(cubemap_distance, nearest_clamp), between);
-    vec2 low = 2.0 * (vec2(corner) + 0.5) / float(size) - 1.0, high = low + 2.0 / float(size);
+    Patch texels = patch_of(cubemap_distance, face, place, 0);
+    vec2 corner = face.xy * float(size) - 0.5 - texels.part;
+    vec2 low = 2.0 * (corner + 0.5) / float(size) - 1.0, high = low + 2.0 / float(size);
     vec4 u = vec4(low.x, high.x, high.x, low.x), v = vec4(high.y, high.y, low.y, low.y);
-    vec4 q = sqrt(1.0 + u * u + v * v) / distance_m;
+    vec4 q = sqrt(1.0 + u * u + v * v) / texels.distance_m;
     float least = min(min(q.x, q.y), min(q.z, q.w)), most = max(max(q.x, q.y), max(q.z, q.w));
     if (abs(q.x - q.w - (q.y - q.z)) <= 0.02 * least && most < 2.0 * least) {
-        float on_plane = mix(mix(q.w, q.z, part.x), mix(q.x, q.y, part.x), part.y);
+        float on_plane = mean_of(Patch(q, texels.part));
         return length(from_center) / max(a.x, max(a.y, a.z)) / max(on_plane, 0.5 * least);
     }
-    return part.x < 0.5 ? (part.y < 0.5 ? distance_m.w : distance_m.x) : (part.y < 0.5 ? distance_m.z : distance_m.y);
+    return nearest_of(texels);
 }
 
 // The ray as one cube map sees it: at parameter t it is at foot + (from_foot + t) · direction, foot being nearest to the
@@ -167,7 +162,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
             result.fetches++;
             if (!walk.seen) break;
             if (!(last_m < LARGEST)) {
-                end_at(result, INFINITE, frame.counts.w > 0u ? NO_PLACE : walk.view.place, END_sky);
+                end_at(result, INFINITE, place_of_sky(walk.view.place), END_sky);
                 return result;
             }
             next = max(2.0 * (last_m + walk.view.aside) - walk.view.from_foot, 2.0 * walk.t);

@@ -43,5 +43,5 @@ Result end_on_proxy(vec3 origin, vec3 direction, float start_m, uint best, vec2 
     result.fetches++;
     vec4 at = vec4(origin + result.travelled_m * direction - active_centers[best].xyz, best);
     if (textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0).a > 0.0) return result;
-    return Result(INFINITE, frame.counts.w > 0u ? NO_PLACE : best, END_sky, result.fetches);
+    return Result(INFINITE, place_of_sky(best), END_sky, result.fetches);
 }

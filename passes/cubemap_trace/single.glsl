@@ -4,8 +4,7 @@
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
 #include "shared/work_list.glsl"
-
-const uint NO_PLACE = 255u;
+#include "cubemap_trace/place.glsl"
 
 struct Result {
     float travelled_m;
