@@ -1,19 +1,54 @@
-/* Errors of images and of distances, apart for mirror-like, glossy and rough surfaces. */
-#include "glint/study.h"
+/* The metrics by name, and errors by class of surface. */
+#include "glint/metrics.h"
 
-#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "metrics.h"
+static const struct glint_metric_info metrics[GLINT_METRIC_COUNT] = {
+    [GLINT_METRIC_MEAN] = {"mean_error", "mean error", "mean of found - truth", false},
+    [GLINT_METRIC_RMSE] = {"rmse", "RMSE", "root of the mean squared difference", false},
+    [GLINT_METRIC_RELATIVE_MSE] = {"relative_mse", "relative MSE",
+                                   "mean of the squared difference over truth² + epsilon", false},
+    [GLINT_METRIC_SYMMETRIC] = {"symmetric", "symmetric", "mean of |difference| over the sum of both and 0.05", false},
+    [GLINT_METRIC_PSNR] = {"psnr", "PSNR dB", "peak over RMSE, in dB", true},
+    [GLINT_METRIC_CLEAN_RMSE] = {"clean_rmse", "RMSE without", "RMSE without the truth's noise", false},
+    [GLINT_METRIC_CLEAN_RELATIVE_MSE] = {"clean_relative_mse", "relative MSE without",
+                                         "relative MSE without the truth's noise", false},
+    [GLINT_METRIC_SSIM] = {"ssim", "SSIM", "structural similarity of the tone-mapped luminance", true},
+    [GLINT_METRIC_FLIP] = {"flip", "ꟻLIP", "perceived difference when alternating, at one exposure", false},
+    [GLINT_METRIC_HDR_FLIP] = {"hdr_flip", "HDR-ꟻLIP", "the largest of ꟻLIP over the exposures that show the truth",
+                               false},
+};
 
-const char *glint_surface_name(enum glint_surface surface) {
-    static const char *const names[GLINT_SURFACE_COUNT] = {"all", "mirror-like", "glossy", "rough"};
-    return surface < GLINT_SURFACE_COUNT ? names[surface] : NULL;
+const struct glint_metric_info *glint_metric(size_t metric) {
+    return metric < GLINT_METRIC_COUNT ? &metrics[metric] : NULL;
 }
 
-enum glint_surface glint_surface_of(double roughness) {
-    if (roughness <= GLINT_MIRROR_ROUGHNESS) return GLINT_SURFACE_MIRROR;
-    return roughness <= GLINT_GLOSSY_ROUGHNESS ? GLINT_SURFACE_GLOSSY : GLINT_SURFACE_ROUGH;
+/* The bits of one name, 0 for none. */
+static uint32_t bits_of(const char *name, size_t length) {
+    if (length == 3 && !strncmp(name, "all", length)) return GLINT_METRICS_ALL;
+    for (size_t i = 0; i < GLINT_METRIC_COUNT; i++)
+        if (strlen(metrics[i].name) == length && !strncmp(metrics[i].name, name, length)) return 1u << i;
+    return 0;
+}
+
+bool glint_metrics_parse(const char *names, uint32_t *chosen, struct glint_error *err) {
+    *chosen = 0;
+    for (const char *at = names;; at++) {
+        size_t length = strcspn(at, ",");
+        uint32_t bits = bits_of(at, length);
+        if (!bits) {
+            char all[512] = "all";
+            for (size_t i = 0; i < GLINT_METRIC_COUNT; i++) {
+                strcat(all, ", ");
+                strcat(all, metrics[i].name);
+            }
+            return glint_fail(err, GLINT_ERROR_USAGE, "metric '%.*s': expected one of %s", (int)length, at, all);
+        }
+        *chosen |= bits;
+        at += length;
+        if (!*at) return true;
+    }
 }
 
 void glint_pixels_finish(struct glint_pixels *pixels) {
@@ -21,121 +56,51 @@ void glint_pixels_finish(struct glint_pixels *pixels) {
     *pixels = (struct glint_pixels){0};
 }
 
-/* Sums over the values of one class. */
-struct sums {
-    uint64_t pixels, invalid;
-    double truth, difference, square, relative, symmetric, noise, relative_noise;
-};
+static const char *const surface_names[GLINT_SURFACE_COUNT] = {"all", "mirror-like", "glossy", "rough"};
 
-static void add_pixel(struct sums *sums, const float *found, const float *truth, uint32_t channels, double error) {
-    for (uint32_t k = 0; k < channels; k++)
-        if (!isfinite(found[k])) {
-            sums->invalid++;
-            return;
-        }
-    sums->pixels++;
-    for (uint32_t k = 0; k < channels; k++) {
-        double t = (double)truth[k], d = (double)found[k] - t, weight = 1 / (t * t + GLINT_RELATIVE_EPSILON);
-        sums->truth += t;
-        sums->difference += d;
-        sums->square += d * d;
-        sums->relative += d * d * weight;
-        sums->symmetric += fabs(d) / (fabs(d + t) + fabs(t) + GLINT_SYMMETRIC_EPSILON);
-        sums->noise += t * t * error * error;
-        sums->relative_noise += t * t * error * error * weight;
-    }
+const char *glint_surface_name(enum glint_surface surface) {
+    return surface < GLINT_SURFACE_COUNT ? surface_names[surface] : NULL;
 }
 
-static void add_sums(struct sums *to, const struct sums *from) {
-    to->pixels += from->pixels;
-    to->invalid += from->invalid;
-    to->truth += from->truth;
-    to->difference += from->difference;
-    to->square += from->square;
-    to->relative += from->relative;
-    to->symmetric += from->symmetric;
-    to->noise += from->noise;
-    to->relative_noise += from->relative_noise;
+enum glint_surface glint_surface_of(double roughness) {
+    if (roughness <= GLINT_MIRROR_ROUGHNESS) return GLINT_SURFACE_MIRROR;
+    return roughness <= GLINT_GLOSSY_ROUGHNESS ? GLINT_SURFACE_GLOSSY : GLINT_SURFACE_ROUGH;
 }
 
-static struct glint_image_error error_of(const struct sums *s, uint32_t channels) {
-    struct glint_image_error e = {.pixels = s->pixels, .invalid = s->invalid};
-    if (s->pixels == 0) return e;
-    double n = (double)s->pixels * channels;
-    e.truth_mean = s->truth / n;
-    e.mean = s->difference / n;
-    e.rmse = sqrt(s->square / n);
-    e.relative_mse = s->relative / n;
-    e.symmetric = s->symmetric / n;
-    e.clean_rmse = sqrt(fmax(0, s->square - s->noise) / n);
-    e.clean_relative_mse = fmax(0, s->relative - s->relative_noise) / n;
-    e.truth_noise = sqrt(s->noise / n);
+static struct glint_image_error error_of(const struct glint_metric_row *row) {
+    struct glint_image_error e = {.pixels = row->pixels, .invalid = row->invalid};
+    if (row->pixels == 0) return e;
+    e.truth_mean = row->truth_mean;
+    e.truth_noise = row->truth_noise;
+    e.mean = row->of[GLINT_METRIC_MEAN].value;
+    e.rmse = row->of[GLINT_METRIC_RMSE].value;
+    e.relative_mse = row->of[GLINT_METRIC_RELATIVE_MSE].value;
+    e.symmetric = row->of[GLINT_METRIC_SYMMETRIC].value;
+    e.clean_rmse = row->of[GLINT_METRIC_CLEAN_RMSE].value;
+    e.clean_relative_mse = row->of[GLINT_METRIC_CLEAN_RELATIVE_MSE].value;
     return e;
 }
 
 bool glint_study_image(const struct glint_pixels *found, const struct glint_pixels *truth, uint32_t channels,
                        const uint8_t *surfaces, const float *truth_error, struct glint_image_errors *errors,
                        struct glint_error *err) {
-    struct sums sums[GLINT_SURFACE_COUNT] = {{0}};
+    static const char *const names[] = {"", "R", "R G", "R G B", "R G B A"};
+    struct glint_metric_table table;
     *errors = (struct glint_image_errors){0};
-    if (found->width != truth->width || found->height != truth->height)
-        return glint_fail(err, GLINT_ERROR_USAGE, "images to compare: expected one size, found %u × %u and %u × %u",
-                          found->width, found->height, truth->width, truth->height);
-    if (channels == 0 || channels > found->components || channels > truth->components)
+    if (channels == 0 || channels > 4 || channels > found->components || channels > truth->components)
         return glint_fail(err, GLINT_ERROR_USAGE, "images to compare: expected %u channels, found %u and %u", channels,
                           found->components, truth->components);
-    for (size_t i = 0; i < (size_t)found->width * found->height; i++) {
-        uint8_t surface = surfaces ? surfaces[i] : GLINT_SURFACE_NONE;
-        if (surfaces && (surface == GLINT_SURFACE_NONE || surface >= GLINT_SURFACE_COUNT)) continue;
-        add_pixel(&sums[surface], found->values + i * found->components, truth->values + i * truth->components,
-                  channels, truth_error && isfinite(truth_error[i]) ? (double)truth_error[i] : 0);
-    }
-    for (size_t k = 1; k < GLINT_SURFACE_COUNT; k++) {
-        errors->of[k] = error_of(&sums[k], channels);
-        add_sums(&sums[0], &sums[k]);
-    }
-    errors->of[0] = error_of(&sums[0], channels);
-    return true;
-}
-
-static int by_value(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-double distance_relative_error(double found, double truth) {
-    if (!(found >= 0)) return INFINITY;
-    if (isinf(found) || isinf(truth)) return isinf(found) && isinf(truth) ? 0 : INFINITY;
-    return fabs(found - truth) / truth;
-}
-
-/* `values` is room for `count`; surface 0 takes all. */
-static struct glint_distance_error distance_error(const float *found, const float *truth, const uint8_t *surfaces,
-                                                  size_t count, uint8_t surface, double *values) {
-    struct glint_distance_error e = {0};
-    size_t n = 0, right = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!(truth[i] > 0) || surfaces[i] == GLINT_SURFACE_NONE || (surface && surfaces[i] != surface)) continue;
-        values[n] = distance_relative_error((double)found[i], (double)truth[i]);
-        right += values[n++] <= 0.05;
-        e.invalid += !(found[i] >= 0);
-    }
-    e.rays = n;
-    if (n == 0) return e;
-    qsort(values, n, sizeof *values, by_value);
-    e.right = (double)right / (double)n;
-    e.median = values[n / 2];
-    e.p95 = values[n * 95 / 100];
-    return e;
-}
-
-bool glint_study_distances(const float *found, const float *truth, const uint8_t *surfaces, size_t count,
-                           struct glint_distance_errors *errors, struct glint_error *err) {
-    double *values = malloc((count + 1) * sizeof *values);
-    *errors = (struct glint_distance_errors){0};
-    if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "distances to compare: out of memory");
-    for (uint8_t k = 0; k < GLINT_SURFACE_COUNT; k++)
-        errors->of[k] = distance_error(found, truth, surfaces, count, k, values);
-    free(values);
+    const struct glint_classes classes = {"surface", surface_names + 1, GLINT_SURFACE_COUNT - 1,
+                                          (uint8_t *)(uintptr_t)surfaces};
+    const struct glint_metric_options options = {.metrics = GLINT_METRICS_CHEAP,
+                                                 .found_channels = names[channels],
+                                                 .truth_channels = names[channels],
+                                                 .mask = surfaces,
+                                                 .classes = &classes,
+                                                 .class_sets = surfaces ? 1 : 0,
+                                                 .truth_error = truth_error};
+    if (!glint_metrics_compare(found, truth, &options, &table, err)) return false;
+    for (size_t k = 0; k < table.count; k++) errors->of[k] = error_of(&table.rows[k]);
+    glint_metric_table_finish(&table);
     return true;
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "metrics.h"
+#include "distances.h"
 
 static const struct {
     const char *name, *text;

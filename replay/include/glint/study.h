@@ -2,76 +2,17 @@
 #ifndef GLINT_STUDY_H
 #define GLINT_STUDY_H
 
+#include "glint/metrics.h"
 #include "glint/replay.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* ---- Errors of images and of distances, by class of surface ---- */
+/* ---- What is compared ---- */
 
-/* What a pixel shows, by roughness: mirror-like up to the first threshold, glossy up to the second, rough above. */
-#define GLINT_MIRROR_ROUGHNESS 0.1
-#define GLINT_GLOSSY_ROUGHNESS 0.5
-enum glint_surface {
-    GLINT_SURFACE_NONE, /* sky, or nothing that reflects: in no figure */
-    GLINT_SURFACE_MIRROR,
-    GLINT_SURFACE_GLOSSY,
-    GLINT_SURFACE_ROUGH,
-    GLINT_SURFACE_COUNT
-};
-/* "all", "mirror-like", "glossy", "rough": names of the elements of the arrays below, where all surfaces come first. */
-const char *glint_surface_name(enum glint_surface surface);
-enum glint_surface glint_surface_of(double roughness);
 /* One enum glint_surface for each pixel of the G-buffer, rows from the top; malloc'd, NULL on failure. */
 uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error *err);
-
-/* Values of `components` floats a pixel; `values` is malloc'd. */
-struct glint_pixels {
-    uint32_t width, height, components;
-    float *values;
-};
-void glint_pixels_finish(struct glint_pixels *pixels);
-
-/* Added to the square of the truth below the fraction of the relative error, so that black can be compared. */
-#define GLINT_RELATIVE_EPSILON 0.01
-#define GLINT_SYMMETRIC_EPSILON 0.05
-
-struct glint_image_error {
-    uint64_t pixels;     /* compared */
-    uint64_t invalid;    /* NaN or infinite in what was found; in no other figure */
-    double truth_mean;   /* of all channels */
-    double mean;         /* of found - truth */
-    double rmse;         /* root of the mean of (found - truth)² */
-    double relative_mse; /* mean of (found - truth)²/(truth² + GLINT_RELATIVE_EPSILON) */
-    double symmetric; /* mean of |found - truth|/(|found| + |truth| + GLINT_SYMMETRIC_EPSILON): no outlier rules it */
-    /* rmse and relative_mse without what the truth's own noise is expected to add, and that noise's root mean square. Truths whose
-       draws are spread better than independent ones have less noise than they declare: the real error lies between. */
-    double clean_rmse, clean_relative_mse, truth_noise;
-};
-struct glint_image_errors {
-    struct glint_image_error of[GLINT_SURFACE_COUNT]; /* [0]: all surfaces */
-};
-/* Compares the first `channels` channels, pixel by pixel; both images are of one size, `surfaces` may be NULL: all pixels
-   are compared then, as [0] alone. `truth_error`, one value a pixel or NULL, is the standard error of a truth that is
-   itself a mean of samples, relative to its value. */
-bool glint_study_image(const struct glint_pixels *found, const struct glint_pixels *truth, uint32_t channels,
-                       const uint8_t *surfaces, const float *truth_error, struct glint_image_errors *errors,
-                       struct glint_error *err);
-
-struct glint_distance_error {
-    uint64_t rays, invalid; /* invalid: NaN, negative; counts as infinitely wrong */
-    double right;           /* share within 5 % of the truth */
-    double median, p95;     /* of |found - truth|/truth; 0 where both are infinite, infinite where one is */
-};
-struct glint_distance_errors {
-    struct glint_distance_error of[GLINT_SURFACE_COUNT];
-};
-/* Distances in metres, +inf for the sky; `count` of each. Values of the truth that are not above 0 are left out. */
-bool glint_study_distances(const float *found, const float *truth, const uint8_t *surfaces, size_t count,
-                           struct glint_distance_errors *errors, struct glint_error *err);
-
-/* ---- What is compared ---- */
 
 /* The reflection of the last run at full resolution, as the passes left it for `compose`. False with an error when
    there is none. */

@@ -1,0 +1,49 @@
+/* Errors of distances, apart for mirror-like, glossy and rough surfaces. */
+#include "distances.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "glint/metrics.h"
+
+static int by_value(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double distance_relative_error(double found, double truth) {
+    if (!(found >= 0)) return INFINITY;
+    if (isinf(found) || isinf(truth)) return isinf(found) && isinf(truth) ? 0 : INFINITY;
+    return fabs(found - truth) / truth;
+}
+
+/* `values` is room for `count`; surface 0 takes all. */
+static struct glint_distance_error distance_error(const float *found, const float *truth, const uint8_t *surfaces,
+                                                  size_t count, uint8_t surface, double *values) {
+    struct glint_distance_error e = {0};
+    size_t n = 0, right = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!(truth[i] > 0) || surfaces[i] == GLINT_SURFACE_NONE || (surface && surfaces[i] != surface)) continue;
+        values[n] = distance_relative_error((double)found[i], (double)truth[i]);
+        right += values[n++] <= 0.05;
+        e.invalid += !(found[i] >= 0);
+    }
+    e.rays = n;
+    if (n == 0) return e;
+    qsort(values, n, sizeof *values, by_value);
+    e.right = (double)right / (double)n;
+    e.median = values[n / 2];
+    e.p95 = values[n * 95 / 100];
+    return e;
+}
+
+bool glint_study_distances(const float *found, const float *truth, const uint8_t *surfaces, size_t count,
+                           struct glint_distance_errors *errors, struct glint_error *err) {
+    double *values = malloc((count + 1) * sizeof *values);
+    *errors = (struct glint_distance_errors){0};
+    if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "distances to compare: out of memory");
+    for (uint8_t k = 0; k < GLINT_SURFACE_COUNT; k++)
+        errors->of[k] = distance_error(found, truth, surfaces, count, k, values);
+    free(values);
+    return true;
+}

@@ -1,0 +1,233 @@
+/* Comparisons by class and channel, what is no number, and intervals, against closed forms and simulated truth. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "glint/metrics.h"
+
+static void assert_near(double found, double expected, double tolerance) {
+    if (!(fabs(found - expected) <= tolerance)) fail_msg("%.17g is not %.17g ± %g", found, expected, tolerance);
+}
+
+static struct glint_metric_table compared(const struct glint_pixels *found, const struct glint_pixels *truth,
+                                          const struct glint_metric_options *options) {
+    struct glint_metric_table table;
+    struct glint_error err = {0};
+    if (!glint_metrics_compare(found, truth, options, &table, &err)) fail_msg("%s", err.message);
+    return table;
+}
+
+static void every_set_of_classes_parts_the_pixels_anew(void **state) {
+    (void)state;
+    static const char *const sides[] = {"left", "right"}, *const heights[] = {"top", "middle", "bottom"};
+    float found[] = {1, 2, 3, 4}, truth[] = {0, 0, 0, 0};
+    uint8_t side[] = {1, 2, 1, 2}, height[] = {1, 1, 0, 3};
+    const struct glint_pixels f = {2, 2, 1, found}, t = {2, 2, 1, truth};
+    const struct glint_classes sets[] = {{"side", sides, 2, side}, {"height", heights, 3, height}};
+    struct glint_metric_table table =
+        compared(&f, &t, &(struct glint_metric_options){.classes = sets, .class_sets = 2});
+    const struct {
+        const char *set, *name;
+        uint64_t pixels;
+        double mean;
+    } expected[] = {{"all", "all", 4, 2.5},    {"side", "left", 2, 2},       {"side", "right", 2, 3},
+                    {"height", "top", 2, 1.5}, {"height", "middle", 0, NAN}, {"height", "bottom", 1, 4}};
+    assert_int_equal(table.count, 6);
+    for (size_t i = 0; i < 6; i++) {
+        assert_string_equal(table.rows[i].set, expected[i].set);
+        assert_string_equal(table.rows[i].name, expected[i].name);
+        assert_int_equal(table.rows[i].pixels, expected[i].pixels);
+        if (expected[i].pixels) assert_near(table.rows[i].of[GLINT_METRIC_MEAN].value, expected[i].mean, 0);
+        else assert_true(isnan(table.rows[i].of[GLINT_METRIC_MEAN].value));
+    }
+    glint_metric_table_finish(&table);
+    uint64_t cross[3 * 4];
+    glint_classes_cross(&sets[0], &sets[1], 4, NULL, cross);
+    assert_int_equal(cross[1 * 4 + 1], 1);
+    assert_int_equal(cross[1 * 4 + 0], 1);
+    assert_int_equal(cross[2 * 4 + 3], 1);
+    assert_int_equal(cross[2 * 4 + 2], 0);
+    glint_classes_cross(&sets[0], &sets[1], 4, (const uint8_t[]){0, 1, 0, 0}, cross);
+    assert_int_equal(cross[2 * 4 + 1], 1);
+    assert_int_equal(cross[1 * 4 + 1], 0);
+}
+
+static void channels_meet_by_their_names(void **state) {
+    (void)state;
+    float found[] = {1, 2, 3, 9}, truth[] = {3, 2, 1};
+    const struct glint_pixels f = {1, 1, 4, found}, t = {1, 1, 3, truth};
+    struct glint_metric_options o = {.found_channels = "B G R A", .truth_channels = "R G B"};
+    struct glint_metric_table table = compared(&f, &t, &o);
+    assert_near(table.rows[0].of[GLINT_METRIC_RMSE].value, 0, 0);
+    assert_near(table.rows[0].truth_mean, 2, 0);
+    glint_metric_table_finish(&table);
+    o.found_channels = "X G Z A"; /* only G is common */
+    table = compared(&f, &t, &o);
+    assert_near(table.rows[0].truth_mean, 2, 0);
+    glint_metric_table_finish(&table);
+    struct glint_error err = {0};
+    o.found_channels = "X Y Z";
+    assert_false(glint_metrics_compare(&f, &t, &o, &table, &err));
+    assert_non_null(strstr(err.message, "'X Y Z' and 'R G B'"));
+}
+
+static void invalid_pixels_are_counted_in_both_and_named(void **state) {
+    (void)state;
+    float found[12] = {0}, truth[12] = {0};
+    const struct glint_pixels f = {4, 3, 1, found}, t = {4, 3, 1, truth};
+    uint8_t mask[12] = {0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    struct glint_metric_options o = {.mask = mask, .metrics = GLINT_METRICS_ALL};
+    struct glint_error err = {0};
+    found[0] = NAN; /* not looked at */
+    struct glint_metric_table table = compared(&f, &t, &o);
+    assert_true(glint_metrics_valid(&table, "x", &err));
+    assert_int_equal(table.rows[0].pixels, 11);
+    glint_metric_table_finish(&table);
+    truth[7] = -INFINITY;
+    found[10] = found[7] = NAN;
+    table = compared(&f, &t, &o);
+    assert_int_equal(table.invalid_found, 2);
+    assert_int_equal(table.invalid_truth, 1);
+    assert_int_equal(table.rows[0].invalid, 2);
+    assert_int_equal(table.rows[0].pixels, 9);
+    assert_false(glint_metrics_valid(&table, "run", &err));
+    assert_non_null(strstr(err.message,
+                           "run: NaN or infinite in 2 pixels, and in 1 of what it is compared with; the first is 3,1"));
+    for (int k = 0; k < GLINT_METRIC_COUNT; k++)
+        assert_false(table.rows[0].of[k].value > 1e-6 && isfinite(table.rows[0].of[k].value) &&
+                     !glint_metric((size_t)k)->higher_is_better);
+    glint_metric_table_finish(&table);
+}
+
+/* What a display shows of a grey radiance, by the formulas of docs/metrics.md. */
+static double shown(double x) {
+    x *= 0.6;
+    double y = fmin(1, (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14));
+    return y <= 0.0031308 ? 12.92 * y : 1.055 * pow(y, 1 / 2.4) - 0.055;
+}
+
+static void flat_images_have_closed_forms(void **state) {
+    (void)state;
+    enum { SIZE = 13, PIXELS = SIZE * SIZE };
+    float found[3 * PIXELS], truth[3 * PIXELS];
+    const struct glint_pixels f = {SIZE, SIZE, 3, found}, t = {SIZE, SIZE, 3, truth};
+    for (int i = 0; i < 3 * PIXELS; i++) {
+        found[i] = 0.25F;
+        truth[i] = 0.5F;
+    }
+    struct glint_metric_options o = {.metrics = GLINT_METRICS_ALL};
+    struct glint_metric_table table = compared(&f, &t, &o);
+    const struct glint_figure *of = table.rows[0].of;
+    double a = shown(0.25), b = shown(0.5);
+    assert_near(table.peak, 0.5, 0);
+    assert_near(of[GLINT_METRIC_PSNR].value, 20 * log10(2), 1e-12);
+    assert_near(of[GLINT_METRIC_RELATIVE_MSE].value, 0.0625 / 0.26, 1e-12);
+    /* no variance is left but float's rounding: 1e-7 beside C2 of 9e-4 */
+    assert_near(of[GLINT_METRIC_SSIM].value, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 3e-4);
+    glint_metric_table_finish(&table);
+    o.exposure = 1;
+    o.peak = 1;
+    o.epsilon = 0.0625;
+    table = compared(&f, &t, &o);
+    of = table.rows[0].of;
+    a = shown(0.5), b = shown(1);
+    assert_near(of[GLINT_METRIC_PSNR].value, 20 * log10(4), 1e-12);
+    assert_near(of[GLINT_METRIC_RELATIVE_MSE].value, 0.2, 1e-12);
+    assert_near(of[GLINT_METRIC_SSIM].value, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 3e-4);
+    glint_metric_table_finish(&table);
+    table = compared(&t, &t, &o);
+    of = table.rows[0].of;
+    assert_true(of[GLINT_METRIC_PSNR].value == INFINITY);
+    assert_near(of[GLINT_METRIC_SSIM].value, 1, 1e-6);
+    glint_metric_table_finish(&table);
+    /* no window fits into ten pixels */
+    const struct glint_pixels small = {10, 13, 3, truth};
+    table = compared(&small, &small, &o);
+    assert_true(isnan(table.rows[0].of[GLINT_METRIC_SSIM].value));
+    glint_metric_table_finish(&table);
+}
+
+static double uniform(uint64_t *state) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) / 9007199254740992.0;
+}
+
+/* Errors that are alike within patches, as those of a wrong reflection are: intervals that took pixels for independent would be a
+   quarter as wide as they must be, and hold the mean four times in ten. */
+static void intervals_hold_the_mean_as_often_as_they_say(void **state) {
+    (void)state;
+    enum { SIZE = 192, PATCH = 4, IMAGES = 300 };
+    static float found[SIZE * SIZE], truth[SIZE * SIZE];
+    const struct glint_pixels f = {SIZE, SIZE, 1, found}, t = {SIZE, SIZE, 1, truth};
+    const struct glint_metric_options o = {.resamples = 200, .seed = 7, .metrics = 1u << GLINT_METRIC_MEAN};
+    uint64_t random = 3;
+    int held = 0;
+    for (int n = 0; n < IMAGES; n++) {
+        for (int y = 0; y < SIZE; y += PATCH)
+            for (int x = 0; x < SIZE; x += PATCH) {
+                float error = (float)(uniform(&random) * uniform(&random)); /* skewed; its mean is 1/4 */
+                for (int k = 0; k < PATCH * PATCH; k++) found[(y + k / PATCH) * SIZE + x + k % PATCH] = error;
+            }
+        struct glint_metric_table table = compared(&f, &t, &o);
+        const struct glint_figure *mean = &table.rows[0].of[GLINT_METRIC_MEAN];
+        assert_true(mean->low < mean->value && mean->value < mean->high);
+        held += mean->low <= 0.25 && 0.25 <= mean->high;
+        glint_metric_table_finish(&table);
+    }
+    print_message("# 95 %% intervals held the mean in %.1f %%\n", 100.0 * held / IMAGES);
+    /* Tiles of 13 pixels cut patches apart and see 0.83 of the variance: 92.5 %, and 300 draws of that scatter by 1.5 %. */
+    assert_in_range(held, IMAGES * 88 / 100, IMAGES * 97 / 100);
+}
+
+static void the_same_seed_gives_the_same_interval(void **state) {
+    (void)state;
+    enum { SIZE = 64 };
+    static float found[SIZE * SIZE], truth[SIZE * SIZE];
+    const struct glint_pixels f = {SIZE, SIZE, 1, found}, t = {SIZE, SIZE, 1, truth};
+    uint64_t random = 5;
+    for (int i = 0; i < SIZE * SIZE; i++) found[i] = (float)uniform(&random);
+    struct glint_metric_options o = {.resamples = GLINT_RESAMPLES, .seed = 1};
+    struct glint_metric_table a = compared(&f, &t, &o), b = compared(&f, &t, &o);
+    assert_memory_equal(&a.rows[0].of[GLINT_METRIC_RMSE], &b.rows[0].of[GLINT_METRIC_RMSE],
+                        sizeof(struct glint_figure));
+    o.seed = 2;
+    glint_metric_table_finish(&b);
+    b = compared(&f, &t, &o);
+    assert_true(a.rows[0].of[GLINT_METRIC_RMSE].low != b.rows[0].of[GLINT_METRIC_RMSE].low);
+    glint_metric_table_finish(&a);
+    glint_metric_table_finish(&b);
+}
+
+static void metrics_have_names(void **state) {
+    (void)state;
+    uint32_t chosen = 0;
+    struct glint_error err = {0};
+    assert_true(glint_metrics_parse("rmse,hdr_flip", &chosen, &err));
+    assert_int_equal(chosen, 1u << GLINT_METRIC_RMSE | 1u << GLINT_METRIC_HDR_FLIP);
+    assert_true(glint_metrics_parse("all", &chosen, &err));
+    assert_int_equal(chosen, GLINT_METRICS_ALL);
+    assert_false(glint_metrics_parse("rmse,", &chosen, &err));
+    assert_false(glint_metrics_parse("rms", &chosen, &err));
+    assert_non_null(strstr(err.message, "'rms'"));
+    assert_non_null(strstr(err.message, "relative_mse"));
+    assert_null(glint_metric(GLINT_METRIC_COUNT));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_set_of_classes_parts_the_pixels_anew),
+        cmocka_unit_test(channels_meet_by_their_names),
+        cmocka_unit_test(invalid_pixels_are_counted_in_both_and_named),
+        cmocka_unit_test(flat_images_have_closed_forms),
+        cmocka_unit_test(intervals_hold_the_mean_as_often_as_they_say),
+        cmocka_unit_test(the_same_seed_gives_the_same_interval),
+        cmocka_unit_test(metrics_have_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
