@@ -3,26 +3,28 @@
 import argparse
 import json
 import pathlib
-import subprocess
 import tempfile
 
+from pages import KINDS, Times, compare, options, preset, run, sample, table
+
+SIZE, CUBE, TRUTH = '320x180', '128', '64'
 SCENES = ('street', 'room', 'hotel')
-# Name on the page, options of replay.
+# Name on the page, what is changed.
 COLOUR = [
-    ('`mafia_de`', []),
-    ('`downsample.lobe=half_vector`', ['--set', 'downsample.lobe=half_vector']),
-    ("this frame's picture: `resolve=hit`", ['--use', 'resolve=hit']),
-    ('hidden points taken: `resolve.reject=false`', ['--set', 'resolve.reject=false']),
-    ('hidden points black: `resolve.hidden=black`', ['--set', 'resolve.hidden=black']),
-    ('no sharing: `blur=none`', ['--use', 'blur=none']),
-    ('five samples: `blur=plus`', ['--use', 'blur=plus']),
-    ('`blur.edges=false`', ['--set', 'blur.edges=false']),
-    ('`blur.width=0.25`', ['--set', 'blur.width=0.25']),
-    ('`blur.width=1`', ['--set', 'blur.width=1']),
-    ('edges by shading normals: `downsample.vertex_planes=false`', ['--set', 'downsample.vertex_planes=false']),
-    ('outliers kept: `temporal.outlier=1e6`', ['--set', 'temporal.outlier=1e6']),
-    ('`upscale=bilinear`', ['--use', 'upscale=bilinear']),
-    ('cube maps by direction: `cubemap_trace=lookup`', ['--use', 'cubemap_trace=lookup']),
+    ('`mafia_de`', ''),
+    ('`downsample.lobe=half_vector`', 'downsample.lobe=half_vector'),
+    ("this frame's picture: `resolve=hit`", 'resolve=hit'),
+    ('hidden points taken: `resolve.reject=false`', 'resolve.reject=false'),
+    ('hidden points black: `resolve.hidden=black`', 'resolve.hidden=black'),
+    ('no sharing: `blur=none`', 'blur=none'),
+    ('five samples: `blur=plus`', 'blur=plus'),
+    ('`blur.edges=false`', 'blur.edges=false'),
+    ('`blur.width=0.25`', 'blur.width=0.25'),
+    ('`blur.width=1`', 'blur.width=1'),
+    ('edges by shading normals: `downsample.vertex_planes=false`', 'downsample.vertex_planes=false'),
+    ('outliers kept: `temporal.outlier=1e6`', 'temporal.outlier=1e6'),
+    ('`upscale=bilinear`', 'upscale=bilinear'),
+    ('cube maps by direction: `cubemap_trace=lookup`', 'cubemap_trace=lookup'),
 ]
 GLASS = [
     ('all', ''),
@@ -33,51 +35,42 @@ GLASS = [
 ]
 
 
-def replay(glint, capture, *options):
-    command = [glint, 'replay', str(capture), '--preset', 'mafia_de', '--set', 'resolve.fog=false', '--json', *options]
-    return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)['runs'][0]
+def timed():
+    return {scene: {words: preset('mafia_de', words) for _, words in rows} for scene, rows in (('street', COLOUR), ('glasshouse', GLASS))}
 
 
-def colour(glint, captures):
-    table = ['| | ' + ' | '.join(SCENES) + ' |', '| --- |' + ' --- |' * len(SCENES)]
-    for name, options in COLOUR:
-        cells = []
-        for capture in captures.values():
-            rows = replay(glint, capture, '--against', 'truth', *options)['against_truth']['image']['surfaces']
-            found = {row['surfaces']: row['rmse'] for row in rows}
-            cells.append(', '.join(f'{found[kind]:.3f}' for kind in ('mirror-like', 'glossy', 'rough')))
-        table.append(f"| {name} | {' | '.join(cells)} |")
-    return '\n'.join(table)
+def errors(glint, capture, words):
+    told = json.loads(run(glint, 'replay', capture, '--preset', 'mafia_de', '--set', 'resolve.fog=false', '--json', '--against', 'truth', *options(words)))
+    found = {row['surfaces']: row['rmse'] for row in told['runs'][0]['against_truth']['image']['surfaces']}
+    return ', '.join(f'{found[kind]:.3f}' for kind in KINDS)
 
 
-def glass(glint, capture):
-    table = ['| | panes |', '| --- | --- |']
-    for name, setting in GLASS:
-        command = [glint, 'compare', str(capture), '--presets', 'mafia_de', '--repeat', '1', '--json', '--set', 'mafia_de:compose.intensity=0']
-        command += ['--set', f'mafia_de:{setting}'] if setting else []
-        found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-        over = found['captures'][0]['presets'][0]['over'][0]
-        table.append(f"| {name} | {over['symmetric']:.4f} |")
-    return '\n'.join(table)
+def colour(glint, folder, times):
+    captures = [sample(glint, scene, folder, SIZE, CUBE, '--truth', TRUTH) for scene in SCENES]
+    rows = [[name, *(errors(glint, capture, words) for capture in captures), *times.cells('street', words)] for name, words in COLOUR]
+    return table(['', *SCENES, *(f'{head}, street' for head in times.heads)], rows)
+
+
+def glass(glint, folder, times):
+    capture = sample(glint, 'glasshouse', folder, SIZE, CUBE, '--unjittered')
+    found = compare(glint, capture, {words: preset('mafia_de', f'{words} compose.intensity=0') for _, words in GLASS}, 1)[1]
+    rows = [[name, f"{found[words]['over'][0]['symmetric']:.4f}", *times.cells('glasshouse', words)] for name, words in GLASS]
+    return table(['', 'panes', *times.heads], rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('glint')
-    parser.add_argument('-o', '--output', default='docs/mafia_de.md')
+    parser.add_argument('-o', '--output', default='docs/mafia_de.md', type=pathlib.Path)
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        captures = {scene: folder / f'{scene}.exr' for scene in (*SCENES, 'glasshouse')}
-        for scene, capture in captures.items():
-            truth = ['--truth', '64'] if scene in SCENES else ['--unjittered']
-            subprocess.run([arguments.glint, 'sample', scene, '-o', str(capture), '--size', '320x180', '--cube-size', '128', *truth],
-                           check=True, stderr=subprocess.DEVNULL)
-        panes = captures.pop('glasshouse')
+    times = Times('mafia_de')
+    with tempfile.TemporaryDirectory() as folder:
         text = pathlib.Path(__file__).with_name('mafia_de.md.in').read_text()
-        text = text.replace('@COLOUR@', colour(arguments.glint, captures))
-        text = text.replace('@GLASS@', glass(arguments.glint, panes))
-    pathlib.Path(arguments.output).write_text(text)
+        text = text.replace('@COLOUR@\n', colour(arguments.glint, folder, times))
+        text = text.replace('@GLASS@\n', glass(arguments.glint, folder, times))
+        text = text.replace('@TIMES@', times.told())
+    arguments.output.write_text(text)
 
 
-main()
+if __name__ == '__main__':
+    main()

@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 """Every preset on every sample scene that reflects or pointedly does not: presets.py GLINT [-o DOCS] [--scenes A,B]
 
-Writes DOCS/presets.md and a sheet of pictures for each scene. Scenes and presets that this glint lacks are left out."""
+Writes DOCS/presets.md and a sheet of pictures for each scene."""
 import argparse
 import json
-import os
 import pathlib
-import subprocess
 import tempfile
 
-os.environ["GLINT_CACHE"] = "none"
+from pages import PRESETS, Times, preset, run, sample, table
 
 SCENES = ("street", "room", "hotel", "lake", "glasshouse", "matte")
 ORDER = ("mafia3", "mafia3_shipped", "kf2", "gtav", "mafia_de")
@@ -18,19 +16,14 @@ SURFACES = ("mirror-like", "glossy", "rough", "all")
 FOUND = ("hit", "sky")  # ends of rays that met what they were to find
 
 
-def run(*command):
-    return subprocess.run([str(c) for c in command], check=True, capture_output=True, text=True).stdout
-
-
 def presets():
     """By name, the ones of the systems first; `reference` is no system's."""
-    there = {p.stem for p in (pathlib.Path(__file__).parent.parent / "samples/presets").glob("*.json")} - {"reference"}
+    there = {p.stem for p in PRESETS.glob("*.json")} - {"reference"}
     return [p for p in ORDER if p in there] + sorted(there - set(ORDER))
 
 
-def table(titles, rows):
-    lines = ["| " + " | ".join(titles) + " |", "| --- |" + " ---: |" * (len(titles) - 1)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+def timed():
+    return {scene: {name: preset(name) for name in presets()} for scene in SCENES}
 
 
 def surface(preset, name):
@@ -51,16 +44,13 @@ def hits(preset):
                      for t in tracers) or "–"
 
 
-def errors(compared, timed):
+def errors(scene, compared, times):
     rows = []
     for p in compared:
-        if not p["ran"]:
-            rows.append([f"`{p['preset']}`", *["–"] * (7 + timed)])
-            continue
-        rows.append([f"`{p['preset']}`", *(error(surface(p, s)) for s in SURFACES), hits(p)])
-        rows[-1] += [f"{p['steps']:.1f}", f"{p['fetches']:.1f}"] if p["rays"] else ["–", "–"]
-        rows[-1] += [f"{p['frame_ms']['median']:.3f}"] if timed else []
-    return table(["", *SURFACES, "rays that met something, %", "steps", "fetches", *(["ms"] if timed else [])], rows)
+        row = [error(surface(p, s)) for s in SURFACES] if p["ran"] else ["–"] * len(SURFACES)
+        row += [hits(p), f"{p['steps']:.1f}", f"{p['fetches']:.1f}"] if p["ran"] and p["rays"] else ["–"] * 3
+        rows.append([f"`{p['preset']}`", *row, *times.cells(scene, p["preset"])])
+    return table(["", *SURFACES, "rays that met something, %", "steps", "fetches", *times.heads], rows)
 
 
 def shared(compared):
@@ -113,51 +103,48 @@ def summary(found, names):
         row = surface(p, "all") if p["ran"] else None
         return "nothing reflects" if p["ran"] and row is None else error(row)
 
-    return table(["", *found], [[f"`{n}`", *(cell(n, c["presets"]) for c in found.values())] for n in names])
+    return table(["", *found], [[f"`{n}`", *(cell(n, c) for c in found.values())] for n in names])
 
 
-def measure(glint, scenes, names, docs, repeat):
-    found, device = {}, None
-    there = {line.split()[0] for line in run(glint, "sample", "--list").splitlines()[1:]}
+def measure(glint, scenes, names, docs):
+    found = {}
     with tempfile.TemporaryDirectory() as folder:
-        for scene in (s for s in scenes if s in there):
-            capture, out = pathlib.Path(folder) / f"{scene}.exr", pathlib.Path(folder) / scene
-            run(glint, "sample", scene, "-o", capture, "--size", SIZE, "--cube-size", CUBE, "--truth", TRUTH)
-            run(glint, "compare", capture, "--presets", ",".join(names), "--repeat", repeat, "-o", out)
-            told = json.loads((out / "table.json").read_text())
-            found[scene], device = told["captures"][0], told["device"]
-            if any(p.get("surfaces") for p in found[scene]["presets"]):
-                run("oiiotool", out / "sheet.png", "--ch", "R,G,B", "--compression", "jpeg:80", "-o", docs / f"presets-{scene}.jpg")
+        for scene in scenes:
+            capture, out = sample(glint, scene, folder, SIZE, CUBE, "--truth", TRUTH), pathlib.Path(folder) / scene
+            run(glint, "compare", capture, "--presets", ",".join(names), "--repeat", 1, "-o", out)
+            found[scene] = json.loads((out / "table.json").read_text())["captures"][0]["presets"]
+            run("oiiotool", out / "sheet.png", "--ch", "R,G,B", "--compression", "jpeg:80", "-o", docs / f"presets-{scene}.jpg")
             capture.unlink()
-    return found, device
+    return found
 
 
-def write(docs, found, device, names, repeat):
-    timed = not device["cpu"]
-    text = f"""# Presets beside each other
+def section(scene, compared, times):
+    text = f"""
+## {scene}
+
+![{scene}: the true reflection, what each preset gives, its error, the composed picture](presets-{scene}.jpg)
+
+{errors(scene, compared, times)}"""
+    if any(p.get("surfaces") for p in compared):
+        text += "\n" + shared(compared) + over(compared)
+        text += f"\nWhy rays ended: share of all rays in %, error of their pixels.\n\n{ends(compared)}"
+    told = notes(compared)
+    return text + (f"\n{told}" if told else "")
+
+
+def write(docs, found, names):
+    times = Times("presets")
+    (docs / "presets.md").write_text(f"""# Presets beside each other
 
 Generated by `./dev docs` (`glint compare`): every preset on the same captures, {SIZE.replace('x', '×')} with cube maps of {CUBE}²
 and a truth of {TRUTH} rays a pixel. Fog is off, which the truth lacks.
-
+{times.told()}
 Each cell: **error** of the reflection where the preset gives one, the mean of |found − truth| over their sum (0 to 1),
 **of** the share of reflecting pixels for which it does: at least half of what is there is its own, by the reflection's
 alpha and, for presets that weigh their reflections, their weight. What gives little may give only what is easy: **shared** is the error over
 the pixels that every preset gives. The truth is the lobe that the preset draws from; its own noise is in all figures alike.
 
-{summary(found, names)}"""
-    for scene, capture in found.items():
-        compared = capture["presets"]
-        text += f"\n## {scene}\n\n"
-        if any(p.get("surfaces") for p in compared):
-            text += f"![{scene}: the true reflection, what each preset gives, its error, the composed picture](presets-{scene}.jpg)\n\n"
-            text += errors(compared, timed)
-            text += "\n" + shared(compared) + over(compared)
-            traced = ends(compared)
-            text += f"\nWhy rays ended: share of all rays in %, error of their pixels.\n\n{traced}" if traced else ""
-        told = notes(compared)
-        text += f"\n{told}" if told and not text.endswith("\n\n") else told
-    text += f"\nTimes: median of {repeat} rounds in turns on {device['name']}, all passes of a frame.\n" if timed else ""
-    (docs / "presets.md").write_text(text)
+{summary(found, names)}{"".join(section(scene, compared, times) for scene, compared in found.items())}""")
 
 
 def main():
@@ -165,12 +152,11 @@ def main():
     parser.add_argument("glint")
     parser.add_argument("-o", "--docs", type=pathlib.Path, default=pathlib.Path("docs"))
     parser.add_argument("--scenes", default=",".join(SCENES))
-    parser.add_argument("--repeat", type=int, default=3, help="timed rounds")
     given = parser.parse_args()
     given.docs.mkdir(parents=True, exist_ok=True)
     names = presets()
-    found, device = measure(given.glint, given.scenes.split(","), names, given.docs, given.repeat)
-    write(given.docs, found, device, names, given.repeat)
+    write(given.docs, measure(given.glint, given.scenes.split(","), names, given.docs), names)
 
 
-main()
+if __name__ == "__main__":
+    main()
