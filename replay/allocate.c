@@ -5,26 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static struct image *take(struct glint_replay *replay, const char *name) {
-    for (struct image **at = &replay->images; *at; at = &(*at)->next)
-        if (strcmp((*at)->name, name) == 0) {
-            struct image *found = *at;
-            *at = found->next;
-            return found;
-        }
-    return NULL;
-}
-
-void replay_drop_images(struct glint_replay *replay, bool all) {
-    for (struct image **at = &replay->images; *at;) {
-        struct image *image = *at;
-        if (all || !image->used || image->transient) {
-            *at = image->next;
-            image_destroy(&image, replay->device);
-        } else at = &image->next;
-    }
-}
-
 /* What is made from cube maps alone serves the next frame too. */
 static bool is_transient(const struct run *run, const struct graph_image *image) {
     return run->options->outputs && image->source == SOURCE_MADE && !image->wanted && !image->kept &&
@@ -86,43 +66,34 @@ bool image_own_memory(struct image *image, struct glint_device *device, struct g
 
 bool run_allocate(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
-    struct image *kept = NULL, **end = &kept;
-    for (struct image *image = replay->images; image; image = image->next) image->used = image->listed = false;
+    struct image *taken = NULL, **end = &taken;
+    for (struct image *image = replay->images; image; image = image->next) {
+        image->used = image->listed = false;
+        if (image->lineage == run->options->lineage) image->kept = false;
+    }
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *wanted = &run->graph.images[i];
         struct image_desc desc;
         if (!run_describe_image(run, wanted, &desc, err)) goto fail;
-        bool transient = is_transient(run, wanted);
-        struct image *image = take(replay, wanted->name);
-        if (image && (transient || !image_desc_equal(&image->desc, &desc))) image_destroy(&image, replay->device);
+        const bool transient = is_transient(run, wanted);
+        struct image *image = transient ? NULL : replay_take_image(replay, run, wanted, &desc);
         if (!image && !(image = image_create(replay->device, wanted->name, &desc, err))) goto fail;
         image->next = NULL;
         *end = image;
         end = &image->next;
-        image->used = true;
         image->transient = transient;
-        image->kept = wanted->kept;
-        image->listed =
-            (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE || wanted->wanted;
-        for (uint32_t l = 0; l < desc.levels; l++) {
-            image->levels[l].info.row = wanted->row;
-            image->levels[l].info.pass = wanted->pass;
-        }
-        run->images[i] = image;
+        run_adopt(run, i, image);
     }
-    replay_drop_images(replay, true); /* before memory is taken for new ones */
-    replay->images = kept;
+    replay_trim_images(replay, run->options->keep_bytes); /* before memory is taken for new ones */
+    *end = replay->images;
+    replay->images = taken;
     for (size_t i = 0; i < run->graph.image_count; i++)
         if (!run->images[i]->block && !run->images[i]->transient &&
             !image_own_memory(run->images[i], replay->device, err))
             return false;
     return share_memory(run, err);
 fail:
-    while (kept) { /* their contents may serve a later run */
-        struct image *image = kept;
-        kept = image->next;
-        image->next = replay->images;
-        replay->images = image;
-    }
+    *end = replay->images; /* their contents may serve a later run */
+    replay->images = taken;
     return false;
 }

@@ -87,7 +87,7 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
 static bool execute_round(struct run *run, bool apart, double done, double share, struct glint_error *err) {
     const struct graph *graph = &run->graph;
     const size_t first = graph->loop_first, end = graph->loop_end;
-    const uint32_t rays = pipeline_rays(run->pipeline);
+    const uint32_t rays = glint_pipeline_rays(run->pipeline);
     const double each = graph->pass_count ? share / (double)graph->pass_count : 0;
     if (!execute_passes(run, 0, first, 0, apart, done, each * (double)first, err)) return false;
     const double loop = each * (double)(end - first) / rays;
@@ -116,8 +116,11 @@ bool run_execute(struct run *run, struct glint_error *err) {
         for (size_t p = 0; p < run->graph.pass_count && round >= warmup && run->queries; p++)
             if (run->steps[p].execute) run->steps[p].ns[run->steps[p].timed++] = run->steps[p].round_ns;
     }
-    for (size_t i = 0; i < run->graph.image_count; i++)
-        if (run->graph.images[i].source == SOURCE_MADE && !run->images[i]->transient)
-            run->images[i]->key = run->keys[i];
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        if (image->source != SOURCE_MADE || run->images[i]->transient || !run->steps[image->maker].execute) continue;
+        run->images[i]->key = run->keys[i];
+        run->images[i]->round = options->round;
+    }
     return true;
 }

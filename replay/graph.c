@@ -77,12 +77,12 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
     else complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);
     const bool given = fresh.source == SOURCE_RUN || fresh.source == SOURCE_ENGINE;
-    if (given && pipeline_rays(inputs->pipeline) > 1 && graph->passes[reader].rank == RANK_RAY &&
+    if (given && glint_pipeline_rays(inputs->pipeline) > 1 && graph->passes[reader].rank == RANK_RAY &&
         pass_row(fresh.pass, GLINT_ROW_PER_RAY, NULL))
         faults_add(faults, GLINT_ERROR_USAGE,
                    "%s/%s reads %s, which %s makes anew for each of %u rays: it must be among the passes too",
                    graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, name, fresh.pass->slot,
-                   pipeline_rays(inputs->pipeline));
+                   glint_pipeline_rays(inputs->pipeline));
     if (fresh.row) graph->images[graph->image_count++] = fresh;
 }
 
@@ -178,7 +178,7 @@ bool graph_init(struct graph *graph, const struct graph_inputs *inputs, struct g
     if (!graph_decide(graph, inputs, &faults, err)) goto fail;
     link_images(graph, inputs, &faults);
     if (faults.count == 0) graph_find_cached_work(graph);
-    graph_find_loop(graph, pipeline_rays(inputs->pipeline));
+    graph_find_loop(graph, glint_pipeline_rays(inputs->pipeline));
     if (faults_none(&faults, inputs->pipeline->name, err)) return true;
 fail:
     graph_finish(graph);

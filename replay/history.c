@@ -5,20 +5,21 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool is_history(const struct image *image) {
+bool image_is_history(const struct image *image) {
     return strncmp(image->name, HISTORY_PREFIX, strlen(HISTORY_PREFIX)) == 0;
 }
 
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next) {
     const bool follows = replay->loaded && replay->ran && next->number == replay->number + 1;
-    for (struct image *image = replay->images; image; image = image->next) image->used = !is_history(image);
+    for (struct image *image = replay->images; image; image = image->next) image->transient |= image_is_history(image);
     replay_drop_images(replay, false);
     for (struct image *image = replay->images; image; image = image->next) {
         char name[sizeof image->name];
-        if (!follows || !image->kept || !image->key || image->transient) continue;
+        const bool remembered = follows && image->kept && image->key;
+        image->kept = image->listed = false;
+        if (!remembered) continue;
         snprintf(name, sizeof name, HISTORY_PREFIX "%.64s", image->name);
         image_rename(image, name);
-        image->kept = image->listed = false;
     }
     replay->number = next->number;
     replay->loaded = true;
@@ -27,7 +28,8 @@ void replay_age_images(struct glint_replay *replay, const struct glint_frame *ne
 
 static bool on_device(const struct run *run, const char *name, const struct image_desc *desc) {
     for (const struct image *image = run->replay->images; image; image = image->next)
-        if (strcmp(image->name, name) == 0) return image->key && image_desc_equal(&image->desc, desc);
+        if (strcmp(image->name, name) == 0 && image->lineage == run->options->lineage)
+            return image->key && image_desc_equal(&image->desc, desc);
     return false;
 }
 

@@ -44,6 +44,10 @@ void image_rename(struct image *image, const char *name) {
         snprintf(image->levels[i].name, sizeof image->levels[i].name, "%s.level%u", image->name, i);
 }
 
+uint64_t image_memory_bytes(const struct image *image) {
+    return image->block && !image->transient ? image->block->size : 0;
+}
+
 static void describe_levels(struct image *image) {
     const struct image_desc *desc = &image->desc;
     for (uint32_t i = 0; i < desc->levels; i++) {

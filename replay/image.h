@@ -44,11 +44,13 @@ struct image {
     VkImageView array_view; /* of a cube image, as a cube array; `view` is a cube then. NULL otherwise */
     VkImageView faces_view; /* of an image with layers, as an array; NULL otherwise */
     struct block *block;
-    uint64_t key;   /* hash of all that its contents depend on; 0: contents undefined */
-    bool listed;    /* shown to callers */
-    bool used;      /* in this run */
-    bool transient; /* shares its memory */
-    bool kept;      /* the next frame's history */
+    uint64_t key;            /* hash of all that its contents depend on; 0: contents undefined */
+    bool listed;             /* shown to callers */
+    bool used;               /* in this run */
+    bool transient;          /* shares its memory */
+    bool kept;               /* the next frame's history */
+    uint32_t lineage, round; /* of the run that wrote it: see glint_replay_options */
+    uint64_t used_at;        /* number of the last run that used it */
     char name[80];
     struct image *next;
 };
@@ -72,6 +74,7 @@ struct block *block_create(struct glint_device *device, const VkMemoryRequiremen
 bool image_bind(struct image *image, struct glint_device *device, struct block *block, struct glint_error *err);
 /* Under another name the image is another one. */
 void image_rename(struct image *image, const char *name);
+uint64_t image_memory_bytes(const struct image *image); /* of its own, 0 when it has none or shares it */
 void image_destroy(struct image **image, struct glint_device *device);
 
 /* Barriers gathered for one step: one for all memory, and one for each image that takes over its memory. */

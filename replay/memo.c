@@ -92,7 +92,9 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
         !constants_init(&step->constants, &run->graph, step->pass, run->options->diagnostics, err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
-    key = mix(key, step->constants.data, step->constants.count * sizeof(uint32_t));
+    /* The first constant switches diagnostics on, which changes nothing else; what a user's shader makes of it is not known. */
+    const uint32_t skipped = step->pass->entry->shader ? 0 : 1;
+    key = mix(key, step->constants.data + skipped, (step->constants.count - skipped) * sizeof(uint32_t));
     key = mix(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));
     uint32_t words[FRAME_WORDS];
     memcpy(words, &run->block, sizeof words);
@@ -103,12 +105,19 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
             const struct graph_image *image = graph_bound(&run->graph, &pass->rows[r]);
             key = mix_number(mix_text(key, image->name), run->keys[image - run->graph.images]);
         }
-    step->key = step->pass->rank == RANK_RAY ? mix_number(key, pipeline_rays(run->pipeline)) : key;
+    step->key = step->pass->rank == RANK_RAY ? mix_number(key, glint_pipeline_rays(run->pipeline)) : key;
     return true;
 }
 
 static bool outdated(const struct run *run, size_t i) {
-    return run->images[i]->key != run->keys[i];
+    const uint32_t round = run->options->round;
+    return run->images[i]->key != run->keys[i] || (round && run->images[i]->round != round);
+}
+
+bool run_writes(const struct run *run, size_t i) {
+    const struct graph_image *image = &run->graph.images[i];
+    if (image->source == SOURCE_MADE && !image->pass->host) return run->steps[image->maker].execute;
+    return run->needed[i] && run->images[i]->key != run->keys[i];
 }
 
 static void decide(struct run *run, struct step *step, size_t place) {
@@ -147,7 +156,10 @@ bool run_keys(struct run *run, struct glint_error *err) {
             if (graph->images[i].source == SOURCE_MADE && graph->images[i].maker == p)
                 run->keys[i] = mix_text(step->key, graph->images[i].name);
     }
-    for (size_t p = graph->pass_count; p-- > 0;)
-        if (graph->passes[p].runs && !graph->passes[p].pass->host) decide(run, &run->steps[p], p);
     return true;
+}
+
+void run_decide(struct run *run) {
+    for (size_t p = run->graph.pass_count; p-- > 0;)
+        if (run->graph.passes[p].runs && !run->graph.passes[p].pass->host) decide(run, &run->steps[p], p);
 }

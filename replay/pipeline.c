@@ -146,7 +146,7 @@ static bool set_number(struct glint_pipeline *pipeline, const char *slot, const 
     return true;
 }
 
-uint32_t pipeline_rays(const struct glint_pipeline *pipeline) {
+uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline) {
     return pipeline->rays ? pipeline->rays : 1;
 }
 
@@ -261,6 +261,24 @@ void glint_pipeline_destroy(struct glint_pipeline **pointer) {
     free(pipeline->passes);
     free(pipeline->name);
     free(pipeline);
+}
+
+struct glint_pipeline *glint_pipeline_copy(const struct glint_pipeline *pipeline, struct glint_error *err) {
+    struct glint_pipeline *copy = calloc(1, sizeof *copy);
+    bool ok = copy && (copy->name = strdup(pipeline->name)) &&
+              (copy->passes = calloc(pipeline->count + 1, sizeof *copy->passes));
+    if (ok) copy->rays = pipeline->rays;
+    for (size_t i = 0; ok && i < pipeline->count; i++) {
+        const struct pipeline_pass *from = &pipeline->passes[i];
+        struct pipeline_pass *to = &copy->passes[copy->count++];
+        if (!(ok = pass_init(to, from->pass, err))) return glint_pipeline_destroy(&copy), NULL;
+        memcpy(to->values, from->values, from->pass->row_count * sizeof *to->values);
+        ok = !from->shader || (to->shader = strdup(from->shader));
+    }
+    if (ok) return copy;
+    no_memory(err);
+    if (copy) glint_pipeline_destroy(&copy);
+    return NULL;
 }
 
 const char *glint_pipeline_name(const struct glint_pipeline *pipeline) {

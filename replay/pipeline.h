@@ -20,7 +20,6 @@ struct glint_pipeline {
 };
 
 enum { RAYS_MAX = 1024 };
-uint32_t pipeline_rays(const struct glint_pipeline *pipeline);
 const struct pipeline_pass *pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
 bool row_is_parameter(const struct glint_row *row);
 

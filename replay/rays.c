@@ -110,7 +110,7 @@ void rays_record(const struct run *run, uint32_t ray) {
     struct glint_device *device = run->replay->device;
     VkCommandBuffer commands = device->commands;
     const VkPipelineLayout layout = run->rays->program->layout;
-    const uint32_t rays = pipeline_rays(run->pipeline), push[PUSH_WORDS] = {0, 0, ray, rays};
+    const uint32_t rays = glint_pipeline_rays(run->pipeline), push[PUSH_WORDS] = {0, 0, ray, rays};
     device_begin_label(device, "accumulate");
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, run->rays->program->pipeline);
     vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, push);

@@ -12,7 +12,7 @@ static json_t *parameter(const struct glint_row *row, double value) {
 }
 
 static size_t pass_rays(const struct run *run, size_t p) {
-    return run->graph.passes[p].rank == RANK_RAY ? pipeline_rays(run->pipeline) : 1;
+    return run->graph.passes[p].rank == RANK_RAY ? glint_pipeline_rays(run->pipeline) : 1;
 }
 
 static json_t *pass_record(const struct run *run, size_t p) {
@@ -94,7 +94,7 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "tool", json_pack("{ssss}", "name", "glint", "version", GLINT_VERSION));
     json_object_set_new(root, "device", device_record(glint_device_get_info(run->replay->device)));
     json_object_set_new(root, "frame", json_integer((json_int_t)glint_capture_frame(run->replay->capture)->number));
-    json_object_set_new(root, "rays", json_integer((json_int_t)pipeline_rays(run->pipeline)));
+    json_object_set_new(root, "rays", json_integer((json_int_t)glint_pipeline_rays(run->pipeline)));
     json_object_set_new(root, "preset", json_string(run->pipeline->name));
     json_object_set_new(root, "resolution",
                         json_pack("{s[ii]s[ii]}", "full", (int)run->sizes.full[0], (int)run->sizes.full[1], "half",

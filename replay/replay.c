@@ -109,6 +109,7 @@ static bool store_results(struct run *run, struct glint_error *err) {
             result->time = time_statistics(&ns, 1);
         } else {
             result->cached = !run->steps[p].execute;
+            result->key = run->steps[p].key;
             if (!run->options->outputs) /* a file of all its images */
                 memcpy(replay->cache_keys[p], run->steps[p].cache_key, CACHE_KEY_SIZE);
             result->time = time_statistics(run->steps[p].ns, run->steps[p].timed);
@@ -134,7 +135,10 @@ static bool run_all(struct run *run, struct glint_error *err) {
     if (!run_allocate(run, err)) return false;
     if (options->cache && !replay_hash(replay, run->content, NULL)) run->content[0] = 0;
     run->touched = true;
-    if (!run_keys(run, err) || !run_upload(run, err)) return false;
+    if (!run_keys(run, err)) return false;
+    run_recall(run);
+    run_decide(run);
+    if (!run_put_aside(run, err) || !run_upload(run, err)) return false;
     start = now_seconds();
     bool ok = run_prepare(run, err) && run_execute(run, err);
     replay->seconds[PHASE_PASSES] += now_seconds() - start;
@@ -151,6 +155,7 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
                       .progress = progress,
                       .user = user};
     forget_results(replay);
+    replay->runs++;
     if (!replay->device) return glint_fail(err, GLINT_ERROR_USAGE, "a replay without a device can only plan");
     struct glint_error own = {0};
     bool ok = run_all(&run, &own);

@@ -27,6 +27,7 @@ struct glint_replay {
     struct glint_capture *capture;
     uint32_t number;  /* of the frame loaded last */
     bool loaded, ran; /* a frame was loaded; it was run */
+    uint64_t runs;    /* how many there were */
     uint64_t serial;  /* of the load: contents of another capture never pass for this one's */
     struct glint_survey survey;
     bool surveyed;
@@ -116,16 +117,32 @@ uint32_t list_blocks(const struct frame_sizes *sizes);
 uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */
 
 /* history.c: what is left of the frame before. */
+bool image_is_history(const struct image *image);
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next);
 bool run_history(struct run *run, struct glint_error *err);
 
 /* allocate.c: images and their memory. */
 bool run_allocate(struct run *run, struct glint_error *err);
 bool image_own_memory(struct image *image, struct glint_device *device, struct glint_error *err);
+
+/* keep.c: images of earlier runs. One that fits, out of the list; those in the list beyond what may be kept, the ones
+   not used for longest first; those that serve no later run, or all. */
+struct image *replay_take_image(struct glint_replay *replay, const struct run *run, const struct graph_image *wanted,
+                                const struct image_desc *desc);
+void replay_trim_images(struct glint_replay *replay, uint64_t keep_bytes);
 void replay_drop_images(struct glint_replay *replay, bool all);
+/* The image becomes the run's number i. */
+void run_adopt(struct run *run, size_t i, struct image *image);
+/* Once the keys are known: images that hold what is wanted take the place of those that do not. Once it is known what will
+   be written: images that hold what an earlier run made are put aside for it. */
+void run_recall(struct run *run);
+bool run_put_aside(struct run *run, struct glint_error *err);
 
 /* memo.c: keys of images and steps, and which steps have to execute. */
 bool run_keys(struct run *run, struct glint_error *err);
+void run_decide(struct run *run);
+/* Whether this run will write the image: a pass that executes, or an upload. */
+bool run_writes(const struct run *run, size_t i);
 
 /* restore.c: work that an earlier process left; false when the step has to execute. */
 bool run_restore(struct run *run, struct step *step);

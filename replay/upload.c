@@ -60,10 +60,6 @@ static bool submit(struct run *run, struct glint_error *err) {
     return device_submit(run->replay->device, "uploading images", err);
 }
 
-static bool to_upload(const struct run *run, size_t i) {
-    return run->needed[i] && run->images[i]->key != run->keys[i];
-}
-
 static void place_components(struct packing *packing, const struct channels *channels, const struct glint_row *row) {
     size_t c = 0;
     for (size_t i = 0; i < 4; i++) packing->at[i] = SIZE_MAX;
@@ -89,7 +85,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
     channels->part = part;
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
-        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || !comes_with(image, role, false)) continue;
+        if (image->source != SOURCE_CAPTURE || !run_writes(run, i) || !comes_with(image, role, false)) continue;
         const struct image_desc *desc = &run->images[i]->desc;
         if (part->width != desc->width || part->height != desc->height * layers)
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %u x %u, found %u x %u",
@@ -110,7 +106,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
     offset = 0;
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
-        if (image->source != SOURCE_CAPTURE || !to_upload(run, i) || !comes_with(image, role, false)) continue;
+        if (image->source != SOURCE_CAPTURE || !run_writes(run, i) || !comes_with(image, role, false)) continue;
         struct packing packing = {.from = (const uint32_t *)channels->data,
                                   .stride = channels->count,
                                   .missing = (float)image->row->nothing,
@@ -262,7 +258,7 @@ bool run_upload(struct run *run, struct glint_error *err) {
     for (size_t i = 0; ok && i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
         bool table = image->source == SOURCE_MADE && image->pass->host;
-        if (!to_upload(run, i) || (image->source == SOURCE_MADE && !table)) continue;
+        if (!run_writes(run, i) || (image->source == SOURCE_MADE && !table)) continue;
         bool stand_in = size_is_array(image->row->size) && run->sizes.active == 0;
         if (image->source == SOURCE_CAPTURE && !stand_in) {
             ok = report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, i, err);

@@ -102,6 +102,36 @@ static void a_frame_run_twice_has_the_same_history(void **state) {
     }
 }
 
+/* Catches: history of another pipeline that had its turn on the same replay, or history that its turn pushed out. */
+static void lineages_remember_their_own(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct made made[2];
+    struct remembered alone[2][3];
+    for (int m = 0; m < 2; m++) {
+        MADE(&made[m], &made_chain, &made_memory);
+        for (size_t r = 0; r < made_chain.row_count; r++)
+            if (strcmp(made_chain.rows[r].name, "factor") == 0) made[m].values[0][r] = 1 + m;
+    }
+    unload(fixture, load(fixture, &(struct fixture_options){.number = 30}));
+    for (int m = 0; m < 3; m++) /* each alone, then both in turns */
+        for (uint32_t i = 0; i < 3; i++) {
+            struct glint_capture *capture =
+                load(fixture, &(struct fixture_options){.number = 31 + 5 * (uint32_t)m + i});
+            for (uint32_t k = 0; k < 2; k++) {
+                const struct glint_replay_options options = {.lineage = k, .keep_bytes = m == 2 ? i : 0};
+                if (m < 2 && k != (uint32_t)m) continue;
+                made_run(fixture, &made[k], &options);
+                const struct remembered at = remembered(fixture);
+                if (m < 2) alone[m][i] = at;
+                else
+                    assert_true(at.frames == alone[k][i].frames && at.valid == alone[k][i].valid &&
+                                at.level == alone[k][i].level);
+            }
+            unload(fixture, capture);
+        }
+    assert_true(alone[0][2].frames == 3.5f && alone[0][2].level != alone[1][2].level);
+}
+
 /* Catches: outputs that let go of what the next frame needs, or put it into shared memory. */
 static void what_is_remembered_is_kept_though_nobody_asks_for_it(void **state) {
     struct fixture *fixture = fixture_need_device(state);
@@ -200,6 +230,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_shot_remembers_and_a_cut_forgets, restore),
         cmocka_unit_test_teardown(a_frame_run_twice_has_the_same_history, restore),
+        cmocka_unit_test_teardown(lineages_remember_their_own, restore),
         cmocka_unit_test_teardown(what_is_remembered_is_kept_though_nobody_asks_for_it, restore),
         cmocka_unit_test_teardown(a_frame_alone_has_the_bits_of_its_shot, restore),
         cmocka_unit_test_teardown(cube_maps_in_a_file_of_their_own_are_worked_on_once, restore),

@@ -40,6 +40,7 @@ struct glint_pipeline;
 /* `preset`: a path to a JSON file (it holds a '/' or ends in ".json"), or a name: $GLINT_PRESETS/NAME.json, then the
    presets built into the library. Everything wrong in the file is reported together. */
 struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err);
+struct glint_pipeline *glint_pipeline_copy(const struct glint_pipeline *pipeline, struct glint_error *err);
 void glint_pipeline_destroy(struct glint_pipeline **pipeline);
 const char *glint_pipeline_name(const struct glint_pipeline *pipeline);
 /* Names of the presets built into the library; NULL past the last. */
@@ -53,6 +54,7 @@ bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment,
 bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 size_t glint_pipeline_pass_count(const struct glint_pipeline *pipeline);
 const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeline, size_t i);
+uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline); /* a frame, at least 1 */
 double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct glint_pass *pass,
                             const struct glint_row *parameter);
 
@@ -89,6 +91,13 @@ struct glint_replay_options {
     uint32_t repeat;                        /* timed rounds after a warm-up; 0: one round, first use included */
     uint32_t warmup;                        /* rounds before the timed ones; 0: 1 */
     bool no_cache;                          /* run every pass although nothing changed */
+    /* Not 0: a pass runs, although nothing changed, unless it did in a run of this round. Pipelines that take turns share
+       the work of one round, and every round measures it anew. */
+    uint32_t round;
+    /* What images of earlier runs may take on the device beside this run's, the ones used last stay: pipelines that take
+       turns find their own, and what they read of the capture, again. 0: nothing is kept but what this run uses. */
+    uint64_t keep_bytes;
+    uint32_t lineage; /* runs remember the frame before as runs of the same lineage left it */
     /* A folder, or NULL: files of passes that read cube maps and nothing of the frame are kept there when a run is written
        (4 GiB at most), and found again by other processes, unless no_cache or repeat ask for execution. */
     const char *cache;
@@ -109,6 +118,7 @@ struct glint_pass_result {
     bool cached_work; /* it reads cube maps and nothing of the frame: paid when a cube map changes, not every frame */
     char reason[192];
     struct glint_time time; /* n = 0 when not timed */
+    uint64_t key; /* hash of all that its images depend on but diagnostics; 0 on the host and when it did not run */
 };
 struct glint_image {
     const char *name; /* of level 1 and on: "NAME.level1" … */
