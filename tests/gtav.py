@@ -57,7 +57,7 @@ def lake(glint, folder, docs, times):
     for i, words in enumerate(PICTURES):
         run(glint, "replay", capture, "--preset", "gtav", "-o", folder / str(i), "--set", "resolve.fog=false", *options(words))
         pictures.append(folder / f"{i}.png")
-        run(glint, "view", folder / str(i), "--image", "finished", "-o", pictures[-1])
+        run(glint, "view", folder / str(i), "--image", "composed_water", "-o", pictures[-1])
     run("oiiotool", *pictures, "--mosaic:pad=4", "2x2", "--compression", "jpeg:85", "-o", docs / "lake.jpg")
     sizes = []
     for planar in PLANAR:

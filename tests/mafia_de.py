@@ -28,8 +28,8 @@ COLOUR = [
 ]
 GLASS = [
     ('all', ''),
-    ('no screen: `transparency.length_m=0`', 'transparency.length_m=0'),
-    ('cube map by direction: `transparency.cubemap_steps=0`', 'transparency.cubemap_steps=0'),
+    ('no screen: `transparent_screen_trace.length_m=0`', 'transparent_screen_trace.length_m=0'),
+    ('one cube map: `transparent_cubemap_trace.chain=1`', 'transparent_cubemap_trace.chain=1'),
     ('`transparency.fresnel=false`', 'transparency.fresnel=false'),
     ('no reflection: `transparency.intensity=0`', 'transparency.intensity=0'),
 ]

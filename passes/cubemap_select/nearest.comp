@@ -6,23 +6,11 @@
 #include "shared/push_begin.glsl"
 #include "nearest.pass.h"
 };
+#include "shared/active.glsl"
 #include "shared/camera.glsl"
 
-uint nearest_place(vec3 position) {
-    uint best = 255u;
-    float best_distance2 = INFINITE;
-    for (uint i = 0u; i < frame.counts.x; ++i) {
-        vec3 offset = position - texelFetch(active_center, ivec2(i, 0), 0).xyz;
-        float distance2 = dot(offset, offset);
-        if (distance2 < best_distance2) {
-            best_distance2 = distance2;
-            best = i;
-        }
-    }
-    return best;
-}
-
 void main() {
+    load_active_centers();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;
@@ -32,7 +20,7 @@ void main() {
         vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
         vec3 position = mat3(frame.world_from_view) *
                         view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        best = nearest_place(position + mirror_direction(position, normal) * texelFetch(screen_travelled, pixel, 0).x);
+        best = nearest_active(position + mirror_direction(position, normal) * texelFetch(screen_travelled, pixel, 0).x);
     }
     imageStore(cubemap_best, pixel, uvec4(best));
 }

@@ -6,6 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "exact.pass.h"
 };
+#include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
 #include "cubemap_trace/place.glsl"
@@ -40,7 +41,7 @@ struct View {
 };
 
 View view_of(vec3 origin, vec3 direction, uint place) {
-    vec3 from_center = origin - texelFetch(active_center, ivec2(place, 0), 0).xyz;
+    vec3 from_center = origin - active_centers[place].xyz;
     View view;
     view.from_foot = dot(from_center, direction);
     view.foot = from_center - view.from_foot * direction;
@@ -88,20 +89,6 @@ uint seer(vec3 origin, vec3 direction, float t, float allowed, inout uint fetche
     return best;
 }
 
-uint nearest_center(vec3 point, out float distance2) {
-    uint nearest = 0u;
-    distance2 = INFINITE;
-    for (uint i = 0u; i < frame.counts.x; ++i) {
-        vec3 offset = point - texelFetch(active_center, ivec2(i, 0), 0).xyz;
-        float own2 = dot(offset, offset);
-        if (own2 < distance2) {
-            distance2 = own2;
-            nearest = i;
-        }
-    }
-    return nearest;
-}
-
 // A ray on its way: the cube map that it is followed in, whether that one sees it, and whether it has been in front of a
 // surface there, which it can now go behind.
 struct Walk {
@@ -113,9 +100,8 @@ struct Walk {
 // Takes the cube map that sees the ray at t_after; from t_before on if it sees it there in front of a surface, too.
 void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, float t_after, inout uint fetches) {
     uint place = seer(origin, direction, t_after, tolerance, fetches);
-    float distance2;
     walk.seen = place != NO_PLACE;
-    walk.view = view_of(origin, direction, walk.seen ? place : nearest_center(origin + t_after * direction, distance2));
+    walk.view = view_of(origin, direction, walk.seen ? place : nearest_active(origin + t_after * direction));
     walk.t = t_after;
     walk.front = false;
     if (!walk.seen) return;
@@ -127,8 +113,7 @@ void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, f
 
 // A cube map whose centre is nearer has finer texels here.
 void take_finer_view(inout Walk walk, vec3 origin, vec3 direction, inout uint fetches) {
-    float distance2;
-    uint nearest = nearest_center(origin + walk.t * direction, distance2);
+    uint nearest = nearest_active(origin + walk.t * direction);
     if (nearest == walk.view.place) return;
     View view = view_of(origin, direction, nearest);
     if (gap_at(view, direction, walk.t, fetches) <= 0.0) walk.view = view;
@@ -195,6 +180,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
 }
 
 void main() {
+    load_active_centers();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;

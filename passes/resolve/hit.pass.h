@@ -2,4 +2,5 @@
 PASS("Colour at the hit", "000, Color resolve shaders")
 #include "slot.h"
 OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
+#include "ends.h"
 #include "sources.h"

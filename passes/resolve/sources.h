@@ -1,8 +1,5 @@
 /* Where rays find colour, and how; of every pass that resolves. */
 #line 202
-READ(utexture2D, screen_finished)
-READ(texture2D, travelled)
-READ(utexture2D, cubemap_index)
 READ(texture2D, active_center)
 READ(texture2D, depth_full)
 READ(texture2D, lit)

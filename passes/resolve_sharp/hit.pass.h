@@ -2,6 +2,7 @@
 PASS("Colour at the hit", "000, Color resolve passes")
 #include "slot.h"
 OPTIONAL_READ(utexture2D, sharp_source, R8UI, FULL, 255)
+#include "resolve/ends.h"
 #include "resolve/sources.h"
 #line 302
 PUSH(float, sharp_roughness, 0.1,   0.0, 1.0,  "1", "000, Color resolve passes", "largest roughness that is resolved anew; 0: mirrors alone")

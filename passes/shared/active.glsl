@@ -1,5 +1,7 @@
 // The active cube maps' centres, w: their fade, in shared memory: every invocation looks at several of them. Call
 // load_active_centers() before any invocation returns.
+#include "shared/constants.glsl"
+
 const uint ACTIVE_MOST = 16u;
 shared vec4 active_centers[ACTIVE_MOST];
 
@@ -7,4 +9,19 @@ void load_active_centers() {
     if (gl_LocalInvocationIndex < min(frame.counts.x, ACTIVE_MOST))
         active_centers[gl_LocalInvocationIndex] = texelFetch(active_center, ivec2(gl_LocalInvocationIndex, 0), 0);
     barrier();
+}
+
+// The one whose centre is nearest to a point; 255: there is none.
+uint nearest_active(vec3 point) {
+    uint best = 255u;
+    float best_distance2 = INFINITE;
+    for (uint i = 0u; i < min(frame.counts.x, ACTIVE_MOST); ++i) {
+        vec3 offset = point - active_centers[i].xyz;
+        float distance2 = dot(offset, offset);
+        if (distance2 < best_distance2) {
+            best_distance2 = distance2;
+            best = i;
+        }
+    }
+    return best;
 }

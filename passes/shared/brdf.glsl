@@ -12,6 +12,13 @@ vec3 reflectance_at_normal(vec3 albedo, float metalness, float specular) {
 // Deviation: the largest component stands for F0.
 float reflectance_at_grazing(vec3 f0) { return min(50.0 * max(f0.r, max(f0.g, f0.b)), 1.0); }
 
+// Share of unpolarised light that a smooth dielectric face reflects, from outside (Fresnel); cosine: to its normal.
+float face_reflectance(float cosine, float index) {
+    float within = sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
+    float s = (cosine - index * within) / (cosine + index * within), p = (within - index * cosine) / (within + index * cosine);
+    return 0.5 * (s * s + p * p);
+}
+
 // Environment BRDF (B. Karis, Real Shading in Unreal Engine 4, 2013, the second half of his split sum) of GGX with
 // height-correlated Smith masking and Schlick's Fresnel: x scales F0, y scales F90. A least-squares fit of our own: what
 // masking loses of a white surface, over (1 - s), and what roughness takes from Fresnel's (1 - cosine)^5, over (1 - s),

@@ -6,19 +6,13 @@
 #include "shared/push_begin.glsl"
 #include "combine.pass.h"
 };
+#include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 
 struct Water {
     vec3 position, towards, normal, own; // own: the light it scatters
     float thickness_m, opacity;
 };
-
-// Fresnel's formulas for unpolarised light, from outside; `cosine` to the surface's normal.
-float reflected_share(float cosine) {
-    float within = sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
-    float s = (cosine - index * within) / (cosine + index * within), p = (within - index * cosine) / (within + index * cosine);
-    return 0.5 * (s * s + p * p);
-}
 
 // How far the refracted ray goes to a bottom that the view ray `towards` meets after thickness_m: both sink as deep.
 float way_through(vec3 towards, float thickness_m, vec3 refracted) {
@@ -69,7 +63,7 @@ vec3 mirrored(Water water, ivec2 pixel) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(finished)))) return;
+    if (any(greaterThanEqual(pixel, imageSize(composed_water)))) return;
     float depth_m = texelFetch(water_depth, pixel, 0).x;
     vec4 normal = texelFetch(water_normal, pixel, 0), own = texelFetch(water_color, pixel, 0);
     vec3 color = texelFetch(composed, pixel, 0).rgb;
@@ -83,7 +77,7 @@ void main() {
         water.thickness_m = normal.w;
         water.opacity = own.a;
         float cosine = fresnel ? clamp(-dot(water.towards, water.normal), 0.0, 1.0) : 1.0;
-        color = mix(seen_through(water, pixel), mirrored(water, pixel), clamp(intensity * reflected_share(cosine), 0.0, 1.0));
+        color = mix(seen_through(water, pixel), mirrored(water, pixel), clamp(intensity * face_reflectance(cosine, index), 0.0, 1.0));
     }
-    imageStore(finished, pixel, vec4(color, 1.0));
+    imageStore(composed_water, pixel, vec4(color, 1.0));
 }

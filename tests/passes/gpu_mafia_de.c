@@ -300,6 +300,39 @@ static void hits_find_their_colour_in_the_previous_frame(void **state) {
     assert_true(found[0][2] > 2 * found[0][0] && found[1][0] == found[0][0]);
 }
 
+/* Where a hidden hit lies is known, and the cube map nearest to it mostly sees it. */
+static void hidden_hits_are_found_in_cube_maps(void **state) {
+    struct gpu *gpu = *state;
+    double apart[2] = {0};
+    int count = 0, black = 0;
+    gpu_reset(gpu);
+    gpu_load(gpu, "frame");
+    gpu_set(gpu, "resolve.fog=false");
+    gpu_set(gpu, "downsample.jitter=false");
+    gpu_run(gpu);
+    float *now = gpu_floats(gpu, "reflection_half", NULL, NULL);
+    for (int cubemap = 0; cubemap < 2; ++cubemap) {
+        gpu_use(gpu, "resolve=previous");
+        gpu_set(gpu, "resolve.fog=false");
+        gpu_set(gpu, cubemap ? "resolve.hidden=cubemap" : "resolve.hidden=black");
+        gpu_run(gpu);
+        float *before = gpu_floats(gpu, "reflection_half", NULL, NULL);
+        uint32_t *source = gpu_uints(gpu, "previous_source", NULL, NULL);
+        for (int i = 0; i < 120 * 68; ++i) {
+            if (source[i] < 2) continue;
+            const double a = luminance(now + 4 * i), b = luminance(before + 4 * i);
+            apart[cubemap] += fabs(a - b) / (a + b + 0.05);
+            if (cubemap) count++, black += b == 0;
+        }
+        free(before), free(source);
+    }
+    print_message("# %d hits hidden or outside: black off by %.3f, in cube maps by %.3f; %d stay black\n", count,
+                  apart[0] / count, apart[1] / count, black);
+    /* The cube maps have 16 texels a side. */
+    assert_true(count > 50 && black == 0 && apart[1] < 0.6 * apart[0]);
+    free(now);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_lie_evenly_around_the_mirror_direction),
@@ -309,6 +342,7 @@ int main(void) {
         cmocka_unit_test(nothing_leaks_over_edges),
         cmocka_unit_test(bright_samples_are_held_at_what_is_around),
         cmocka_unit_test(hits_find_their_colour_in_the_previous_frame),
+        cmocka_unit_test(hidden_hits_are_found_in_cube_maps),
     };
     return cmocka_run_group_tests_name("gpu_mafia_de", tests, gpu_set_up, gpu_tear_down);
 }

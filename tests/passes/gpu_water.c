@@ -31,7 +31,7 @@ static void load(struct gpu *gpu) {
 static double error_of(struct gpu *gpu, const float *opacity, const float *scene) {
     double sum = 0;
     size_t count = 0;
-    float *finished = gpu_floats(gpu, "finished", NULL, NULL);
+    float *finished = gpu_floats(gpu, "composed_water", NULL, NULL);
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
         if (!(opacity[i] > 0)) continue;
         for (size_t c = 0; c < 3; ++c, ++count) {
@@ -80,7 +80,8 @@ static void all_else_stays(void **state) {
     load(gpu);
     gpu_run(gpu);
     float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1);
-    float *finished = gpu_floats(gpu, "finished", NULL, NULL), *composed = gpu_floats(gpu, "composed", NULL, NULL);
+    float *finished = gpu_floats(gpu, "composed_water", NULL, NULL),
+          *composed = gpu_floats(gpu, "composed", NULL, NULL);
     float *planar = gpu_floats(gpu, "planar_reflection", NULL, NULL);
     size_t dry = 0, wet = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {

@@ -110,6 +110,31 @@ static void add_cube(struct glint_writer *writer, const struct plain *plain, uin
     free(values);
 }
 
+/* A part that lies over the picture. */
+static void add_over(struct glint_writer *writer, const struct plain *plain, const char *name,
+                     void (*at)(uint32_t x, uint32_t y, float out[9])) {
+    const bool water = !strcmp(name, "water");
+    const char *const names[9] = {"R",
+                                  "G",
+                                  "B",
+                                  water ? "opacity" : "A",
+                                  "normal.X",
+                                  "normal.Y",
+                                  "normal.Z",
+                                  "depth.Z",
+                                  water ? "thickness.Z" : "material.roughness"};
+    const size_t pixels = (size_t)plain->width * plain->height;
+    float *values = malloc(9 * pixels * sizeof *values);
+    assert_non_null(values);
+    for (size_t i = 0; i < pixels; ++i) {
+        float pixel[9];
+        at((uint32_t)(i % plain->width), (uint32_t)(i / plain->width), pixel);
+        for (size_t k = 0; k < 9; ++k) values[k * pixels + i] = pixel[k];
+    }
+    add_part(writer, name, plain, names, values, 9, NULL);
+    free(values);
+}
+
 void plain_capture(const char *path, const struct plain *plain) {
     static const char *const names[PLAIN_CHANNELS] = {"depth.Z",
                                                       "normal.X",
@@ -160,6 +185,8 @@ void plain_capture(const char *path, const struct plain *plain) {
     for (size_t i = 0; plain->scene && i < 3 * pixels; ++i) light[i] = plain->scene[i / pixels];
     if (plain->scene) add_part(writer, "scene", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL);
     free(ids);
+    if (plain->water) add_over(writer, plain, "water", plain->water);
+    if (plain->pane) add_over(writer, plain, "transparent", plain->pane);
     for (uint32_t i = 0; plain->cube && i < plain->cube_count; ++i) add_cube(writer, plain, i);
     if (plain->sky) add_cube(writer, plain, plain->cube_count);
     check(glint_writer_finish(writer, &err), &err);
