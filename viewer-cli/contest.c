@@ -72,9 +72,9 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
 
 void contest_finish(struct contest *contest) {
     for (size_t i = 0; i < contest->count; i++) {
-        glint_replay_destroy(&contest->contestants[i].replay);
         glint_pipeline_destroy(&contest->contestants[i].pipeline);
     }
+    if (contest->judge) glint_judge_destroy(&contest->judge);
     free(contest->contestants);
     contest->contestants = NULL;
     contest->count = 0;
@@ -89,20 +89,17 @@ void showing_finish(struct showing *showing) {
 }
 
 static void answer_finish(struct answer *answer) {
-    glint_pixels_finish(&answer->found);
-    glint_pixels_finish(&answer->truth);
+    glint_verdict_finish(&answer->verdict);
     glint_pixels_finish(&answer->picture);
-    free(answer->truth_error);
-    free(answer->given);
     *answer = (struct answer){0};
 }
 
-static bool same_reason(const struct glint_pass_result *a, const struct glint_pass_result *b) {
+static bool same_reason(const struct glint_verdict_pass *a, const struct glint_verdict_pass *b) {
     return !a->ran && !b->ran && !strcmp(a->reason, b->reason);
 }
 
 /* "a, b left out: nothing reflects" where `a` is result i, once for all passes of that reason. */
-static void note_reason(FILE *notes, const struct glint_pass_result *results, size_t count, size_t i) {
+static void note_reason(FILE *notes, const struct glint_verdict_pass *results, size_t count, size_t i) {
     if (results[i].ran) return;
     for (size_t k = 0; k < i; k++)
         if (same_reason(&results[k], &results[i])) return;
@@ -113,18 +110,17 @@ static void note_reason(FILE *notes, const struct glint_pass_result *results, si
 }
 
 /* Which passes ran, and a note of those that had nothing to do. */
-static bool note_passes(struct showing *s, const struct contestant *c, struct glint_error *err) {
-    size_t count = 0, size = 0;
-    const struct glint_pass_result *results = glint_replay_results(c->replay, &count);
+static bool note_passes(struct showing *s, const struct glint_verdict *verdict, struct glint_error *err) {
+    size_t size = 0;
     FILE *notes = open_memstream(&s->notes, &size);
     if (!notes) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     s->passes = json_array();
-    for (size_t i = 0; i < count; i++) {
-        const struct glint_pass_result *r = &results[i];
-        json_array_append_new(s->passes, json_pack("{s:s, s:s, s:b, s:s}", "slot", r->pass->slot, "variant",
-                                                   r->pass->variant, "ran", r->ran, "reason", r->reason));
+    for (size_t i = 0; i < verdict->pass_count; i++) {
+        const struct glint_verdict_pass *p = &verdict->passes[i];
+        json_array_append_new(s->passes, json_pack("{s:s, s:s, s:b, s:s}", "slot", p->pass->slot, "variant",
+                                                   p->pass->variant, "ran", p->ran, "reason", p->reason));
     }
-    for (size_t i = 0; i < count; i++) note_reason(notes, results, count, i);
+    for (size_t i = 0; i < verdict->pass_count; i++) note_reason(notes, verdict->passes, verdict->pass_count, i);
     return fclose(notes) == 0 || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
@@ -141,79 +137,60 @@ static void count_given(struct showing *s, const uint8_t *given, const uint8_t *
 /* The errors of the pixels of a mask. */
 static bool masked_errors(const struct answer *a, const uint8_t *mask, const uint8_t *surfaces,
                           struct glint_image_errors *errors, struct glint_error *err) {
-    size_t pixels = (size_t)a->found.width * a->found.height;
+    size_t pixels = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
     uint8_t *kept = malloc(pixels + 1);
     if (!kept) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < pixels; i++) kept[i] = mask[i] ? surfaces[i] : GLINT_SURFACE_NONE;
-    bool ok = glint_study_image(&a->found, &a->truth, 3, kept, a->truth_error, errors, err);
+    bool ok = glint_study_image(&a->verdict.reflection, a->truth, 3, kept, a->truth_error, errors, err);
     free(kept);
     return ok;
 }
 
-/* The last reflection, and where it is one. Without any, because its passes have nothing to do, nothing is given. */
-static bool read_found(const struct contestant *c, const struct glint_part_info *gbuffer, struct answer *a,
-                       struct glint_error *err) {
-    struct glint_error own = {0};
-    size_t pixels = (size_t)gbuffer->width * gbuffer->height;
-    if (glint_study_reflection(c->replay, &a->found, &own))
-        return (a->given = glint_study_given(c->replay, &a->found, err)) != NULL;
-    if (own.code != GLINT_ERROR_USAGE) return glint_fail(err, own.code, "%s", own.message);
-    a->found = (struct glint_pixels){gbuffer->width, gbuffer->height, 3, calloc(3 * pixels, sizeof(float))};
-    a->given = calloc(pixels, 1);
-    return (a->found.values && a->given) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
 /* The finished picture, and how far it is from the true one where something covers the opaque surfaces. */
-static bool read_picture(const struct contestant *c, struct glint_capture *capture, struct showing *s, struct answer *a,
-                         struct glint_error *err) {
-    const struct glint_image *image = glint_study_picture(c->replay);
+static bool read_picture(struct glint_judge *judge, struct showing *s, struct answer *a, struct glint_error *err) {
+    struct glint_replay *replay = glint_judge_replay(judge);
+    const struct glint_image *image = glint_study_picture(replay);
     if (!image) return true;
     a->picture = (struct glint_pixels){image->width, image->height, image->components, NULL};
     snprintf(a->picture_name, sizeof a->picture_name, "%s", image->name);
     a->picture.values = malloc((size_t)image->width * image->height * image->components * sizeof(float));
-    bool ok = a->picture.values ? glint_replay_read_image(c->replay, image, GLINT_F32, a->picture.values, err)
+    bool ok = a->picture.values ? glint_replay_read_image(replay, image, GLINT_F32, a->picture.values, err)
                                 : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (int k = 0; ok && k < CONTEST_OVER; k++) {
-        s->over[k].drawn = glint_study_draws(c->replay, contest_over[k]);
-        ok = glint_study_over(&a->picture, capture, contest_over[k], &s->over[k].error, err);
+        s->over[k].drawn = glint_study_draws(replay, contest_over[k]);
+        ok = glint_study_over(&a->picture, glint_judge_capture(judge), contest_over[k], &s->over[k].error, err);
     }
     return ok;
 }
 
 /* The run whose images are looked at: with diagnostics, which the timed ones are without. */
-static bool look(const struct contest *contest, struct contestant *c, struct glint_capture *capture,
-                 const uint8_t *surfaces, struct showing *s, struct answer *a, struct glint_error *err) {
-    const struct glint_replay_options options = {.diagnostics = true};
-    struct glint_error no_truth = {0};
-    if (!glint_replay_load(c->replay, capture, err) ||
-        !glint_replay_run(c->replay, c->pipeline, &options, progress_report, contest->progress, err) ||
-        !note_passes(s, c, err) || !read_found(c, glint_capture_find(capture, "gbuffer"), a, err) ||
-        !read_picture(c, capture, s, a, err))
+static bool look(const struct contest *contest, size_t i, struct showing *s, struct answer *a,
+                 struct glint_error *err) {
+    const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
+    const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
+    if (!glint_judge_look(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
+                          err) ||
+        !note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err))
         return false;
-    size_t pixels = (size_t)a->found.width * a->found.height;
-    count_given(s, a->given, surfaces, pixels);
-    s->compared = glint_study_truth(capture, c->pipeline, &a->truth, &a->truth_error, &no_truth);
-    if (!s->compared && no_truth.code != GLINT_ERROR_FORMAT)
-        return glint_fail(err, no_truth.code, "%s", no_truth.message);
-    if (!s->compared) snprintf(s->failure, sizeof s->failure, "%s", no_truth.message);
-    uint8_t *compared = s->compared ? malloc(pixels + 1) : NULL;
-    for (size_t i = 0; compared && i < pixels; i++) compared[i] = a->given[i] && surfaces[i] != GLINT_SURFACE_NONE;
-    bool ok = (!s->compared || masked_errors(a, a->given, surfaces, &s->own, err)) &&
-              glint_study_ends(c->replay, &a->found, &a->truth, compared, &s->ends, err);
-    free(compared);
-    return ok;
+    s->ends = a->verdict.ends;
+    count_given(s, a->verdict.given, surfaces, (size_t)a->verdict.reflection.width * a->verdict.reflection.height);
+    s->compared = a->verdict.no_truth.code == GLINT_OK;
+    snprintf(s->failure, sizeof s->failure, "%s", a->verdict.no_truth.message);
+    if (!s->compared) return true;
+    a->truth = glint_judge_answer(contest->judge, GLINT_ANSWER_TRUTH, pipeline, &a->truth_error, NULL, NULL, err);
+    return a->truth && masked_errors(a, a->verdict.given, surfaces, &s->own, err);
 }
 
 /* One round after one that warms up, each pass executed. */
-static bool time_round(const struct contest *contest, struct contestant *c, struct showing *s, uint32_t round,
+static bool time_round(const struct contest *contest, size_t i, struct showing *s, uint32_t round,
                        struct glint_error *err) {
-    const struct glint_replay_options options = {.repeat = 1, .warmup = 1, .no_cache = true};
-    if (!glint_replay_run(c->replay, c->pipeline, &options, progress_report, contest->progress, err)) return false;
-    size_t count = 0;
-    const struct glint_pass_result *results = glint_replay_results(c->replay, &count);
-    for (size_t i = 0; i < count; i++)
-        if (results[i].ran && results[i].time.n > 0)
-            (results[i].cached_work ? s->cubemaps_ms : s->frame_ms)[round] += (double)results[i].time.median_ns * 1e-6;
+    struct glint_cost cost;
+    if (!glint_judge_time(contest->judge, contest->contestants[i].pipeline, (uint32_t)i, true, &cost, progress_report,
+                          contest->progress, err))
+        return false;
+    s->frame_ms[round] = (double)cost.frame_ns * 1e-6;
+    s->cubemaps_ms[round] = (double)cost.cubemaps_ns * 1e-6;
+    glint_cost_finish(&cost);
     return true;
 }
 
@@ -248,7 +225,7 @@ static bool take_turns(const struct contest *contest, struct showing *showings, 
                 s->cubemaps_ms = calloc(contest->rounds, sizeof *s->cubemaps_ms);
                 if (!s->frame_ms || !s->cubemaps_ms) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
             }
-            if (s->ran && !time_round(contest, &contest->contestants[i], s, round, &own) &&
+            if (s->ran && !time_round(contest, i, s, round, &own) &&
                 !fail_alone(s, &contest->contestants[i], &own, err))
                 return false;
         }
@@ -268,44 +245,42 @@ static bool share_pixels(const struct contest *contest, struct showing *showings
     if (ok) memset(mask, 1, pixels);
     for (size_t i = 0; ok && i < contest->count; i++)
         for (size_t k = 0; showings[i].compared && showings[i].given[0] && k < pixels; k++)
-            mask[k] &= answers[i].given[k];
+            mask[k] &= answers[i].verdict.given[k];
     for (size_t i = 0; ok && i < contest->count; i++)
         if (showings[i].compared) ok = masked_errors(&answers[i], mask, surfaces, &showings[i].shared, err);
     free(mask);
     return ok;
 }
 
-static bool look_at_all(struct contest *contest, struct glint_capture *capture, struct showing *showings,
-                        struct answer *answers, struct picture *cells, const uint8_t *surfaces,
-                        struct glint_error *err) {
+static bool look_at_all(const struct contest *contest, struct showing *showings, struct answer *answers,
+                        struct picture *cells, struct glint_error *err) {
     const struct glint_pixels *truth = NULL;
+    const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
     size_t columns = contest->count + 1;
     for (size_t i = 0; i < contest->count; i++) {
-        struct contestant *c = &contest->contestants[i];
+        const struct contestant *c = &contest->contestants[i];
         struct glint_error own = {0};
-        if (!c->replay && !(c->replay = glint_replay_create(contest->device, err))) return false;
-        showings[i].ran = look(contest, c, capture, surfaces, &showings[i], &answers[i], &own) &&
+        showings[i].ran = look(contest, i, &showings[i], &answers[i], &own) &&
                           (!cells || contest_draw(cells, columns, i + 1, c, &answers[i], surfaces, &own));
         if (!showings[i].ran && !fail_alone(&showings[i], c, &own, err)) return false;
-        if (!truth && showings[i].compared) truth = &answers[i].truth;
+        if (!truth && showings[i].compared) truth = answers[i].truth;
     }
-    return !cells || contest_draw_truth(cells, columns, truth, capture, err);
+    return !cells || contest_draw_truth(cells, columns, truth, glint_judge_capture(contest->judge), err);
 }
 
 bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
                  struct picture *cells, struct glint_error *err) {
+    static const struct glint_judge_options options = {.truth = true};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
-    uint8_t *surfaces = glint_study_surfaces(capture, err);
     struct answer *answers = calloc(contest->count + 1, sizeof *answers);
-    bool ok = surfaces && (answers || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-              look_at_all(contest, capture, showings, answers, cells, surfaces, err) &&
-              share_pixels(contest, showings, answers, surfaces, (size_t)gbuffer->width * gbuffer->height, err) &&
+    bool ok = (answers || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
+              (contest->judge || (contest->judge = glint_judge_create(contest->device, &options, err))) &&
+              glint_judge_load(contest->judge, capture, err) && look_at_all(contest, showings, answers, cells, err) &&
+              share_pixels(contest, showings, answers, glint_judge_surfaces(contest->judge),
+                           (size_t)gbuffer->width * gbuffer->height, err) &&
               take_turns(contest, showings, err);
-    for (size_t i = 0; answers && i < contest->count; i++) {
-        answer_finish(&answers[i]);
-        if (contest->contestants[i].replay) glint_replay_load(contest->contestants[i].replay, NULL, NULL);
-    }
+    for (size_t i = 0; answers && i < contest->count; i++) answer_finish(&answers[i]);
+    if (contest->judge) glint_judge_load(contest->judge, NULL, NULL);
     free(answers);
-    free(surfaces);
     return ok;
 }

@@ -3,16 +3,13 @@
 #define GLINT_VIEWER_CONTEST_H
 
 #include "args.h"
-#include "glint/study.h"
+#include "glint/judge.h"
 #include "progress.h"
 #include "sheet.h"
 
-/* A preset with a replay of its own: a frame's history and images on the device stay with the preset that made them, so
-   that a capture is read and uploaded once for each, however often they take turns. */
 struct contestant {
     char label[64]; /* the preset's name, or its file's without folder and .json */
     struct glint_pipeline *pipeline;
-    struct glint_replay *replay;
 };
 
 /* Parts of a capture that cover its opaque surfaces. */
@@ -49,6 +46,7 @@ struct contest {
     size_t count;
     uint32_t rounds;
     struct glint_device *device;
+    struct glint_judge *judge; /* made with the first capture; a contestant's place is its lineage */
     struct progress *progress;
 };
 
@@ -67,9 +65,9 @@ void showing_finish(struct showing *showing);
 /* Pictures of one capture. */
 enum { CONTEST_ROWS = 3 }; /* reflection, its error, the composed picture */
 struct answer {
-    struct glint_pixels found, truth; /* truth: of the lobe that the preset draws from; empty without one */
-    float *truth_error;
-    uint8_t *given;
+    struct glint_verdict verdict;
+    const struct glint_pixels *truth; /* of the lobe that the preset draws from; NULL without one */
+    const float *truth_error;
     struct glint_pixels picture; /* the last one; empty without one */
     char picture_name[64];
 };

@@ -25,12 +25,14 @@ static bool draw(struct picture *cell, const struct glint_pixels *pixels, const 
 /* The symmetric error of each pixel that the preset gives; black elsewhere. */
 static bool draw_error(struct picture *cell, const struct answer *a, const uint8_t *surfaces, const char *label,
                        struct glint_error *err) {
-    size_t count = (size_t)a->found.width * a->found.height;
-    struct glint_pixels error = {a->found.width, a->found.height, 1, calloc(count, sizeof(float))};
+    size_t count = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
+    struct glint_pixels error = {a->verdict.reflection.width, a->verdict.reflection.height, 1,
+                                 calloc(count, sizeof(float))};
     if (!error.values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < count; i++)
-        for (uint32_t k = 0; k < 3 && a->given[i] && surfaces[i] != GLINT_SURFACE_NONE; k++) {
-            float found = a->found.values[i * a->found.components + k], truth = a->truth.values[3 * i + k];
+        for (uint32_t k = 0; k < 3 && a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE; k++) {
+            float found = a->verdict.reflection.values[i * a->verdict.reflection.components + k],
+                  truth = a->truth->values[3 * i + k];
             error.values[i] +=
                 fabsf(found - truth) / (fabsf(found) + fabsf(truth) + (float)GLINT_SYMMETRIC_EPSILON) / 3;
         }
@@ -41,13 +43,14 @@ static bool draw_error(struct picture *cell, const struct answer *a, const uint8
 
 /* The reflection where it is given. */
 static bool draw_given(struct picture *cell, const struct answer *a, const char *label, struct glint_error *err) {
-    size_t count = (size_t)a->found.width * a->found.height;
-    struct glint_pixels given = {a->found.width, a->found.height, a->found.components, NULL};
+    size_t count = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
+    struct glint_pixels given = {a->verdict.reflection.width, a->verdict.reflection.height,
+                                 a->verdict.reflection.components, NULL};
     given.values = calloc(count * given.components, sizeof *given.values);
     if (!given.values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < count; i++)
-        if (a->given[i])
-            memcpy(given.values + i * given.components, a->found.values + i * given.components,
+        if (a->verdict.given[i])
+            memcpy(given.values + i * given.components, a->verdict.reflection.values + i * given.components,
                    given.components * sizeof *given.values);
     bool ok = draw(cell, &given, "reflection", label, err);
     glint_pixels_finish(&given);
@@ -57,7 +60,7 @@ static bool draw_given(struct picture *cell, const struct answer *a, const char 
 bool contest_draw(struct picture *cells, size_t columns, size_t column, const struct contestant *contestant,
                   const struct answer *answer, const uint8_t *surfaces, struct glint_error *err) {
     return draw_given(&cells[column], answer, contestant->label, err) &&
-           (!answer->truth.values || draw_error(&cells[columns + column], answer, surfaces, contestant->label, err)) &&
+           (!answer->truth || draw_error(&cells[columns + column], answer, surfaces, contestant->label, err)) &&
            (!answer->picture.values ||
             draw(&cells[2 * columns + column], &answer->picture, answer->picture_name, contestant->label, err));
 }

@@ -1,5 +1,5 @@
 /* What runs are compared with, and what of them: the last reflection, the truth, the class of each pixel. */
-#include "glint/study.h"
+#include "answers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -135,11 +135,23 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_pipelin
                   : glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
 }
 
+/* What is asked for, and not how well it is answered. */
+static const struct {
+    const char *slot, *name;
+} same[] = {{"downsample", "ndf"}, {"resolve", "fog"}, {"resolve", "fog_target"}};
+
+void study_question(const struct glint_pipeline *pipeline, char question[QUESTION_SIZE]) {
+    char value[64];
+    question[0] = 0;
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
+        size_t end = strlen(question);
+        if (value_text(pipeline, same[i].slot, same[i].name, value))
+            snprintf(question + end, QUESTION_SIZE - end, "%s%s.%s=%s", end ? " " : "", same[i].slot, same[i].name,
+                     value);
+    }
+}
+
 struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err) {
-    /* What is asked for, and not how well it is answered. */
-    static const struct {
-        const char *slot, *name;
-    } same[] = {{"downsample", "ndf"}, {"resolve", "fog"}, {"resolve", "fog_target"}};
     struct glint_pipeline *reference = glint_pipeline_create("reference", err);
     for (size_t i = 0; reference && i < sizeof same / sizeof same[0]; i++) {
         char value[64], unused[64], assignment[128];

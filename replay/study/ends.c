@@ -87,7 +87,34 @@ static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, si
     return true;
 }
 
-/* Sum over all texels of each tracer's image `what`. */
+/* Where a ray ended: tracer and reason of the last tracer that had it, or 0 without a ray. */
+static size_t group_of(const struct tracer *tracers, size_t count, size_t texel) {
+    for (size_t t = count; t-- > 0;) {
+        uint32_t reason = tracers[t].reasons[texel];
+        if (reason > 0 && reason < REASONS) return t * REASONS + reason;
+    }
+    return 0;
+}
+
+/* Takes the rays out that no reflecting surface sends: each starts at the pixel of its texel that was picked. */
+static bool forget_rays(struct glint_replay *replay, struct tracer *tracers, size_t count, const uint8_t *surfaces,
+                        const struct glint_pixels *full, struct glint_error *err) {
+    const struct glint_image *image = glint_replay_find_image(replay, "pick"), *end = tracers[0].end;
+    uint32_t *pick = image ? read_image(replay, image, GLINT_U32, err) : NULL;
+    const uint32_t scale = end->width == full->width && end->height == full->height ? 1 : 2;
+    if (image && !pick) return false;
+    for (size_t i = 0; i < (size_t)end->width * end->height; i++) {
+        const uint32_t at = pick && scale == 2 && pick[i] < 4 ? pick[i] : 0;
+        uint32_t x = scale * (uint32_t)(i % end->width) + (at & 1), y = scale * (uint32_t)(i / end->width) + (at >> 1);
+        if (x < full->width && y < full->height && surfaces[(size_t)y * full->width + x] != GLINT_SURFACE_NONE)
+            continue;
+        for (size_t t = 0; t < count; t++) tracers[t].reasons[i] = 0;
+    }
+    free(pick);
+    return true;
+}
+
+/* Sum of each tracer's image `what` over all rays. */
 static bool add_up(struct glint_replay *replay, const struct tracer *tracers, size_t count, const char *what,
                    double *sum, struct glint_error *err) {
     for (size_t t = 0; t < count; t++) {
@@ -95,7 +122,7 @@ static bool add_up(struct glint_replay *replay, const struct tracer *tracers, si
         uint32_t *values = image ? read_image(replay, image, GLINT_U32, err) : NULL;
         if (image && !values) return false;
         for (size_t i = 0; image && i < (size_t)image->width * image->height; i++)
-            *sum += (double)values[i * image->components];
+            if (group_of(tracers, count, i)) *sum += (double)values[i * image->components];
         free(values);
     }
     return true;
@@ -116,15 +143,6 @@ static double symmetric_error(const struct glint_pixels *found, const struct gli
     return sum;
 }
 
-/* Where a ray ended: tracer and reason of the last tracer that had it, or 0 without a ray. */
-static size_t group_of(const struct tracer *tracers, size_t count, size_t texel) {
-    for (size_t t = count; t-- > 0;) {
-        uint32_t reason = tracers[t].reasons[texel];
-        if (reason > 0 && reason < REASONS) return t * REASONS + reason;
-    }
-    return 0;
-}
-
 static void summarize(const struct tracer *tracers, size_t count, const struct group *groups, struct glint_ends *ends) {
     enum { ROWS = sizeof ends->rows / sizeof ends->rows[0] };
     for (size_t g = 0; g < count * REASONS; g++) ends->rays += groups[g].rays;
@@ -141,14 +159,17 @@ static void summarize(const struct tracer *tracers, size_t count, const struct g
     }
 }
 
-bool glint_study_ends(struct glint_replay *replay, const struct glint_pixels *found, const struct glint_pixels *truth,
-                      const uint8_t *compared, struct glint_ends *ends, struct glint_error *err) {
+bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, const struct glint_pixels *found,
+                      const struct glint_pixels *truth, const uint8_t *compared, struct glint_ends *ends,
+                      struct glint_error *err) {
     struct tracer tracers[TRACERS] = {0};
     struct group groups[TRACERS * REASONS] = {0};
     size_t count = 0;
     double steps = 0, fetches = 0;
     *ends = (struct glint_ends){0};
-    bool ok = find_tracers(replay, tracers, &count, err) && add_up(replay, tracers, count, "steps", &steps, err) &&
+    bool ok = find_tracers(replay, tracers, &count, err) &&
+              (!surfaces || !count || forget_rays(replay, tracers, count, surfaces, found, err)) &&
+              add_up(replay, tracers, count, "steps", &steps, err) &&
               add_up(replay, tracers, count, "fetches", &fetches, err);
     size_t texels = ok && count ? (size_t)tracers[0].end->width * tracers[0].end->height : 0;
     for (size_t i = 0; i < texels; i++) {

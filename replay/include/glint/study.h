@@ -56,10 +56,12 @@ struct glint_ends {
     uint64_t rays;
     double steps, fetches; /* a ray, of all tracers together */
 };
-/* After a run with diagnostics. `found`, `truth` and `compared` (1: this pixel) are of full resolution; NULL: no errors.
-   A run without a tracer has no rays. */
-bool glint_study_ends(struct glint_replay *replay, const struct glint_pixels *found, const struct glint_pixels *truth,
-                      const uint8_t *compared, struct glint_ends *ends, struct glint_error *err);
+/* After a run with diagnostics. `surfaces` (glint_study_surfaces: rays of those that reflect nothing count nowhere; NULL: all
+   do), `found`, `truth` and `compared` (1: this pixel) are of full resolution; the last two NULL: no errors. A run
+   without a tracer has no rays. */
+bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, const struct glint_pixels *found,
+                      const struct glint_pixels *truth, const uint8_t *compared, struct glint_ends *ends,
+                      struct glint_error *err);
 
 /* Rays that ended for one reason in one tracer. Their distance is compared with truth.mirror at the pixel they start
    from. A ray that reports +inf (only the direction counts) is right where the truth is the sky, and infinitely wrong
