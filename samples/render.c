@@ -56,7 +56,7 @@ struct hit primary_hit(const struct world *world, const struct view *view, uint3
     float from = (float)VIEW_NEAR;
     struct hit hit;
     do {
-        hit = world_trace(world, view_eye(view), view_ray(view, x, y), from);
+        hit = world_see(world, view_eye(view), view_ray(view, x, y), from);
         from = hit.t * (1 + 1e-5f) + 1e-5f;
     } while ((x ^ y) & 1 && hit.t < INFINITY && hit.mesh->flags & MESH_STIPPLED);
     return hit;

@@ -53,8 +53,9 @@ void truth_add(struct truth_sum *sum, const struct truth *truth);
 /* Colours and errors; what else there is stays. */
 void truth_mean(const struct truth_sum *sum, struct truth *truth);
 
-/* `first`: how many of the sequence of draws were used before. */
+/* `first`: how many of the sequence of draws were used before; `finished`: with what the surfaces met reflect. */
 bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
-                  uint32_t first, struct truth *truth, struct job *job, double weight, struct glint_error *err);
+                  uint32_t first, bool finished, struct truth *truth, struct job *job, double weight,
+                  struct glint_error *err);
 
 #endif

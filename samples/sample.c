@@ -6,6 +6,8 @@
 #include "bake.h"
 #include "dump.h"
 #include "encode.h"
+#include "finished.h"
+#include "foreground.h"
 #include "gltf.h"
 #include "probes.h"
 #include "scenes.h"
@@ -197,7 +199,8 @@ static bool average_truth(struct session *s, uint32_t number, struct glint_error
     for (uint32_t k = 0; ok && k < VIEW_PLACES; k++) {
         struct view view = view_through(&s->scene, o, o->width, o->height, number, k);
         ok = render_frame(s->now, &view, &view, seen, &s->job, 0, err) &&
-             render_truth(s->now, &view, seen, o->truth_samples, k * o->truth_samples, truth, &s->job, 0, err);
+             render_truth(s->now, &view, seen, o->truth_samples, k * o->truth_samples, o->finished_samples > 0, truth,
+                          &s->job, 0, err);
         for (size_t i = 0; ok && i < pixels; i++) truth_add(&sums[i], &truth[i]);
     }
     for (size_t i = 0; ok && i < pixels; i++) truth_mean(&sums[i], &s->truth[i]);
@@ -228,12 +231,27 @@ static bool write_water(struct session *s, const struct dump *dump, const struct
     return ok;
 }
 
+static bool has_panes(const struct scene *scene) {
+    bool any = false;
+    for (uint32_t i = 0; i < scene->mesh_count; i++) any |= (scene->meshes[i].flags & MESH_GLASS) != 0;
+    return any;
+}
+
+static bool write_finished(struct session *s, const struct dump *dump, const struct view *view,
+                           struct glint_error *err) {
+    vec3 *picture = calloc((size_t)view->width * view->height, sizeof *picture);
+    uint32_t samples = s->options.finished_samples;
+    bool ok = picture || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the finished picture");
+    ok = ok && render_finished(s->now, view, s->pixels, samples, picture, &s->job, samples, err) &&
+         dump_scene(dump, picture, sizeof *picture, err);
+    free(picture);
+    return ok;
+}
+
 /* The panes over the frame, and the picture with them. */
 static bool write_glass(struct session *s, const struct dump *dump, const struct view *view, double time,
                         struct glint_error *err) {
-    bool any = false;
-    for (uint32_t i = 0; i < s->scene.mesh_count; i++) any |= (s->scene.meshes[i].flags & MESH_GLASS) != 0;
-    if (!any) return true;
+    if (!has_panes(&s->scene)) return true;
     struct glass_pixel *glass = calloc((size_t)view->width * view->height, sizeof *glass);
     struct world *panes = world_create(&s->scene, WORLD_GLASS, time, err);
     bool ok = panes && (glass || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the glass"));
@@ -253,11 +271,13 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
     if (s->scene.water.there && !write_water(s, dump, view, number, err)) return false;
     if (!write_glass(s, dump, view, (double)number - 1, err)) return false;
+    const struct glint_sample_options *o = &s->options;
+    if (o->finished_samples && !write_finished(s, dump, view, err)) return false;
     if (!s->truth) return true;
-    return render_truth(s->now, view, s->pixels, s->options.truth_samples, 0, s->truth, &s->job,
-                        s->options.truth_samples, err) &&
-           (!s->options.truth_of_pixels || average_truth(s, number, err)) &&
-           dump_truth(dump, s->truth, s->options.truth_samples * (s->options.truth_of_pixels ? VIEW_PLACES : 1), err);
+    return render_truth(s->now, view, s->pixels, o->truth_samples, 0, o->finished_samples > 0, s->truth, &s->job,
+                        o->truth_samples, err) &&
+           (!o->truth_of_pixels || average_truth(s, number, err)) &&
+           dump_truth(dump, s->truth, o->truth_samples * (o->truth_of_pixels ? VIEW_PLACES : 1), err);
 }
 
 static bool make_worlds(struct session *s, double time, struct glint_error *err) {
@@ -337,7 +357,8 @@ static void set_defaults(struct session *s) {
 }
 
 static double total_work(const struct session *s) {
-    return 5 + 3.0 * s->scene.cubemap_count + s->options.frames * (4.0 + 1 + s->options.truth_samples);
+    return 5 + 3.0 * s->scene.cubemap_count +
+           s->options.frames * (4.0 + 1 + s->options.truth_samples + s->options.finished_samples);
 }
 
 static bool prepare(struct session *s, struct glint_error *err) {
@@ -418,7 +439,10 @@ bool glint_sample_write(const char *scene, const char *out, const struct glint_s
     struct session s = {.out = out, .options = options ? *options : (struct glint_sample_options){0}};
     s.job = (struct job){.progress = progress, .user = user, .threads = s.options.threads};
     bool ok = check_options(&s.options, err) && build_scene(scene, &s, err);
+    if (ok && s.options.finished_samples && (s.scene.water.there || has_panes(&s.scene)))
+        ok = glint_fail(err, GLINT_ERROR_USAGE, "%.200s: has water or panes, and a finished picture with them", scene);
     if (ok) {
+        if (s.options.foreground) foreground_add(&s.scene, &s.options);
         set_defaults(&s);
         ok = write_files(&s, err);
     }

@@ -170,7 +170,7 @@ bool scene_bounds(const struct scene *scene, vec3 *low, vec3 *high) {
     *high = gray(-INFINITY);
     for (uint32_t m = 0; m < scene->mesh_count; m++) {
         const struct mesh *mesh = &scene->meshes[m];
-        for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        for (uint32_t i = 0; i < mesh->vertex_count && !(mesh->flags & MESH_FOREGROUND); i++) {
             vec3 p = mesh->positions[i];
             *low = v3(fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z));
             *high = v3(fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z));

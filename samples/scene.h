@@ -33,8 +33,9 @@ enum mesh_flags {
     MESH_DETAIL = 1,     /* not in imperfect cube maps */
     MESH_SIMPLIFIED = 2, /* only in imperfect cube maps */
     MESH_MOVING = 4,     /* not in imperfect cube maps; moves by `step` each frame */
+    MESH_STIPPLED = 8,   /* the camera sees it in every other pixel, as engines fade things near it or far away */
     MESH_GLASS = 16,     /* panes, which glass.h alone sees */
-    MESH_STIPPLED = 8    /* the camera sees it in every other pixel, as engines fade things near it or far away */
+    MESH_FOREGROUND = 32 /* the camera alone sees it; moves with it */
 };
 
 struct mesh {
@@ -117,7 +118,14 @@ struct scene {
     uint32_t class_count;
 };
 
-enum { STENCIL_WORLD = 1, STENCIL_SKY = 2, STENCIL_VEHICLE = 4, STENCIL_VEGETATION = 8, STENCIL_GLASS = 16 };
+enum {
+    STENCIL_WORLD = 1,
+    STENCIL_SKY = 2,
+    STENCIL_VEHICLE = 4,
+    STENCIL_VEGETATION = 8,
+    STENCIL_GLASS = 16,
+    STENCIL_FOREGROUND = 32
+};
 
 void scene_init(struct scene *scene);
 void scene_finish(struct scene *scene);
@@ -158,7 +166,7 @@ struct glint_cubemap *scene_cubemap(struct scene *scene, vec3 center, bool outdo
 /* An inner volume, in world coordinates. */
 void cubemap_box(struct glint_cubemap *map, vec3 low, vec3 high);
 
-/* The box of everything; false when there is nothing. */
+/* The box of everything that is of the world; false when there is nothing. */
 bool scene_bounds(const struct scene *scene, vec3 *low, vec3 *high);
 
 #endif

@@ -57,6 +57,8 @@ static void take_options(XXH3_state_t *state, const struct scene *scene, const s
     take(state, &o->planar_height, sizeof o->planar_height);
     take(state, &o->cut, sizeof o->cut);
     take(state, &o->unjittered, sizeof o->unjittered);
+    take(state, &o->finished_samples, sizeof o->finished_samples);
+    take(state, &o->foreground, sizeof o->foreground);
     take(state, &o->truth_of_pixels, sizeof o->truth_of_pixels);
     if (o->travel_given) take(state, o->travel, sizeof o->travel);
     if (o->camera_given) {

@@ -1,7 +1,6 @@
 /* What a resolve pass estimates, computed for the scene itself: the mean radiance over the whole lobe around the
    full-resolution normal, and where the exact mirror ray ends. */
-#include "render.h"
-
+#include "finished.h"
 #include "lobes.h"
 #include "noise.h"
 
@@ -10,6 +9,7 @@ struct truth_work {
     const struct view *view;
     const struct pixel *pixels;
     uint32_t samples, first; /* of the sequence of draws */
+    bool finished;
     struct truth *truth;
 };
 
@@ -47,6 +47,15 @@ struct start {
     float roughness;
 };
 
+/* What comes along one draw. */
+static vec3 arriving(const struct truth_work *work, const struct start *start, vec3 direction, uint32_t seed,
+                     uint32_t i) {
+    float u, v;
+    if (!work->finished) return world_look(work->world, start->leave, direction, NULL);
+    r2_point(i, hash_two(seed, 3), &u, &v);
+    return finished_look(work->world, start->leave, direction, u, v);
+}
+
 /* Draws that go below the horizon, of the normal or of the surface itself, are repeated. */
 static vec3 average(const struct truth_work *work, const struct start *start, lobe *draw, uint32_t seed, float *weight,
                     float *error) {
@@ -58,7 +67,7 @@ static vec3 average(const struct truth_work *work, const struct start *start, lo
         for (uint32_t k = 0; k < MOST_REPEATS; k++) {
             vec3 direction = draw(start->to_eye, start->normal, start->roughness, u, v);
             if (dot(direction, start->normal) > 0 && dot(direction, start->geometric) > 0) {
-                gather(&mean, world_look(work->world, start->leave, direction, NULL));
+                gather(&mean, arriving(work, start, direction, seed, work->first + i));
                 break;
             }
             uint32_t again = hash_two(hash_two(seed, work->first + i), k);
@@ -76,7 +85,7 @@ static bool on_screen(const struct truth_work *work, const struct hit *hit) {
     if (uv[0] < 0 || uv[0] >= 1 || uv[1] < 0 || uv[1] >= 1) return false;
     if (dot(to_eye, hit->geometric) <= 0) return false;
     vec3 from = world_leave(hit, hit->geometric);
-    return !world_blocked(work->world, from, sub(view_eye(work->view), from), 1);
+    return !world_hidden(work->world, from, sub(view_eye(work->view), from), 1);
 }
 
 static struct truth truth_of(const struct truth_work *work, uint32_t x, uint32_t y) {
@@ -133,7 +142,8 @@ static void truth_row(void *user, uint32_t y) {
 }
 
 bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
-                  uint32_t first, struct truth *truth, struct job *job, double weight, struct glint_error *err) {
-    struct truth_work work = {world, view, pixels, samples, first, truth};
+                  uint32_t first, bool finished, struct truth *truth, struct job *job, double weight,
+                  struct glint_error *err) {
+    struct truth_work work = {world, view, pixels, samples, first, finished, truth};
     return parallel_for(job, "tracing the truth", weight, view->height, truth_row, &work, err);
 }

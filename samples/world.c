@@ -11,8 +11,8 @@ struct world {
     enum world_kind kind;
     double time;
     RTCDevice device;
-    RTCScene tree;
-    const struct mesh **meshes; /* by Embree's geometry id */
+    RTCScene tree, front;       /* front, in WORLD_ALL alone: what only the camera sees */
+    const struct mesh **meshes; /* by Embree's geometry id, which both share */
     uint32_t mesh_count;
 };
 
@@ -23,7 +23,7 @@ static vec3 displacement(const struct world *world, const struct mesh *mesh) {
 static bool part_of(const struct mesh *mesh, enum world_kind kind) {
     if (!mesh->triangle_count) return false;
     if (kind == WORLD_GLASS) return mesh->flags & MESH_GLASS;
-    static const uint32_t left_out[] = {[WORLD_ALL] = MESH_SIMPLIFIED | MESH_GLASS,
+    static const uint32_t left_out[] = {[WORLD_ALL] = MESH_SIMPLIFIED | MESH_GLASS | MESH_FOREGROUND,
                                         [WORLD_STATIC] = MESH_SIMPLIFIED | MESH_MOVING | MESH_GLASS,
                                         [WORLD_SIMPLIFIED] = MESH_DETAIL | MESH_MOVING | MESH_GLASS};
     return !(mesh->flags & left_out[kind]);
@@ -35,7 +35,7 @@ static void pass_holes(const struct RTCFilterFunctionNArguments *found) {
     if (look_hole(found->geometryUserPtr, hit->primID, hit->u, hit->v)) found->valid[0] = 0;
 }
 
-static bool attach(struct world *world, const struct mesh *mesh, struct glint_error *err) {
+static bool attach(struct world *world, RTCScene tree, const struct mesh *mesh, struct glint_error *err) {
     RTCGeometry geometry = rtcNewGeometry(world->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     vec3 *positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
                                               mesh->vertex_count);
@@ -53,10 +53,25 @@ static bool attach(struct world *world, const struct mesh *mesh, struct glint_er
         rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(world->tree, geometry, world->mesh_count);
+    rtcAttachGeometryByID(tree, geometry, world->mesh_count);
     rtcReleaseGeometry(geometry);
     world->meshes[world->mesh_count++] = mesh;
     return true;
+}
+
+/* A tree of the scene's meshes that are of the world, or of those before the camera. */
+static RTCScene grow(struct world *world, bool front, struct glint_error *err) {
+    RTCScene tree = rtcNewScene(world->device);
+    rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
+    for (uint32_t i = 0; i < world->scene->mesh_count; i++) {
+        const struct mesh *mesh = &world->scene->meshes[i];
+        bool wanted = front ? mesh->triangle_count && mesh->flags & MESH_FOREGROUND : part_of(mesh, world->kind);
+        if (!wanted || attach(world, tree, mesh, err)) continue;
+        rtcReleaseScene(tree);
+        return NULL;
+    }
+    rtcCommitScene(tree);
+    return tree;
 }
 
 struct world *world_create(const struct scene *scene, enum world_kind kind, double time, struct glint_error *err) {
@@ -73,11 +88,8 @@ struct world *world_create(const struct scene *scene, enum world_kind kind, doub
         glint_fail(err, GLINT_ERROR_MEMORY, "Embree could not be started");
         goto failed;
     }
-    world->tree = rtcNewScene(world->device);
-    rtcSetSceneFlags(world->tree, RTC_SCENE_FLAG_ROBUST);
-    for (uint32_t i = 0; i < scene->mesh_count; i++)
-        if (part_of(&scene->meshes[i], kind) && !attach(world, &scene->meshes[i], err)) goto failed;
-    rtcCommitScene(world->tree);
+    if (!(world->tree = grow(world, false, err))) goto failed;
+    if (kind == WORLD_ALL && !(world->front = grow(world, true, err))) goto failed;
     enum RTCError error = rtcGetDeviceError(world->device);
     if (error == RTC_ERROR_NONE) return world;
     glint_fail(err, error == RTC_ERROR_OUT_OF_MEMORY ? GLINT_ERROR_MEMORY : GLINT_ERROR_UNSUPPORTED,
@@ -90,6 +102,7 @@ failed:
 void world_destroy(struct world **world) {
     if (!*world) return;
     if ((*world)->tree) rtcReleaseScene((*world)->tree);
+    if ((*world)->front) rtcReleaseScene((*world)->front);
     if ((*world)->device) rtcReleaseDevice((*world)->device);
     free((*world)->meshes);
     free(*world);
@@ -121,7 +134,7 @@ static void fill_hit(const struct world *world, const struct RTCRayHit *found, v
     hit->v = v;
 }
 
-struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min) {
+static struct hit trace(const struct world *world, RTCScene tree, vec3 origin, vec3 direction, float t_min) {
     struct RTCRayHit ray = {.ray = {.org_x = origin.x,
                                     .org_y = origin.y,
                                     .org_z = origin.z,
@@ -135,7 +148,7 @@ struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, f
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect1(world->tree, &context, &ray);
+    rtcIntersect1(tree, &context, &ray);
     struct hit hit = {.t = INFINITY};
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     hit.t = ray.ray.tfar;
@@ -144,7 +157,17 @@ struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, f
     return hit;
 }
 
-bool world_blocked(const struct world *world, vec3 origin, vec3 direction, float t_max) {
+struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min) {
+    return trace(world, world->tree, origin, direction, t_min);
+}
+
+struct hit world_see(const struct world *world, vec3 origin, vec3 direction, float t_min) {
+    struct hit behind = world_trace(world, origin, direction, t_min);
+    struct hit front = trace(world, world->front, origin, direction, t_min);
+    return front.t < behind.t ? front : behind;
+}
+
+static bool blocked(RTCScene tree, vec3 origin, vec3 direction, float t_max) {
     struct RTCRay ray = {.org_x = origin.x,
                          .org_y = origin.y,
                          .org_z = origin.z,
@@ -155,8 +178,16 @@ bool world_blocked(const struct world *world, vec3 origin, vec3 direction, float
                          .mask = ~0U};
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcOccluded1(world->tree, &context, &ray);
+    rtcOccluded1(tree, &context, &ray);
     return ray.tfar < 0;
+}
+
+bool world_blocked(const struct world *world, vec3 origin, vec3 direction, float t_max) {
+    return blocked(world->tree, origin, direction, t_max);
+}
+
+bool world_hidden(const struct world *world, vec3 origin, vec3 direction, float t_max) {
+    return world_blocked(world, origin, direction, t_max) || blocked(world->front, origin, direction, t_max);
 }
 
 static vec3 off_surface(vec3 position, vec3 side) {

@@ -5,7 +5,7 @@
 #include "scene.h"
 
 enum world_kind {
-    WORLD_ALL,       /* the very scene */
+    WORLD_ALL,       /* the very scene, and before it what only its camera sees */
     WORLD_STATIC,    /* what does not move, for baked light */
     WORLD_GLASS,     /* the panes alone */
     WORLD_SIMPLIFIED /* as imperfect cube maps see it: static, simplified meshes, metals as diffuse */
@@ -32,6 +32,9 @@ const struct scene *world_scene(const struct world *world);
 
 struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min);
 bool world_blocked(const struct world *world, vec3 origin, vec3 direction, float t_max);
+/* The same two for rays from and to the camera of a WORLD_ALL: what stands before it is in their way too. */
+struct hit world_see(const struct world *world, vec3 origin, vec3 direction, float t_min);
+bool world_hidden(const struct world *world, vec3 origin, vec3 direction, float t_max);
 /* A point from which rays leave the surface without meeting it again. */
 vec3 world_leave(const struct hit *hit, vec3 side);
 

@@ -28,6 +28,8 @@ enum {
     KEY_ENCODING,
     KEY_TRUTH,
     KEY_TRUTH_OF_PIXELS,
+    KEY_FINISHED,
+    KEY_FOREGROUND,
     KEY_LIGHT,
     KEY_CAMERA,
     KEY_TRAVEL,
@@ -58,6 +60,8 @@ static const struct argp_option options[] = {
         "objects only, simplified, metals as diffuse; perfect: the very scene; auto: placed by the sampler, for glTF files", 0},
     {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays a pixel into truth.* (default 0: leave it out)", 0},
     {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "The mean over each pixel's area, as a still camera sees it over its jitter, and not of the frame's one sample", 0},
+    {"finished",    KEY_FINISHED,    "N",     0, "Write the finished picture into scene too, with N rays a pixel for what opaque surfaces reflect; the truth then holds what reflected surfaces reflect", 0},
+    {"foreground",  KEY_FOREGROUND,  NULL,    0, "A gun and hands before the camera, of the class foreground: no ray but the camera's meets them", 0},
     {"light",       KEY_LIGHT,       "N",     0, "Rays a point for indirect light (default: the scene's)", 0},
     {"camera",      KEY_CAMERA,      "ex,ey,ez,tx,ty,tz", 0, "Where the camera stands, and a point that it looks at (default: the scene's, which moves in a shot)", 0},
     {"travel",      KEY_TRAVEL,      "x,y,z", 0, "How far the camera moves each frame, in metres", 0},
@@ -218,6 +222,12 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_TRUTH_OF_PIXELS:
         s->truth_of_pixels = true;
+        return 0;
+    case KEY_FINISHED:
+        s->finished_samples = arg_uint("finished", arg, 1, 1 << 20, state);
+        return 0;
+    case KEY_FOREGROUND:
+        s->foreground = true;
         return 0;
     case KEY_LIGHT:
         s->light_samples = arg_uint("light", arg, 1, 1 << 20, state);

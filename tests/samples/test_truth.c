@@ -143,7 +143,7 @@ static void take(struct picture *p, float roughness, vec3 (*sky)(vec3), uint32_t
     p->pixels = calloc(W * H, sizeof *p->pixels);
     p->truth = calloc(W * H, sizeof *p->truth);
     assert_true(render_frame(p->world, &p->view, &p->view, p->pixels, &job, 1, &err));
-    assert_true(render_truth(p->world, &p->view, p->pixels, samples, 0, p->truth, &job, 1, &err));
+    assert_true(render_truth(p->world, &p->view, p->pixels, samples, 0, false, p->truth, &job, 1, &err));
 }
 
 static void drop(struct picture *p) {
@@ -235,7 +235,7 @@ static void test_a_mirrored_wall_is_lit_like_the_wall(void **state) {
     struct pixel *pixels = calloc(W * H, sizeof *pixels);
     struct truth *truth = calloc(W * H, sizeof *truth);
     assert_true(render_frame(world, &view, &view, pixels, &job, 1, &err));
-    assert_true(render_truth(world, &view, pixels, 1, 0, truth, &job, 1, &err));
+    assert_true(render_truth(world, &view, pixels, 1, 0, false, truth, &job, 1, &err));
     size_t compared = 0;
     for (uint32_t k = 0; k < W * H; k++) {
         if (isinf(pixels[k].depth) || pixels[k].metalness < 1 || isinf(truth[k].distance)) continue;

@@ -34,6 +34,10 @@ struct glint_sample_options {
     double eye[3], target[3];
     bool travel_given; /* metres a frame; false: as the scene's camera moves, a given one stands still */
     double travel[3];
+    /* Rays a pixel of what opaque surfaces reflect in `scene`, the finished picture; 0: no such part. The truth then holds
+       what reflected surfaces themselves reflect. Scenes with water or panes have their own, and refuse. */
+    uint32_t finished_samples;
+    bool foreground;  /* a gun and hands before the camera, of the stencil class foreground, reflected by nothing */
     bool unjittered;  /* rays through the centres of the pixels in every frame */
     double offset[3]; /* added to every position in double before it is stored (the scene is not rendered again) */
     enum glint_compression compression;
