@@ -29,4 +29,5 @@
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)
+#define ASSUMED(parameter)
 #define RESOLUTION(size)

@@ -21,6 +21,7 @@
 #undef PER_RAY
 #undef ACCUMULATE
 #undef NEEDS
+#undef ASSUMED
 #undef RESOLUTION
 #define ROW_IMAGE(row, glsl_kind, image, fmt, image_unit, image_size, image_channels, none, text)            \
     {.kind = row, .id = __LINE__, .name = #image, .glsl = #glsl_kind, .format = GLINT_FORMAT_##fmt,          \
@@ -72,4 +73,5 @@
 #define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__, .name = ""},
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},
+#define ASSUMED(parameter) {.kind = GLINT_ROW_ASSUMED, .id = __LINE__, .name = #parameter},
 #define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},

@@ -57,6 +57,10 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: ACCUMULATE %s: expected a plain float image that the pass writes, and PER_RAY",
                        pass->slot, pass->variant, row->name);
+        if (row->kind == GLINT_ROW_ASSUMED && !pass_row(pass, GLINT_ROW_SPEC, row->name) &&
+            !pass_row(pass, GLINT_ROW_PUSH, row->name))
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: ASSUMED %s: expected a number that the pass takes",
+                       pass->slot, pass->variant, row->name);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && (!own || !size_has_levels(own->size)))
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: DISPATCH_LEVELS %s: expected an image with levels that the pass writes", pass->slot,

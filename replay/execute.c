@@ -62,7 +62,7 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
                            double share, struct glint_error *err) {
     struct frame_block block = run->block;
     bool recording = false;
-    block.flags.w = ray;
+    block.flags.w += ray;
     memcpy(run->replay->frame.map, &block, sizeof block);
     for (size_t p = first; p < end; p++) {
         struct step *step = &run->steps[p];

@@ -150,17 +150,19 @@ uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline) {
     return pipeline->rays ? pipeline->rays : 1;
 }
 
-/* pipeline.rays is the pipeline's own. */
+/* pipeline.rays and pipeline.first_ray are the pipeline's own. */
 static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, const char *text,
                      struct glint_error *err) {
+    const bool first = strcmp(parameter, "first_ray") == 0;
+    const int lowest = first ? 0 : 1, highest = first ? FIRST_RAY_MAX : RAYS_MAX;
     char *end;
-    if (strcmp(parameter, "rays") != 0)
-        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline has no parameter '%s'; known: rays", parameter);
+    if (!first && strcmp(parameter, "rays") != 0)
+        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline has no parameter '%s'; known: rays, first_ray", parameter);
     const double value = strtod(text, &end);
-    if (end == text || *end || !(value >= 1 && value <= RAYS_MAX) || value != floor(value))
-        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline.rays: expected a whole number from 1 to %d, found '%s'",
-                          RAYS_MAX, text);
-    pipeline->rays = (uint32_t)value;
+    if (end == text || *end || !(value >= lowest && value <= highest) || value != floor(value))
+        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline.%s: expected a whole number from %d to %d, found '%s'",
+                          parameter, lowest, highest, text);
+    *(first ? &pipeline->first_ray : &pipeline->rays) = (uint32_t)value;
     return true;
 }
 
@@ -267,7 +269,7 @@ struct glint_pipeline *glint_pipeline_copy(const struct glint_pipeline *pipeline
     struct glint_pipeline *copy = calloc(1, sizeof *copy);
     bool ok = copy && (copy->name = strdup(pipeline->name)) &&
               (copy->passes = calloc(pipeline->count + 1, sizeof *copy->passes));
-    if (ok) copy->rays = pipeline->rays;
+    if (ok) copy->rays = pipeline->rays, copy->first_ray = pipeline->first_ray;
     for (size_t i = 0; ok && i < pipeline->count; i++) {
         const struct pipeline_pass *from = &pipeline->passes[i];
         struct pipeline_pass *to = &copy->passes[copy->count++];

@@ -16,10 +16,11 @@ struct glint_pipeline {
     char *name;
     struct pipeline_pass *passes; /* ordered by slot */
     size_t count;
-    uint32_t rays; /* a frame; 0: 1 */
+    uint32_t rays;      /* a frame; 0: 1 */
+    uint32_t first_ray; /* number of the first one */
 };
 
-enum { RAYS_MAX = 1024 };
+enum { RAYS_MAX = 1024, FIRST_RAY_MAX = 1 << 24 };
 const struct pipeline_pass *pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
 bool row_is_parameter(const struct glint_row *row);
 

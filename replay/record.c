@@ -95,6 +95,7 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "device", device_record(glint_device_get_info(run->replay->device)));
     json_object_set_new(root, "frame", json_integer((json_int_t)glint_capture_frame(run->replay->capture)->number));
     json_object_set_new(root, "rays", json_integer((json_int_t)glint_pipeline_rays(run->pipeline)));
+    json_object_set_new(root, "first_ray", json_integer((json_int_t)run->pipeline->first_ray));
     json_object_set_new(root, "preset", json_string(run->pipeline->name));
     json_object_set_new(root, "resolution",
                         json_pack("{s[ii]s[ii]}", "full", (int)run->sizes.full[0], (int)run->sizes.full[1], "half",

@@ -131,6 +131,7 @@ static bool run_all(struct run *run, struct glint_error *err) {
         return false;
     frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
     const struct glint_part_info *mirror = glint_capture_find(replay->capture, MIRROR_PART);
+    run->block.flags.w = run->pipeline->first_ray;
     if (mirror) frame_block_mirror(&run->block, glint_capture_frame(replay->capture), &mirror->planar);
     if (!run_allocate(run, err)) return false;
     if (options->cache && !replay_hash(replay, run->content, NULL)) run->content[0] = 0;

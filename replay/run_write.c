@@ -144,8 +144,7 @@ static bool check_not_inputs(const struct glint_replay *replay, const char *fold
            glint_fail(err, GLINT_ERROR_USAGE, "%s: the inputs of this run lie here; expected another folder", folder);
 }
 
-/* Removes the files that an earlier run.json lists, and that file first: no mixture ever looks complete. */
-static bool remove_old(const char *folder, struct glint_error *err) {
+bool run_remove(const char *folder, struct glint_error *err) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/run.json", folder);
     json_t *root = json_load_file(path, 0, NULL), *pass, *image;
@@ -164,7 +163,7 @@ static bool remove_old(const char *folder, struct glint_error *err) {
     return ok;
 }
 
-static bool write_json(const char *folder, const json_t *root, struct glint_error *err) {
+bool run_write_json(const char *folder, const json_t *root, struct glint_error *err) {
     char path[PATH_SIZE], temporary[PATH_SIZE];
     snprintf(path, sizeof path, "%s/run.json", folder);
     if (snprintf(temporary, sizeof temporary, "%s/run.json.tmp-%ld", folder, (long)getpid()) >= (int)sizeof temporary)
@@ -176,7 +175,7 @@ static bool write_json(const char *folder, const json_t *root, struct glint_erro
     return false;
 }
 
-static bool finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err) {
+bool run_finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err) {
     char hash[33];
     if (!replay_hash(replay, hash, err)) return false;
     json_object_set_new(root, "capture",
@@ -225,7 +224,7 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
     if (!replay->record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
-    if (!check_not_inputs(replay, folder, err) || !remove_old(folder, err)) return false;
+    if (!check_not_inputs(replay, folder, err) || !run_remove(folder, err)) return false;
     json_t *root = json_deep_copy(replay->record);
     struct job *jobs = calloc(2, sizeof *jobs);
     bool ok = (root && jobs) || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
@@ -243,7 +242,7 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
         host_buffer_finish(&jobs[j].buffer, replay->device);
     }
     for (size_t p = 0; ok && p < replay->result_count; p++) keep_pass(replay, p, folder);
-    ok = ok && finish_record(replay, root, err) && write_json(folder, root, err);
+    ok = ok && run_finish_record(replay, root, err) && run_write_json(folder, root, err);
     free(jobs);
     json_decref(root);
     return ok;

@@ -169,6 +169,12 @@ void run_release(struct run *run);
 /* record.c: what run.json says of a run. */
 json_t *run_record(const struct run *run);
 
+/* run_write.c: run.json. What is known only when it is written, added to a record; the file, complete or as it was before;
+   removal of the files that it lists, and of itself first: no mixture ever looks complete. */
+bool run_finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err);
+bool run_write_json(const char *folder, const json_t *root, struct glint_error *err);
+bool run_remove(const char *folder, struct glint_error *err);
+
 /* The capture's hash, found once. */
 bool replay_hash(struct glint_replay *replay, char hash[33], struct glint_error *err);
 bool replay_staging(struct glint_replay *replay, VkDeviceSize size, struct glint_error *err);

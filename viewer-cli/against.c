@@ -1,4 +1,4 @@
-/* --against: how far a run is from a better answer, the truth in the capture or the preset `reference`. */
+/* --against: how far a run is from a better answer, the truth in the capture, the preset `reference`, or both. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,15 +8,15 @@
 #include "table.h"
 
 void against_parse(struct against *against, char *text, struct argp_state *state) {
-    static const char *const answers[] = {"truth", "reference", NULL};
+    static const char *const answers[] = {"truth", "reference", "both", NULL};
     char *run = strchr(text, '=');
     if (run) *run++ = '\0';
     int which = arg_choice("against", text, answers, state);
-    against->truth = which == 0;
-    against->reference = which == 1;
+    against->truth = which != 1;
+    against->reference = which != 0;
     against->run = run;
-    if (run && against->truth) argp_error(state, "--against=truth: the truth is in the capture, it takes no run");
-    if (run && !*run) argp_error(state, "--against=reference=RUN: an empty name");
+    if (run && !against->reference) argp_error(state, "--against=truth: the truth is in the capture, it takes no run");
+    if (run && !*run) argp_error(state, "--against=%s=RUN: an empty name", text);
 }
 
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
@@ -31,36 +31,60 @@ void against_finish(struct against *against) {
     glint_pipeline_destroy(&against->pipeline);
 }
 
+/* An answer, and the standard error of one that is a mean of samples. */
+struct answer {
+    struct glint_pixels pixels;
+    float *error;
+};
+static void answer_finish(struct answer *answer) {
+    glint_pixels_finish(&answer->pixels);
+    free(answer->error);
+}
+
+static bool run_answer(const char *folder, struct answer *answer, struct glint_error *err) {
+    struct glint_run *run = glint_run_open(folder, err);
+    bool ok =
+        run && glint_study_run_reflection(run, &answer->pixels, err) && glint_study_run_error(run, &answer->error, err);
+    glint_run_close(&run);
+    return ok;
+}
+
 /* The reference's reflection of this capture. */
-static bool reference_pixels(struct against *against, struct glint_capture *capture, struct glint_pixels *pixels,
+static bool reference_answer(struct against *against, struct glint_capture *capture, struct answer *answer,
                              struct glint_error *err) {
-    if (against->run) {
-        struct glint_run *run = glint_run_open(against->run, err);
-        bool ok = run && glint_study_run_reflection(run, pixels, err);
-        glint_run_close(&run);
-        return ok;
-    }
-    /* Its images are floats: what it is off by should not be how it is stored. */
-    const struct glint_replay_options own = {.all = against->all, .float_precision = true};
-    return glint_replay_load(against->replay, capture, err) &&
-           glint_replay_run(against->replay, against->pipeline, &own, against->progress, against->user, err) &&
-           glint_study_reflection(against->replay, pixels, err) && glint_replay_load(against->replay, NULL, err);
+    const struct glint_reference_options options = {.all = against->all};
+    if (against->run) return run_answer(against->run, answer, err);
+    struct glint_reference *reference =
+        glint_replay_load(against->replay, capture, err)
+            ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
+            : NULL;
+    bool ok = reference &&
+              glint_reference_trace(reference, glint_pipeline_rays(against->pipeline), 0, against->progress,
+                                    against->user, err) &&
+              glint_reference_pixels(reference, &answer->pixels, &answer->error, err);
+    glint_reference_destroy(&reference);
+    return glint_replay_load(against->replay, NULL, ok ? err : NULL) && ok;
 }
 
 static bool compare_images(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
                            const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
-    struct glint_pixels found = {0}, answer = {0};
+    struct glint_pixels found = {0};
+    struct answer truth = {0}, reference = {0};
     uint8_t *surfaces = NULL;
-    float *error = NULL;
-    bool ok = glint_study_reflection(replay, &found, err) &&
-              (against->truth ? glint_study_truth(capture, pipeline, &answer, &error, err)
-                              : reference_pixels(against, capture, &answer, err)) &&
-              (surfaces = glint_study_surfaces(capture, err)) != NULL &&
-              glint_study_image(&found, &answer, 3, surfaces, error, &c->image, err);
+    bool ok = glint_study_reflection(replay, &found, err) && (surfaces = glint_study_surfaces(capture, err)) != NULL;
+    if (ok && c->truth)
+        ok = glint_study_truth(capture, pipeline, &truth.pixels, &truth.error, err) &&
+             glint_study_image(&found, &truth.pixels, 3, surfaces, truth.error, &c->to_truth, err);
+    if (ok && c->reference)
+        ok = reference_answer(against, capture, &reference, err) &&
+             glint_study_image(&found, &reference.pixels, 3, surfaces, reference.error, &c->to_reference, err);
+    if (ok && c->truth && c->reference)
+        ok = glint_study_missing(&reference.pixels, reference.error, &truth.pixels, truth.error, surfaces, &c->missing,
+                                 err);
     free(surfaces);
-    free(error);
+    answer_finish(&truth);
+    answer_finish(&reference);
     glint_pixels_finish(&found);
-    glint_pixels_finish(&answer);
     return ok;
 }
 
@@ -77,7 +101,8 @@ static bool draws_normals(const struct glint_pipeline *pipeline) {
 bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
                      const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
     struct glint_error image = {0};
-    *c = (struct comparison){.name = against->truth ? "truth" : "reference", .jittered = draws_normals(pipeline)};
+    *c = (struct comparison){
+        .truth = against->truth, .reference = against->reference, .jittered = draws_normals(pipeline)};
     if (against->truth && !glint_study_trace(replay, capture, GLINT_MIRROR_ROUGHNESS, &c->rays, err)) return false;
     c->has_rays = against->truth;
     c->has_image = compare_images(against, replay, capture, pipeline, c, &image);
@@ -139,13 +164,13 @@ static void print_distances(const struct glint_trace_table *rays) {
     table_destroy(&table);
 }
 
-static void print_image(const struct comparison *c) {
+static void print_image(const struct glint_image_errors *image, const char *what) {
     static const char *const titles[] = {"<surfaces",     ">pixels",       ">mean",      ">mean error",
-                                         ">RMSE",         ">relative MSE", ">symmetric", ">truth's noise",
+                                         ">RMSE",         ">relative MSE", ">symmetric", ">its noise",
                                          ">RMSE without", ">invalid",      NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_image_error *e = &c->image.of[k];
+        const struct glint_image_error *e = &image->of[k];
         if (e->pixels + e->invalid == 0) continue;
         table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
         table_cell(table, "%llu", (unsigned long long)e->pixels);
@@ -158,7 +183,23 @@ static void print_image(const struct comparison *c) {
         table_cell(table, "%.5f", e->clean_rmse);
         table_cell(table, "%llu", (unsigned long long)e->invalid);
     }
-    printf("\nreflection before it is composed, against the %s:\n", c->name);
+    printf("\n%s:\n", what);
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+/* What the error comes from. The parts need not add up to it: they may cancel out. */
+static void print_parts(const struct comparison *c) {
+    static const char *const titles[] = {"<surfaces", ">algorithms", ">missing information", ">together", NULL};
+    struct table *table = table_create(titles);
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        if (c->to_truth.of[k].pixels == 0) continue;
+        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
+        table_cell(table, "%.5f", c->to_reference.of[k].clean_rmse);
+        table_cell(table, "%.5f", c->missing.of[k].clean_rmse);
+        table_cell(table, "%.5f", c->to_truth.of[k].clean_rmse);
+    }
+    puts("\nRMSE without the noise of truth and reference:");
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -169,8 +210,15 @@ void against_print(const struct comparison *c) {
         print_distances(&c->rays);
         if (c->jittered) puts("normals are jittered; --set downsample.jitter=false compares mirror rays");
     }
-    if (c->has_image) print_image(c);
-    else printf("\nno picture compared: %s\n", c->no_image);
+    if (!c->has_image) {
+        printf("\nno picture compared: %s\n", c->no_image);
+        return;
+    }
+    if (c->truth) print_image(&c->to_truth, "reflection before it is composed, against the truth");
+    if (c->reference) print_image(&c->to_reference, "reflection before it is composed, against the reference");
+    if (!c->truth || !c->reference) return;
+    print_image(&c->missing, "the reference against the truth: what the capture's data lack");
+    print_parts(c);
 }
 
 static json_t *rays_json(const struct glint_trace_table *table) {
@@ -200,10 +248,10 @@ static json_t *distances_json(const struct glint_trace_table *rays) {
     return rows;
 }
 
-static json_t *image_json(const struct comparison *c) {
+static json_t *image_json(const struct glint_image_errors *image) {
     json_t *rows = json_array();
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_image_error *e = &c->image.of[k];
+        const struct glint_image_error *e = &image->of[k];
         if (e->pixels + e->invalid == 0) continue;
         json_array_append_new(rows, json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "surfaces",
                                               glint_surface_name((enum glint_surface)k), "pixels",
@@ -217,14 +265,29 @@ static json_t *image_json(const struct comparison *c) {
     return json_pack("{s:f, s:o}", "epsilon", GLINT_RELATIVE_EPSILON, "surfaces", rows);
 }
 
-json_t *against_json(const struct comparison *c) {
-    json_t *json = json_object();
-    if (c->has_rays) {
-        json_object_set_new(json, "max_roughness", json_real(GLINT_MIRROR_ROUGHNESS));
-        json_object_set_new(json, "jittered", json_boolean(c->jittered));
-        json_object_set_new(json, "rays", rays_json(&c->rays));
-        json_object_set_new(json, "distances", distances_json(&c->rays));
-    }
-    if (c->has_image) json_object_set_new(json, "image", image_json(c));
+/* {"image": …} */
+static json_t *errors_json(const struct glint_image_errors *image) {
+    return json_pack("{s:o}", "image", image_json(image));
+}
+
+static json_t *truth_json(const struct comparison *c) {
+    json_t *json = c->has_image ? errors_json(&c->to_truth) : json_object();
+    if (!c->has_rays) return json;
+    json_object_set_new(json, "max_roughness", json_real(GLINT_MIRROR_ROUGHNESS));
+    json_object_set_new(json, "jittered", json_boolean(c->jittered));
+    json_object_set_new(json, "rays", rays_json(&c->rays));
+    json_object_set_new(json, "distances", distances_json(&c->rays));
     return json;
+}
+
+void against_json(const struct comparison *c, json_t *run) {
+    const bool parts = c->has_image && c->truth && c->reference;
+    if (c->truth) json_object_set_new(run, "against_truth", truth_json(c));
+    if (c->reference && c->has_image) json_object_set_new(run, "against_reference", errors_json(&c->to_reference));
+    if (parts) json_object_set_new(run, "missing_information", errors_json(&c->missing));
+}
+
+uint64_t against_invalid(const struct comparison *c) {
+    const uint64_t truth = c->to_truth.of[0].invalid, reference = c->to_reference.of[0].invalid;
+    return truth > reference ? truth : reference;
 }

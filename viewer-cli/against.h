@@ -1,11 +1,11 @@
-/* --against: how far a run is from a better answer, the truth in the capture or the preset `reference`. */
+/* --against: how far a run is from a better answer, the truth in the capture, the preset `reference`, or both. */
 #ifndef GLINT_VIEWER_AGAINST_H
 #define GLINT_VIEWER_AGAINST_H
 
 #include <argp.h>
 #include <jansson.h>
 
-#include "glint/study.h"
+#include "glint/reference.h"
 
 struct against {
     bool truth, reference;
@@ -17,24 +17,29 @@ struct against {
     struct glint_replay *replay; /* its own, so that the history of the run it is compared with stays */
 };
 
-/* Reads "truth", "reference" or "reference=RUN". */
+/* Reads "truth", "reference", "reference=RUN", "both" or "both=RUN". */
 void against_parse(struct against *against, char *text, struct argp_state *state);
 /* Makes ready for runs of `pipeline`; does nothing when there is nothing to compare with. */
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
                    struct glint_error *err);
 void against_finish(struct against *against);
 
+/* With a reference as well as a truth their images say what an error comes from: what a run is off the reference is its
+   algorithms' error, and what the reference is off the truth is information that the capture's data lack. */
 struct comparison {
-    const char *name; /* "truth", "reference" */
+    bool truth, reference; /* what it is compared with */
     bool has_rays, has_image, jittered;
     struct glint_trace_table rays;
-    struct glint_image_errors image;
+    struct glint_image_errors to_truth, to_reference, missing;
     char no_image[1024]; /* why, when there is none */
 };
 /* After a run. */
 bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
                      const struct glint_pipeline *pipeline, struct comparison *comparison, struct glint_error *err);
 void against_print(const struct comparison *comparison);
-json_t *against_json(const struct comparison *comparison);
+/* Adds "against_truth", "against_reference", "missing_information" to what is said of a run. */
+void against_json(const struct comparison *comparison, json_t *run);
+/* Pixels that are NaN or infinite. */
+uint64_t against_invalid(const struct comparison *comparison);
 
 #endif

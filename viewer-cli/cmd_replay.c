@@ -37,7 +37,8 @@ static const struct argp_option options[] = {
         "else ~/.cache/glint)", 0},
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better answer. truth: the true reflection and the mirror rays "
         "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
-        "preset reference on the same capture, or its run: reference=RUN", 0},
+        "preset reference on the same capture, or what glint reference kept of it: reference=RUN. both (or both=RUN): also what "
+        "the reference itself is off the truth", 0},
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
@@ -187,11 +188,11 @@ static json_t *run_json(const char *capture, const char *folder, const struct co
     }
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         json_object_set_new(seconds, phases[i], json_number(glint_replay_seconds(replay, phases[i])));
-    return json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o, s:o*, s:o*}", "capture", capture, "run", folder,
-                     "device", "name", device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes,
-                     "seconds", seconds, "against_truth",
-                     compared && compared->has_rays ? against_json(compared) : NULL, "against_reference",
-                     compared && !compared->has_rays ? against_json(compared) : NULL);
+    json_t *run =
+        json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o}", "capture", capture, "run", folder, "device", "name",
+                  device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes, "seconds", seconds);
+    if (compared) against_json(compared, run);
+    return run;
 }
 
 static void free_folders(char **folders, size_t count) {
@@ -249,9 +250,9 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
         json_array_append_new(job->runs,
                               run_json(path, folder, compared, job->replay, glint_device_get_info(job->device)));
     else if (ok) print_run(path, folder, compared, job);
-    if (ok && compared && comparison.image.of[0].invalid)
+    if (ok && compared && against_invalid(compared))
         ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the reflection is NaN or infinite in %llu pixels", path,
-                        (unsigned long long)comparison.image.of[0].invalid);
+                        (unsigned long long)against_invalid(compared));
     glint_replay_load(job->replay, NULL, NULL);
     glint_capture_close(&capture);
     pipe_finish(&pipe);

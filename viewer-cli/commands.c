@@ -3,11 +3,12 @@
 
 #include <string.h>
 
-extern const struct command cmd_sample, cmd_info, cmd_validate, cmd_plan, cmd_replay, cmd_compare, cmd_view, cmd_passes,
-    cmd_devices;
+extern const struct command cmd_sample, cmd_info, cmd_validate, cmd_plan, cmd_replay, cmd_reference, cmd_compare,
+    cmd_view, cmd_passes, cmd_devices;
 
 const struct command *const commands[] = {
-    &cmd_sample, &cmd_info, &cmd_validate, &cmd_plan, &cmd_replay, &cmd_compare, &cmd_view, &cmd_passes, &cmd_devices,
+    &cmd_sample,    &cmd_info,    &cmd_validate, &cmd_plan,   &cmd_replay,
+    &cmd_reference, &cmd_compare, &cmd_view,     &cmd_passes, &cmd_devices,
 };
 const size_t command_count = sizeof commands / sizeof *commands;
 

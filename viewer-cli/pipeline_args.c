@@ -69,17 +69,19 @@ static bool assign_all(struct glint_pipeline *pipeline, const struct list *list,
     return true;
 }
 
+bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err) {
+    return assign_all(pipeline, &args->use, check_use, glint_pipeline_use, err) &&
+           assign_all(pipeline, &args->set, check_set, glint_pipeline_set, err) &&
+           assign_all(pipeline, &args->shader, check_shader, glint_pipeline_shader, err);
+}
+
 struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err) {
     for (size_t i = 0; i < args->outputs.count; i++)
         if (!check_image(args->outputs.items[i], err)) return NULL;
     if (!check_slots(&args->passes, err) || !check_slots(&args->skip, err) || !check_slots(&args->force, err))
         return NULL;
     struct glint_pipeline *pipeline = glint_pipeline_create(args->preset ? args->preset : "mafia3", err);
-    if (!pipeline) return NULL;
-    if (!assign_all(pipeline, &args->use, check_use, glint_pipeline_use, err) ||
-        !assign_all(pipeline, &args->set, check_set, glint_pipeline_set, err) ||
-        !assign_all(pipeline, &args->shader, check_shader, glint_pipeline_shader, err))
-        glint_pipeline_destroy(&pipeline);
+    if (pipeline && !pipeline_args_apply(args, pipeline, err)) glint_pipeline_destroy(&pipeline);
     return pipeline;
 }
 

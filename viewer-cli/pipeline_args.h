@@ -45,6 +45,8 @@ error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct
 void pipeline_args_finish(struct pipeline_args *args);
 /* The pipeline that the arguments ask for; unknown names are errors that name the nearest known one. */
 struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err);
+/* Its --use, --set and --shader on another pipeline. */
+bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err);
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);
 
 #endif

@@ -12,3 +12,7 @@ PUSH(float, jump,        0.01,  0.0, 1e6,   "1", "glint", "how far apart the two
 PUSH(float, solid,       1.0,   0.0, 1e6,   "1", "glint", "how deep objects are, in parts of the way that a ray goes behind them; it ends where it would be inside; 0: they have no depth")
 PUSH(float, bias,        0.0001, 0.0, 1.0,  "1", "002, Banding and Self-Intersection", "part of the depth by which a ray must be behind a surface")
 PUSH(float, viewer_limit, 1.0, -1.0, 1.0,   "1", "002, Viewer-facing attenuation", "rays that close up to the viewer (cosine of the angle to the view vector) are not traced; 1: all are")
+ASSUMED(thickness)
+ASSUMED(thickness_m)
+ASSUMED(solid)
+ASSUMED(jump)

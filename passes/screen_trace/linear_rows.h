@@ -14,3 +14,5 @@ PUSH(float, growth,      1.5,   0.5, 8.0,   "1", "chosen by measuring", "sample 
 PUSH(float, thickness,   0.02,  0.0, 100.0, "1", "chosen by measuring", "a ray farther than this part of its depth behind a surface did not hit it")
 PUSH(float, thickness_m, 0.0,   0.0, 1e6,   "m", "002 has none; chosen by measuring", "the same in metres, added; 1e6: all is solid")
 PUSH(float, bias,        0.001, 0.0, 1.0,   "1", "002, Linear ray march", "part of the depth by which a ray must be behind a surface")
+ASSUMED(thickness)
+ASSUMED(thickness_m)

@@ -56,6 +56,7 @@ layout(constant_id = 0) const bool diagnostics = false;
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)
+#define ASSUMED(parameter)
 #define RESOLUTION(size)
 
 // Ids 1 and 2 are the workgroup that the pass declares.

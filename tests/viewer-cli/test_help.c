@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const names[] = {"sample",  "info", "validate", "plan",   "replay",
-                                    "compare", "view", "passes",   "devices"};
+static const char *const names[] = {"sample",    "info",    "validate", "plan",   "replay",
+                                    "reference", "compare", "view",     "passes", "devices"};
 enum { COUNT = sizeof names / sizeof *names };
 
 static void help_lists_every_command(void **state) {
@@ -96,7 +96,7 @@ static void completion_is_valid_bash(void **state) {
     char *completion = glint_ok("--completion");
     FILE *file = fopen(in_folder("completion"), "w");
     assert_non_null(file);
-    fprintf(file, "%s\nCOMP_WORDS=(glint re); COMP_CWORD=1; _glint; echo \"${COMPREPLY[@]}\"\n", completion);
+    fprintf(file, "%s\nCOMP_WORDS=(glint repl); COMP_CWORD=1; _glint; echo \"${COMPREPLY[@]}\"\n", completion);
     fclose(file);
     struct outcome bash = run_program("bash", in_folder("completion"), NULL);
     assert_string_equal(bash.out, "replay\n");

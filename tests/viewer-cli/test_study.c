@@ -24,6 +24,17 @@ static void reference_is_near_the_truth_and_others_are_compared_with_it(void **s
     assert_true(number(smooth, "median_error") <= 0.001);
     json_decref(json);
     free(text);
+    /* So are its rays of which the screen shows a part. */
+    text = glint_ok("replay", in_folder("fine.exr"), "--preset=reference", "--set=pipeline.rays=1", "--against=truth",
+                    "--json", "--set=downsample.jitter=false");
+    json = parse_json(text);
+    run = json_array_get(json_object_get(json, "runs"), 0);
+    smooth = named(json_object_get(json_object_get(run, "against_truth"), "distances"), "surfaces", "mirror-like");
+    assert_true(number(smooth, "median_error") <= 0.001);
+    assert_true(number(named(json_object_get(json_object_get(run, "against_truth"), "rays"), "tracer", "screen"),
+                       "rays") > 100);
+    json_decref(json);
+    free(text);
     /* The same input gives the same bits. */
     char *folder = NULL;
     assert_true(asprintf(&folder, "--against=reference=%s", in_folder("reference")) > 0);

@@ -30,6 +30,8 @@ enum glint_row_kind {
     GLINT_ROW_PER_RAY,         /* the slot's passes run once for each ray of a frame */
     GLINT_ROW_ACCUMULATE,      /* an image that becomes its mean over the rays */
     GLINT_ROW_WORKGROUP,       /* `first` × `last` invocations make a workgroup; 8 × 8 where no row says so */
+    GLINT_ROW_ASSUMED,         /* a parameter that stands for what the capture's data do not say: halved and doubled, it
+                                  tells how far an answer depends on it */
     GLINT_ROW_RESOLUTION       /* the pipeline's half resolution becomes "full" while this variant is in its slot */
 };
 

@@ -48,6 +48,7 @@ const char *glint_preset(size_t i);
 /* "slot=variant"; "none" leaves the slot out. Values of parameters that both variants have are kept. */
 bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 /* "pipeline.rays=N": PER_RAY slots run N times a frame, 1 to 1024, and what they accumulate becomes the mean.
+   "pipeline.first_ray=N": their number starts there, 0 by default: other random numbers than those of the rays before.
    "slot.parameter=value": a number, true, false or a choice's name; out of range is an error that names the range. */
 bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 /* "slot=file.comp": the slot's shader is compiled from this file instead. */
@@ -173,7 +174,7 @@ struct glint_run_image {
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
 void glint_run_close(struct glint_run **run);
 /* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
-   driver, driver_version, times_are}, "frame", "preset", "rays", "resolution" {full, half}, "precision", "diagnostics", "inputs", "history",
+   driver, driver_version, times_are}, "frame", "preset", "rays", "first_ray", "resolution" {full, half}, "precision", "diagnostics", "inputs", "history",
    "active_cubemaps", "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
    cached, cached_work, dispatches, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
    unit, meaning, width, height, format}}. */

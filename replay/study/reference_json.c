@@ -1,0 +1,112 @@
+/* What run.json says of a reference: its rays, its noise, what it depends on and what they follow from. */
+#include "reference.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "shader.h"
+#include "state.h"
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
+}
+
+static json_t *values_json(const struct pipeline_pass *entry) {
+    json_t *values = json_object();
+    for (size_t r = 0; r < entry->pass->row_count; r++) {
+        const struct glint_row *row = &entry->pass->rows[r];
+        if (row_is_parameter(row))
+            json_object_set_new(values, row->name,
+                                row->choices ? json_string(row->choices[(size_t)entry->values[r]])
+                                             : json_real(entry->values[r]));
+    }
+    return values;
+}
+
+static json_t *pass_settings(const struct pipeline_pass *entry, struct glint_error *err) {
+    char shader[17] = "host";
+    struct spirv spirv;
+    if (!entry->pass->host) {
+        if (!spirv_init(&spirv, entry, err)) return NULL;
+        snprintf(shader, sizeof shader, "%016" PRIx64, spirv.hash);
+        spirv_finish(&spirv);
+    }
+    return json_pack("{ss so ss}", "variant", entry->pass->variant, "values", values_json(entry), "shader", shader);
+}
+
+bool reference_settings(struct glint_reference *reference, struct glint_error *err) {
+    const struct glint_device_info *device = glint_device_get_info(reference->replay->device);
+    char hash[33];
+    json_t *passes = json_object();
+    bool ok = replay_hash(reference->replay, hash, err);
+    for (size_t i = 0; ok && i < reference->pipeline->count; i++) {
+        json_t *pass = pass_settings(&reference->pipeline->passes[i], err);
+        ok = pass && json_object_set_new(passes, reference->pipeline->passes[i].pass->slot, pass) == 0;
+    }
+    json_t *all = ok ? json_pack("{ss ss ss ss sb sO}", "capture", hash, "device", device->name, "driver",
+                                 device->driver_version, "tool", GLINT_VERSION, "all", reference->all, "passes", passes)
+                     : NULL;
+    /* As a file gives them back. */
+    char *text = all ? json_dumps(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    reference->settings = text ? json_loads(text, 0, NULL) : NULL;
+    free(text);
+    json_decref(all);
+    json_decref(passes);
+    return reference->settings || (ok && no_memory(err));
+}
+
+static json_t *noise_json(const struct glint_reference_state *state) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+        json_array_append_new(rows,
+                              json_pack("{ss sI sf sf sf}", "surfaces", glint_surface_name((enum glint_surface)k),
+                                        "pixels", (json_int_t)state->noise[k].pixels, "mean", state->noise[k].mean,
+                                        "error", state->noise[k].error, "relative", state->noise[k].relative));
+    return rows;
+}
+
+static json_t *changes_json(const struct glint_reference_assumption *row) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+        json_array_append_new(rows, json_pack("{ss sf sf sf sf}", "surfaces", glint_surface_name((enum glint_surface)k),
+                                              "mean", row->of[k].mean, "rmse", row->of[k].rmse, "noise",
+                                              row->of[k].noise, "relative", row->of[k].relative));
+    return rows;
+}
+
+static json_t *sensitivity_json(const struct glint_reference_sensitivity *sensitivity) {
+    json_t *rows = json_array();
+    for (size_t i = 0; i < sensitivity->count; i++) {
+        const struct glint_reference_assumption *row = &sensitivity->rows[i];
+        json_array_append_new(rows, json_pack("{ss ss sf sf sb so* ss*}", "slot", row->pass->slot, "parameter",
+                                              row->row->name, "value", row->value, "tried", row->tried, "ran", row->ran,
+                                              "change", row->ran ? changes_json(row) : NULL, "reason",
+                                              row->ran ? NULL : row->reason));
+    }
+    return json_pack("{si so}", "rays", (int)sensitivity->rays, "rows", rows);
+}
+
+bool reference_keep(struct glint_reference *reference, const struct glint_reference_sensitivity *sensitivity,
+                    struct glint_error *err) {
+    json_t *json = sensitivity_json(sensitivity);
+    if (!json) return no_memory(err);
+    json_decref(reference->sensitivity);
+    reference->sensitivity = json;
+    if (!reference->folder || !reference->record) return true;
+    return (json_object_set_new(reference->record, "reference", reference_json(reference)) == 0 || no_memory(err)) &&
+           reference_save(reference, err);
+}
+
+json_t *reference_json(const struct glint_reference *reference) {
+    const struct glint_reference_state *state = &reference->state;
+    return json_pack("{si sf so sO* sO*}", "rays", (int)state->rays, "seconds", state->seconds, "noise",
+                     noise_json(state), "sensitivity", reference->sensitivity, "settings", reference->settings);
+}
+
+char *glint_reference_json(const struct glint_reference *reference) {
+    json_t *json = reference_json(reference);
+    char *text = json ? json_dumps(json, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    json_decref(json);
+    return text;
+}

@@ -1,0 +1,272 @@
+/* The reference on a device under validation: its noise, its folder, what it refuses. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "glint/reference.h"
+
+static struct glint_reference *open_reference(struct fixture *fixture, const char *folder, const char *set, bool anew,
+                                              struct glint_error *err) {
+    struct glint_pipeline *pipeline = glint_pipeline_create("reference", err);
+    assert_non_null(pipeline);
+    if (set && !glint_pipeline_set(pipeline, set, err)) fail_msg("%s", err->message);
+    struct glint_reference *reference =
+        glint_reference_create(fixture->replay, fixture->capture, pipeline,
+                               &(struct glint_reference_options){.folder = folder, .anew = anew}, err);
+    glint_pipeline_destroy(&pipeline);
+    return reference;
+}
+
+static struct glint_reference *need_reference(struct fixture *fixture, const char *folder, const char *set) {
+    struct glint_error err = {0};
+    struct glint_reference *reference = open_reference(fixture, folder, set, false, &err);
+    if (!reference) fail_msg("%s", err.message);
+    return reference;
+}
+
+static void trace(struct glint_reference *reference, uint32_t rays, double noise) {
+    struct glint_error err = {0};
+    if (!glint_reference_trace(reference, rays, noise, NULL, NULL, &err)) fail_msg("%s", err.message);
+}
+
+static struct glint_pixels pixels_of(const struct glint_reference *reference, float **error) {
+    struct glint_error err = {0};
+    struct glint_pixels pixels;
+    if (!glint_reference_pixels(reference, &pixels, error, &err)) fail_msg("%s", err.message);
+    assert_int_equal(pixels.width * pixels.height, FIXTURE_WIDTH * FIXTURE_HEIGHT);
+    return pixels;
+}
+
+static double noise_of(const struct glint_reference *reference) {
+    return glint_reference_state(reference)->noise[0].error;
+}
+
+/* Catches: halves that share random numbers, batches that repeat them, means that weigh batches unequally. */
+static void noise_falls_with_the_root_of_the_rays_and_is_what_is_missing_to_many(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_reference *reference = need_reference(fixture, NULL, NULL);
+    struct glint_image_errors errors;
+    struct glint_error err = {0};
+    trace(reference, 32, 0);
+    const double few = noise_of(reference);
+    struct glint_pixels early = pixels_of(reference, NULL);
+    trace(reference, 512, 0);
+    const double many = noise_of(reference);
+    float *error = NULL;
+    struct glint_pixels late = pixels_of(reference, &error);
+    uint8_t *surfaces = glint_study_surfaces(fixture->capture, &err);
+    assert_non_null(surfaces);
+    /* A variance from 800 pixels of three channels, of which a few bright edges hold most, errs by some 10 %. */
+    assert_true(few > 1e-4);
+    assert_true(fabs(few / many / 4 - 1) < 0.2);
+    /* Of 512 rays the first 32 are a part: their means differ by σ² (1/32 - 1/512). */
+    assert_true(glint_study_image(&early, &late, 3, surfaces, error, &errors, &err));
+    assert_true(fabs(errors.of[0].rmse / sqrt(few * few - many * many) - 1) < 0.2);
+    /* The pixels' errors add up to the whole's, but for rounding to float. */
+    assert_true(fabs(errors.of[0].truth_noise / many - 1) < 1e-4);
+    const struct glint_reference_noise *noise = glint_reference_state(reference)->noise;
+    assert_true(fabs(noise[0].relative * noise[0].mean / many - 1) < 1e-9);
+    assert_true(noise[GLINT_SURFACE_MIRROR].error < noise[GLINT_SURFACE_GLOSSY].error);
+    assert_int_equal(noise[GLINT_SURFACE_MIRROR].pixels + noise[GLINT_SURFACE_GLOSSY].pixels +
+                         noise[GLINT_SURFACE_ROUGH].pixels,
+                     noise[0].pixels);
+    free(surfaces);
+    free(error);
+    glint_pixels_finish(&early);
+    glint_pixels_finish(&late);
+    glint_reference_destroy(&reference);
+    fixture_check_messages(fixture);
+}
+
+/* One run of all rays of a half is that half's mean: batches neither overlap nor leave anything out. */
+static void a_half_is_one_run_of_its_rays(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct glint_reference *reference = need_reference(fixture, NULL, NULL);
+    trace(reference, 64, 0);
+    struct glint_pixels both = pixels_of(reference, NULL), half[2];
+    struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
+    assert_non_null(pipeline);
+    for (int h = 0; h < 2; h++) {
+        char first[64];
+        snprintf(first, sizeof first, "pipeline.first_ray=%d", h * GLINT_REFERENCE_SECOND);
+        assert_true(glint_pipeline_set(pipeline, "pipeline.rays=32", &err) &&
+                    glint_pipeline_set(pipeline, first, &err));
+        const struct glint_replay_options options = {.float_precision = true};
+        if (!glint_replay_run(fixture->replay, pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
+        assert_true(glint_study_reflection(fixture->replay, &half[h], &err));
+    }
+    size_t differ = 0;
+    for (size_t i = 0; i < (size_t)FIXTURE_WIDTH * FIXTURE_HEIGHT * 4; i++) {
+        const double mean = 0.5 * ((double)half[0].values[i] + (double)half[1].values[i]);
+        differ += half[0].values[i] != half[1].values[i];
+        /* Sums of 32 floats in another order. */
+        assert_true(fabs((double)both.values[i] - mean) <= 32 * 0x1p-24 * fabs(mean));
+    }
+    assert_true(differ > 500);
+    for (int h = 0; h < 2; h++) glint_pixels_finish(&half[h]);
+    glint_pixels_finish(&both);
+    glint_pipeline_destroy(&pipeline);
+    glint_reference_destroy(&reference);
+    fixture_check_messages(fixture);
+}
+
+static bool stop_late(void *user, const char *what, double done) {
+    int *left = user;
+    assert_true(what[0] && done >= 0 && done <= 1);
+    return --*left > 0;
+}
+
+static void check_same(const struct glint_pixels *a, const struct glint_pixels *b) {
+    assert_memory_equal(a->values, b->values, (size_t)a->width * a->height * a->components * sizeof(float));
+}
+
+/* Interrupted again and again, each time in another process as far as the folder can tell. */
+static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    char folder[128];
+    int rounds = 0, interrupted = 0;
+    snprintf(folder, sizeof folder, "%s/resumed", fixture->folder);
+    struct glint_reference *whole = need_reference(fixture, NULL, NULL);
+    trace(whole, 96, 0);
+    for (uint32_t rays = 0; rays < 96; rounds++) {
+        struct glint_reference *part = need_reference(fixture, folder, NULL);
+        assert_int_equal(glint_reference_state(part)->rays, rays);
+        int left = rounds % 3 == 2 ? 1000000 : 150; /* in the midst of a round, or not */
+        err = (struct glint_error){0};
+        if (!glint_reference_trace(part, rays + 32, 0, stop_late, &left, &err)) {
+            assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
+            interrupted++;
+        }
+        rays = glint_reference_state(part)->rays;
+        glint_reference_destroy(&part);
+        assert_true(rounds < 20);
+    }
+    assert_true(interrupted > 0);
+    struct glint_reference *again = need_reference(fixture, folder, NULL);
+    trace(again, 96, 0);
+    float *errors[2];
+    struct glint_pixels a = pixels_of(whole, &errors[0]), b = pixels_of(again, &errors[1]);
+    check_same(&a, &b);
+    assert_memory_equal(errors[0], errors[1], (size_t)a.width * a.height * sizeof(float));
+    assert_true(noise_of(whole) == noise_of(again));
+    free(errors[1]);
+    glint_pixels_finish(&b);
+    /* What others read of it. */
+    struct glint_run *run = glint_run_open(folder, &err);
+    if (!run || !glint_study_run_reflection(run, &b, &err) || !glint_study_run_error(run, &errors[1], &err))
+        fail_msg("%s", err.message);
+    check_same(&a, &b);
+    assert_memory_equal(errors[0], errors[1], (size_t)a.width * a.height * sizeof(float));
+    glint_run_close(&run);
+    free(errors[0]);
+    free(errors[1]);
+    glint_pixels_finish(&a);
+    glint_pixels_finish(&b);
+    glint_reference_destroy(&whole);
+    glint_reference_destroy(&again);
+    fixture_check_messages(fixture);
+}
+
+static void it_stops_at_the_noise_that_is_asked_for(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_reference *reference = need_reference(fixture, NULL, NULL);
+    trace(reference, 16, 0);
+    const double first = glint_reference_state(reference)->noise[0].relative;
+    trace(reference, 1024, first / 2);
+    const struct glint_reference_state *now = glint_reference_state(reference);
+    assert_true(now->noise[0].relative <= first / 2);
+    assert_true(now->rays >= 48 && now->rays <= 160); /* 64, as the noise of 16 rays is known to some 30 % */
+    const uint32_t rays = now->rays;
+    trace(reference, 1024, first / 2); /* reached: nothing more */
+    trace(reference, rays - 20, 0);
+    assert_int_equal(glint_reference_state(reference)->rays, rays);
+    glint_reference_destroy(&reference);
+    fixture_check_messages(fixture);
+}
+
+static void refused(struct fixture *fixture, const char *folder, const char *set, const char *why) {
+    struct glint_error err = {0};
+    struct glint_reference *reference = open_reference(fixture, folder, set, false, &err);
+    assert_null(reference);
+    fixture_says(&err, why);
+}
+
+static void a_folder_of_something_else_is_refused(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    char folder[128], plain[128], file[256];
+    snprintf(folder, sizeof folder, "%s/kept", fixture->folder);
+    struct glint_reference *reference = need_reference(fixture, folder, NULL);
+    trace(reference, 16, 0);
+    glint_reference_destroy(&reference);
+    refused(fixture, folder, "cubemap_trace.tolerance=0.03",
+            "cubemap_trace.values.tolerance is 0.02 there and 0.03 here");
+    fixture_run(fixture, NULL);
+    fixture_write_run(fixture, "plain", plain);
+    refused(fixture, plain, NULL, "no reference");
+    /* Anew, with the other setting. */
+    reference = open_reference(fixture, folder, "cubemap_trace.tolerance=0.03", true, &err);
+    assert_non_null(reference);
+    trace(reference, 32, 0);
+    glint_reference_destroy(&reference);
+    snprintf(file, sizeof file, "%s/reference-16.exr", folder);
+    assert_int_not_equal(access(file, F_OK), 0);
+    snprintf(file, sizeof file, "%s/reference-32.exr", folder);
+    assert_int_equal(unlink(file), 0);
+    refused(fixture, folder, "cubemap_trace.tolerance=0.03", "reference-32.exr");
+    fixture_check_messages(fixture);
+}
+
+static void other_captures(struct fixture *fixture, const struct fixture_options *options, const char *why) {
+    struct glint_error err = {0};
+    char path[256];
+    snprintf(path, sizeof path, "%s/other.exr", fixture->folder);
+    assert_true(fixture_write_capture(path, options, &err));
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    assert_true(glint_replay_load(fixture->replay, capture, &err));
+    struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
+    struct glint_reference *reference = glint_reference_create(fixture->replay, capture, pipeline, NULL, &err);
+    if (why) {
+        assert_null(reference);
+        fixture_says(&err, why);
+    } else {
+        assert_non_null(reference);
+        trace(reference, 16, 0);
+        assert_true(glint_reference_state(reference)->noise[0].mean > 0);
+    }
+    glint_reference_destroy(&reference);
+    glint_pipeline_destroy(&pipeline);
+    assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
+    glint_capture_close(&capture);
+}
+
+static void captures_that_lack_something(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    other_captures(fixture, &(struct fixture_options){.matte = true}, "nothing in it reflects");
+    other_captures(fixture, &(struct fixture_options){.no_cubemaps = true}, NULL); /* the screen alone */
+    fixture_check_messages(fixture);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(noise_falls_with_the_root_of_the_rays_and_is_what_is_missing_to_many),
+        cmocka_unit_test(a_half_is_one_run_of_its_rays),
+        cmocka_unit_test(an_interrupted_reference_goes_on_to_the_same_bits),
+        cmocka_unit_test(it_stops_at_the_noise_that_is_asked_for),
+        cmocka_unit_test(a_folder_of_something_else_is_refused),
+        cmocka_unit_test(captures_that_lack_something),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
+}

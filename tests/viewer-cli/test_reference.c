@@ -1,0 +1,111 @@
+/* glint reference, as a user meets it, and what is compared with what it keeps. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static char *reference_option(const char *which, const char *folder) {
+    char *option = NULL;
+    assert_true(asprintf(&option, "--against=%s=%s", which, in_folder(folder)) > 0);
+    return option;
+}
+
+static json_t *first_run(const char *text, json_t **whole) {
+    *whole = parse_json(text);
+    return json_array_get(json_object_get(*whole, "runs"), 0);
+}
+
+static double rmse(const json_t *run, const char *answer, const char *which) {
+    const json_t *rows = json_object_get(json_object_get(json_object_get(run, answer), "image"), "surfaces");
+    return number(named(rows, "surfaces", "all"), which);
+}
+
+static void it_is_kept_and_goes_on(void **state) {
+    (void)state;
+    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=16", "--truth=16"));
+    char *text = glint_ok("reference", in_folder("room.exr"), "-o", in_folder("kept"), "--rays=16", "--json");
+    json_t *json = parse_json(text);
+    assert_true(number(json, "rays") == 16);
+    const double few = number(named(json_object_get(json, "noise"), "surfaces", "all"), "error");
+    assert_true(few > 0);
+    assert_null(json_object_get(json, "sensitivity"));
+    const json_t *missing = named(json_object_get(json, "missing_information"), "surfaces", "all");
+    assert_true(number(missing, "clean_rmse") < number(missing, "rmse"));
+    json_decref(json);
+    free(text);
+    text = glint_ok("reference", in_folder("room.exr"), "-o", in_folder("kept"), "--rays=20", "--sensitivity=16");
+    assert_contains(text, "32 rays a pixel");
+    assert_contains(text, "screen_trace.thickness ");
+    assert_contains(text, "missing information");
+    assert_contains(text, "\nrough ");
+    free(text);
+    text = glint_ok("reference", in_folder("room.exr"), "-o", in_folder("kept"), "--noise=0.9", "--json");
+    json = parse_json(text);
+    assert_true(number(json, "rays") == 32); /* it is better already */
+    assert_true(number(json_object_get(json, "sensitivity"), "rays") == 16);
+    json_decref(json);
+    free(text);
+    free(glint_ok("view", in_folder("kept"), "-o", in_folder("kept.png")));
+    const struct pixels picture = read_png(in_folder("kept.png"));
+    assert_true(picture.width == 32 && picture.height == 18);
+    free(picture.rgb);
+}
+
+/* Against itself nothing is left; against both, both answers are those of one each. */
+static void runs_are_compared_with_it(void **state) {
+    (void)state;
+    json_t *whole[3];
+    char *option = reference_option("reference", "kept"), *both = reference_option("both", "kept");
+    char *texts[3] = {
+        glint_ok("replay", in_folder("room.exr"), option, "--json"),
+        glint_ok("replay", in_folder("room.exr"), "--against=truth", "--json"),
+        glint_ok("replay", in_folder("room.exr"), both, "--json"),
+    };
+    const json_t *reference = first_run(texts[0], &whole[0]), *truth = first_run(texts[1], &whole[1]),
+                 *run = first_run(texts[2], &whole[2]);
+    assert_true(rmse(run, "against_reference", "rmse") == rmse(reference, "against_reference", "rmse"));
+    assert_true(rmse(run, "against_truth", "rmse") == rmse(truth, "against_truth", "rmse"));
+    assert_true(rmse(run, "missing_information", "rmse") < rmse(run, "against_truth", "rmse"));
+    /* the reference's noise is known, and taken off */
+    assert_true(rmse(run, "against_reference", "truth_noise") > 0);
+    assert_true(rmse(run, "against_reference", "clean_rmse") < rmse(run, "against_reference", "rmse"));
+    assert_null(json_object_get(reference, "missing_information"));
+    char *text = glint_ok("replay", in_folder("room.exr"), both);
+    assert_contains(text, "missing information");
+    free(text);
+    for (int i = 0; i < 3; i++) {
+        json_decref(whole[i]);
+        free(texts[i]);
+    }
+    free(option);
+    free(both);
+}
+
+static void what_cannot_be_is_said(void **state) {
+    (void)state;
+    free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16"));
+    free(glint_ok("replay", in_folder("room.exr"), "-o", in_folder("run")));
+    glint_fails(1, "nothing in it reflects", "reference", in_folder("matte.exr"));
+    glint_fails(1, "No such file", "reference", in_folder("absent.exr"));
+    glint_fails(2, "screen_trace.values.thickness is 0.01 there and 0.02 here", "reference", in_folder("room.exr"),
+                "-o", in_folder("kept"), "--set=screen_trace.thickness=0.02");
+    glint_fails(2, "a run that is no reference", "reference", in_folder("room.exr"), "-o", in_folder("run"));
+    glint_fails(2, "between 0 and 1", "reference", in_folder("room.exr"), "--noise=1");
+    glint_fails(2, "expected a whole number", "reference", in_folder("room.exr"), "--rays=0");
+    glint_fails(2, "one capture", "reference", in_folder("room.exr"), in_folder("matte.exr"));
+    glint_fails(2, "unknown preset", "reference", in_folder("room.exr"), "--like=nobody");
+    free(glint_ok("reference", in_folder("room.exr"), "-o", in_folder("run"), "--rays=16", "--anew", "--like=kf2",
+                  "--set=resolve.fog=false"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_is_kept_and_goes_on),
+        cmocka_unit_test(runs_are_compared_with_it),
+        cmocka_unit_test(what_cannot_be_is_said),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

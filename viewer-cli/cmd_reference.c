@@ -1,0 +1,307 @@
+/* glint reference: the converged answer, how much noise it has left and what it depends on. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "glint/reference.h"
+#include "pipe.h"
+#include "pipeline_args.h"
+#include "progress.h"
+#include "table.h"
+
+struct arguments {
+    struct pipeline_args pipeline;
+    const char *capture, *out, *device, *like;
+    uint32_t rays, sensitivity;
+    double noise;
+    bool anew, json;
+};
+
+enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_ANEW };
+enum { RAYS = 64, RAYS_FOR_NOISE = 16384, RAYS_FOR_SENSITIVITY = 32 };
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",      'o',             "RUN",  0, "Folder in which the reference is kept: a run that --against reference=RUN and glint view read. "
+        "An interrupted reference goes on from there, and a complete one with more --rays", 0},
+    {"rays",        KEY_RAYS,        "N",    0, "Rays a pixel, rounded up to a multiple of 16 (default 64; with --noise at most 16384)", 0},
+    {"noise",       KEY_NOISE,       "E",    0, "Stop when the noise is at most this part of the mean reflection: 0.01 for 1 %", 0},
+    {"sensitivity", KEY_SENSITIVITY, "RAYS", OPTION_ARG_OPTIONAL, "Also trace it with each thing that it must assume, such as how thick "
+        "objects are, halved and doubled, with so many rays a pixel each (default 32)", 0},
+    {"like",        KEY_LIKE,        "NAME|FILE", 0, "The reference of this preset: of the lobe that it draws from and with its fog", 0},
+    {"use",         KEY_USE,         "SLOT=VARIANT", 0, "Use this variant of a slot", 0},
+    {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as resolve.fog=false for comparisons with the truth, which has no fog", 0},
+    {"all",         KEY_ALL,         NULL,   0, "Run every pass, even one that has nothing to do", 0},
+    {"anew",        KEY_ANEW,        NULL,   0, "Replace what the folder holds", 0},
+    {"device",      'd',             "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"json",        'j',             NULL,   0, "Print JSON", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint reference street.exr -o reference --rays 256", "256 rays a pixel; again with --rays 1024: 768 more"},
+    {"glint reference street.exr -o reference --noise 0.01", "as many rays as 1 % of noise takes"},
+    {"glint reference street.exr -o reference --sensitivity", "and how far it depends on what it assumes"},
+    {"glint replay street.exr --against reference=reference", "how far a preset is from it"},
+    {0},
+};
+
+extern const struct command cmd_reference;
+
+static double arg_noise(const char *text, struct argp_state *state) {
+    double noise = 0;
+    arg_numbers("noise", text, &noise, 1, state);
+    if (!(noise > 0 && noise < 1)) argp_error(state, "--noise=%s: expected a number between 0 and 1", text);
+    return noise;
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case 'd':
+        a->device = arg;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case KEY_RAYS:
+        a->rays = arg_uint("rays", arg, 1, GLINT_REFERENCE_RAYS_MAX, state);
+        return 0;
+    case KEY_NOISE:
+        a->noise = arg_noise(arg, state);
+        return 0;
+    case KEY_SENSITIVITY:
+        a->sensitivity = arg ? arg_uint("sensitivity", arg, 1, GLINT_REFERENCE_RAYS_MAX, state) : RAYS_FOR_SENSITIVITY;
+        return 0;
+    case KEY_LIKE:
+        a->like = arg;
+        return 0;
+    case KEY_ANEW:
+        a->anew = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->capture) argp_error(state, "one capture at a time; found %s and %s", a->capture, arg);
+        a->capture = arg;
+        return 0;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "which capture?");
+        return 0;
+    case ARGP_KEY_END:
+        if (a->rays == 0) a->rays = a->noise > 0 ? RAYS_FOR_NOISE : RAYS;
+        return 0;
+    }
+    return pipeline_args_parse(key, arg, state, &a->pipeline);
+}
+
+/* What a reference is compared with where the capture carries a truth. */
+struct missing {
+    bool known, fog;
+    struct glint_image_errors errors;
+};
+
+static void number_or_dash(struct table *table, bool there, double value) {
+    if (there) table_cell(table, "%.5f", value);
+    else table_cell(table, "%s", "–");
+}
+
+static void print_noise(const struct glint_reference_state *state, const struct missing *missing) {
+    static const char *const titles[] = {"<surfaces", ">mean", ">noise", ">of the mean %", ">missing information",
+                                         NULL};
+    struct table *table = table_create(titles);
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        const struct glint_reference_noise *noise = &state->noise[k];
+        if (noise->pixels == 0) continue;
+        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
+        table_cell(table, "%.5f", noise->mean);
+        table_cell(table, "%.5f", noise->error);
+        table_cell(table, "%.2f", 100 * noise->relative);
+        number_or_dash(table, missing->known, missing->errors.of[k].clean_rmse);
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+    puts("noise: standard error of the mean, by what two halves of the rays differ by");
+    if (missing->known) puts("missing information: RMSE against the capture's truth, the noise of both taken off");
+    if (missing->known && missing->fog)
+        puts("the truth has no fog and this reference has; --set resolve.fog=false compares the same");
+}
+
+static void print_sensitivity(const struct glint_reference_sensitivity *s) {
+    static const char *const titles[] = {"<assumed",       ">value", ">tried", ">mean change", ">RMSE", ">noise",
+                                         ">of the mean %", "<",      NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < s->count; i++) {
+        const struct glint_reference_assumption *row = &s->rows[i];
+        const struct glint_reference_change *all = &row->of[0];
+        table_cell(table, "%s.%s", row->pass->slot, row->row->name);
+        table_cell(table, "%s", number_text(row->value));
+        table_cell(table, "%s", number_text(row->tried));
+        if (row->ran) table_cell(table, "%+.5f", all->mean);
+        else table_cell(table, "%s", "–");
+        number_or_dash(table, row->ran, all->rmse);
+        number_or_dash(table, row->ran, all->noise);
+        if (row->ran) table_cell(table, "%.2f", 100 * all->relative);
+        else table_cell(table, "%s", "–");
+        table_cell(table, "%s", row->reason);
+    }
+    printf("\nwhat it must assume, halved and doubled, %u rays a pixel each:\n", s->rays);
+    table_print(table, stdout);
+    table_destroy(&table);
+    if (s->count == 0) puts("its passes declare nothing that they assume");
+    else puts("RMSE: between both references of the same random numbers, without the noise of what they differ by");
+}
+
+static json_t *missing_json(const struct missing *missing) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        const struct glint_image_error *e = &missing->errors.of[k];
+        if (e->pixels == 0) continue;
+        json_array_append_new(rows,
+                              json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "surfaces",
+                                        glint_surface_name((enum glint_surface)k), "pixels", (json_int_t)e->pixels,
+                                        "mean_error", json_number(e->mean), "rmse", json_number(e->rmse), "noise",
+                                        json_number(e->truth_noise), "clean_rmse", json_number(e->clean_rmse),
+                                        "clean_relative_mse", json_number(e->clean_relative_mse)));
+    }
+    return rows;
+}
+
+static bool fades(const struct glint_pipeline *pipeline) {
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        for (size_t r = 0; r < pass->row_count; r++)
+            if (pass->rows[r].kind == GLINT_ROW_SPEC && !strcmp(pass->rows[r].name, "fog") &&
+                glint_pipeline_value(pipeline, pass, &pass->rows[r]) != 0)
+                return true;
+    }
+    return false;
+}
+
+static bool compare_with_truth(const struct glint_reference *reference, struct glint_capture *capture,
+                               const struct glint_pipeline *pipeline, struct missing *missing,
+                               struct glint_error *err) {
+    struct glint_error no_truth = {0};
+    struct glint_pixels truth = {0}, own = {0};
+    float *truth_error = NULL, *own_error = NULL;
+    uint8_t *surfaces = NULL;
+    missing->known = glint_study_truth(capture, pipeline, &truth, &truth_error, &no_truth);
+    missing->fog = glint_capture_frame(capture)->has_fog && fades(pipeline);
+    bool ok =
+        !missing->known || ((surfaces = glint_study_surfaces(capture, err)) != NULL &&
+                            glint_reference_pixels(reference, &own, &own_error, err) &&
+                            glint_study_missing(&own, own_error, &truth, truth_error, surfaces, &missing->errors, err));
+    free(surfaces);
+    free(truth_error);
+    free(own_error);
+    glint_pixels_finish(&truth);
+    glint_pixels_finish(&own);
+    return ok;
+}
+
+/* What the library says of it, and what it is off the truth. */
+static enum status print_as_json(const struct glint_reference *reference, const struct arguments *a,
+                                 const struct missing *missing) {
+    char *text = glint_reference_json(reference);
+    json_t *json = text ? json_loads(text, 0, NULL) : NULL;
+    free(text);
+    if (!json) return STATUS_CHECK;
+    json_object_set_new(json, "capture", json_string(a->capture));
+    if (a->out) json_object_set_new(json, "run", json_string(a->out));
+    if (missing->known) json_object_set_new(json, "missing_information", missing_json(missing));
+    return print_json(json);
+}
+
+static void print_all(const struct glint_reference *reference, const struct arguments *a,
+                      const struct glint_device_info *device, const struct missing *missing,
+                      const struct glint_reference_sensitivity *sensitivity) {
+    const struct glint_reference_state *state = glint_reference_state(reference);
+    printf("%s on %s: %u rays a pixel in %s\n\n", a->capture, device->name, state->rays, time_text(state->seconds));
+    print_noise(state, missing);
+    if (a->noise > 0 && state->noise[0].relative > a->noise)
+        printf("the noise asked for, %g %%, is not reached: more --rays\n", 100 * a->noise);
+    if (a->sensitivity) print_sensitivity(sensitivity);
+    if (a->out) printf("\nreference: %s\n", a->out);
+    else puts("\nnothing written (-o RUN keeps it)");
+}
+
+static enum status trace(const struct arguments *a, struct glint_device *device, struct glint_replay *replay,
+                         const struct glint_pipeline *pipeline, struct glint_capture *capture,
+                         struct glint_error *err) {
+    const struct glint_reference_options options = {.folder = a->out, .anew = a->anew, .all = a->pipeline.replay.all};
+    struct glint_reference_sensitivity sensitivity = {0};
+    struct missing missing = {0};
+    struct progress progress;
+    enum status status = STATUS_DONE;
+    progress_begin(&progress);
+    struct glint_reference *reference = glint_replay_load(replay, capture, err)
+                                            ? glint_reference_create(replay, capture, pipeline, &options, err)
+                                            : NULL;
+    bool ok = reference && glint_reference_trace(reference, a->rays, a->noise, progress_report, &progress, err) &&
+              (!a->sensitivity ||
+               glint_reference_sensitivity(reference, a->sensitivity, progress_report, &progress, &sensitivity, err)) &&
+              compare_with_truth(reference, capture, pipeline, &missing, err);
+    progress_end(&progress);
+    if (!ok) status = command_fail(&cmd_reference, err);
+    else if (a->json) status = print_as_json(reference, a, &missing);
+    else print_all(reference, a, glint_device_get_info(device), &missing, &sensitivity);
+    if (reference && status == STATUS_INTERRUPTED && a->out)
+        command_note(&cmd_reference, "%u rays a pixel are kept in %s; the same call goes on from there",
+                     glint_reference_state(reference)->rays, a->out);
+    glint_reference_destroy(&reference);
+    return status;
+}
+
+/* The preset `reference`, asked what --like's preset asks, with the settings of this call. */
+static struct glint_pipeline *create_pipeline(struct arguments *a, struct glint_error *err) {
+    struct glint_pipeline *pipeline = NULL;
+    struct glint_pipeline *like = a->like ? glint_pipeline_create(a->like, err) : NULL;
+    if (a->like && !like) return NULL;
+    a->pipeline.preset = "reference";
+    if (!like) return pipeline_args_create(&a->pipeline, err);
+    pipeline = glint_study_reference(like, err);
+    glint_pipeline_destroy(&like);
+    if (pipeline && !pipeline_args_apply(&a->pipeline, pipeline, err)) glint_pipeline_destroy(&pipeline);
+    return pipeline;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    command_parse(&cmd_reference, argc, argv, &a);
+    struct glint_error err = {0};
+    const struct glint_device_options device_options = {.select = a.device};
+    struct glint_device *device = NULL;
+    struct glint_replay *replay = NULL;
+    struct glint_capture *capture = NULL;
+    struct pipe pipe = {0};
+    const char *file = NULL;
+    struct glint_pipeline *pipeline = create_pipeline(&a, &err);
+    if (pipeline) file = pipe_input(&pipe, a.capture, &err);
+    if (file) capture = glint_capture_open(file, NULL, &err);
+    if (capture) device = glint_device_create(&device_options, &err);
+    if (device) replay = glint_replay_create(device, &err);
+    enum status status =
+        replay ? trace(&a, device, replay, pipeline, capture, &err) : command_fail(&cmd_reference, &err);
+    glint_replay_destroy(&replay);
+    glint_device_destroy(&device);
+    glint_capture_close(&capture);
+    pipe_finish(&pipe);
+    glint_pipeline_destroy(&pipeline);
+    pipeline_args_finish(&a.pipeline);
+    return status;
+}
+
+const struct command cmd_reference = {
+    .name = "reference",
+    .arguments = "F -o RUN",
+    .summary = "the converged answer from a capture's own data",
+    .description =
+        "Traces many rays a pixel, over the whole lobe of each surface and in fine steps, and says how much noise is "
+        "left: half of the rays share no random number with the others, and what the halves differ by is the noise. "
+        "What a preset is off the reference is the error of its algorithms; what the reference is off the truth that "
+        "the capture may carry is information that its data lack.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};
