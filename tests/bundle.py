@@ -28,6 +28,8 @@ def licences(paths, folder):
         packages.update(line.split(":")[0] for line in found.stdout.split("\n") if line)
     for package in packages:
         shutil.copy(f"/usr/share/doc/{package}/copyright", os.path.join(folder, package))
+    # the charting library in the program
+    shutil.copytree("viewer-cli/vendor/echarts", os.path.join(folder, "echarts"), ignore=shutil.ignore_patterns("*.js"))
 
 
 def main():

@@ -1,13 +1,15 @@
-/* Files that are built into the program; GLINT_FONT and GLINT_OCIO are their paths. */
+/* Files that are built into the program; what starts with GLINT_ are their paths. */
+#define BLOB(name, file)    \
+    .global name, name##_end; \
+    .balign 16;             \
+    name: .incbin file;     \
+    name##_end: .byte 0;
+
     .section .rodata
-    .global blob_font, blob_font_end, blob_ocio, blob_ocio_end
-    .balign 16
-blob_font:
-    .incbin GLINT_FONT
-blob_font_end:
-    .byte 0
-blob_ocio:
-    .incbin GLINT_OCIO
-blob_ocio_end:
-    .byte 0
+BLOB(blob_font, GLINT_FONT)
+BLOB(blob_ocio, GLINT_OCIO)
+BLOB(blob_page_head, GLINT_PAGE_HEAD)
+BLOB(blob_echarts, GLINT_ECHARTS)
+BLOB(blob_chart, GLINT_CHART)
+BLOB(blob_page, GLINT_PAGE)
     .section .note.GNU-stack, "", %progbits

@@ -7,6 +7,11 @@ extern "C" {
 #endif
 extern const unsigned char blob_font[], blob_font_end[]; /* DejaVuSans.ttf */
 extern const unsigned char blob_ocio[], blob_ocio_end[]; /* glint.ocio */
+/* What pages begin with, up to their document; their scripts, in order. */
+extern const unsigned char blob_page_head[], blob_page_head_end[];
+extern const unsigned char blob_echarts[], blob_echarts_end[]; /* Apache ECharts */
+extern const unsigned char blob_chart[], blob_chart_end[];     /* page/chart.js */
+extern const unsigned char blob_page[], blob_page_end[];       /* page/page.js */
 #ifdef __cplusplus
 }
 #endif

@@ -3,13 +3,35 @@
 
 #include <string.h>
 
-extern const struct command cmd_sample, cmd_info, cmd_validate, cmd_plan, cmd_replay, cmd_reference, cmd_compare,
-    cmd_view, cmd_passes, cmd_devices;
+/* A line each. */
+/* clang-format off */
+extern const struct command
+    cmd_sample,
+    cmd_info,
+    cmd_validate,
+    cmd_plan,
+    cmd_replay,
+    cmd_reference,
+    cmd_compare,
+    cmd_view,
+    cmd_report,
+    cmd_passes,
+    cmd_devices;
 
 const struct command *const commands[] = {
-    &cmd_sample,    &cmd_info,    &cmd_validate, &cmd_plan,   &cmd_replay,
-    &cmd_reference, &cmd_compare, &cmd_view,     &cmd_passes, &cmd_devices,
+    &cmd_sample,
+    &cmd_info,
+    &cmd_validate,
+    &cmd_plan,
+    &cmd_replay,
+    &cmd_reference,
+    &cmd_compare,
+    &cmd_view,
+    &cmd_report,
+    &cmd_passes,
+    &cmd_devices,
 };
+/* clang-format on */
 const size_t command_count = sizeof commands / sizeof *commands;
 
 const struct command *command_find(const char *name) {

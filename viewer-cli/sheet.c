@@ -151,24 +151,30 @@ static size_t count_images(const struct glint_run *run, const char *const *image
     return count;
 }
 
-bool render_sheet(struct picture *picture, const char *const *runs, size_t run_count, const char *const *images,
-                  const struct render_options *options, struct glint_error *err) {
-    struct sheet sheet = {0};
+bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const char *const *images,
+                const struct render_options *options, struct glint_error *err) {
     struct glint_run *first = glint_run_open(runs[0], err);
     size_t count = first ? count_images(first, images) : 0;
     bool ok = first != NULL;
+    *sheet = (struct sheet){0};
     if (ok && count == 0) ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the run has no images", runs[0]);
     if (ok) {
         /* a run alone: as many columns as rows */
         uint32_t columns = run_count > 1 ? (uint32_t)run_count : (uint32_t)ceil(sqrt((double)count));
         uint32_t rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + columns - 1) / columns);
-        ok = sheet_init(&sheet, columns, rows, err);
+        ok = sheet_init(sheet, columns, rows, err);
     }
     for (size_t i = 0; ok && i < count; i++)
-        ok = draw_row(&sheet.cells[i * run_count], runs, (uint32_t)run_count,
+        ok = draw_row(&sheet->cells[i * run_count], runs, (uint32_t)run_count,
                       images ? images[i] : glint_run_image(first, i)->name, options, err);
-    if (ok) ok = sheet_lay_out(picture, &sheet, err);
-    sheet_finish(&sheet);
     glint_run_close(&first);
+    return ok;
+}
+
+bool render_sheet(struct picture *picture, const char *const *runs, size_t run_count, const char *const *images,
+                  const struct render_options *options, struct glint_error *err) {
+    struct sheet sheet;
+    bool ok = sheet_fill(&sheet, runs, run_count, images, options, err) && sheet_lay_out(picture, &sheet, err);
+    sheet_finish(&sheet);
     return ok;
 }

@@ -1,0 +1,122 @@
+"""A headless Chromium, driven over a pipe by the DevTools protocol."""
+import base64
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+
+
+class Browser:
+    """One page. `messages`: what it said on the console and which errors there were; `requests`: what it asked for."""
+
+    def __init__(self, program, width=1280, height=900):
+        self.folder = tempfile.mkdtemp(prefix="glint-browser-")
+        self.messages, self.requests, self.dialogs = [], [], []
+        self.number = 0
+        to_read, self.to = os.pipe()
+        self.come, from_write = os.pipe()
+
+        def hand_over():
+            # above the places first, so that neither is overwritten
+            a, b = os.dup(to_read), os.dup(from_write)
+            os.dup2(a, 3)
+            os.dup2(b, 4)
+
+        self.process = subprocess.Popen(
+            [program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
+             "--no-first-run", "--disable-background-networking", "--remote-debugging-pipe",
+             f"--user-data-dir={self.folder}", f"--window-size={width},{height}", "about:blank"],
+            preexec_fn=hand_over, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(to_read)
+        os.close(from_write)
+        self.buffer = b""
+        self.session = None
+        (page,) = (t for t in self.call("Target.getTargets")["targetInfos"] if t["type"] == "page")
+        self.session = self.call("Target.attachToTarget", targetId=page["targetId"], flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
+
+    def receive(self):
+        while b"\0" not in self.buffer:
+            piece = os.read(self.come, 1 << 20)
+            if not piece:
+                raise EOFError("the browser is gone")
+            self.buffer += piece
+        text, self.buffer = self.buffer.split(b"\0", 1)
+        return json.loads(text)
+
+    def notice(self, event):
+        what, values = event.get("method"), event.get("params", {})
+        if what == "Runtime.consoleAPICalled":
+            self.messages.append(" ".join(str(a.get("value", a.get("description"))) for a in values["args"]))
+        elif what == "Runtime.exceptionThrown":
+            self.messages.append(json.dumps(values["exceptionDetails"]))
+        elif what == "Log.entryAdded":
+            self.messages.append(values["entry"]["text"])
+        elif what == "Network.requestWillBeSent":
+            self.requests.append(values["request"]["url"])
+        elif what == "Page.javascriptDialogOpening":
+            self.dialogs.append(values["message"])
+            self.send("Page.handleJavaScriptDialog", accept=True)
+        return what
+
+    def send(self, method, **values):
+        self.number += 1
+        message = {"id": self.number, "method": method, "params": values}
+        if self.session:
+            message["sessionId"] = self.session
+        os.write(self.to, json.dumps(message).encode() + b"\0")
+        return self.number
+
+    def call(self, method, **values):
+        number = self.send(method, **values)
+        while True:
+            answer = self.receive()
+            if answer.get("id") == number:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']['message']}")
+                return answer["result"]
+            self.notice(answer)
+
+    def open(self, path):
+        self.call("Page.navigate", url="file://" + os.path.abspath(path))
+        while self.notice(self.receive()) != "Page.loadEventFired":
+            pass
+
+    def evaluate(self, expression):
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in result:
+            raise RuntimeError(f"{expression}: {result['exceptionDetails']}")
+        return result["result"].get("value")
+
+    def mouse(self, kind, x, y):
+        button = "none" if kind == "mouseMoved" else "left"
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, clickCount=0 if button == "none" else 1)
+
+    def point_at(self, x, y):
+        self.mouse("mouseMoved", x, y)
+
+    def click(self, x, y):
+        for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
+            self.mouse(kind, x, y)
+
+    def key(self, name):
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name)
+
+    def look(self, dark):
+        self.call("Emulation.setEmulatedMedia",
+                  features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+
+    def screenshot(self, path, whole=False):
+        data = self.call("Page.captureScreenshot", captureBeyondViewport=whole)["data"]
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(data))
+
+    def close(self):
+        self.process.kill()
+        self.process.wait()
+        os.close(self.to)
+        os.close(self.come)
+        shutil.rmtree(self.folder, ignore_errors=True)

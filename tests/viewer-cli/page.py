@@ -1,0 +1,284 @@
+"""Pages of glint report in headless Chromium: page.py GLINT CHROMIUM. Speaks TAP."""
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import traceback
+import xml.dom.minidom
+import zlib
+
+from browser import Browser
+
+GLINT, CHROMIUM = sys.argv[1:]
+HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>&quot;\"'`${alert(3)}"
+
+
+def png(path, width, height, color):
+    """A picture of one colour, without anybody's library."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = (b"\0" + bytes(color) * width) * height
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                   chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def noise(path, width, height):
+    """What no PNG makes small."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = b"".join(b"\0" + os.urandom(3 * width) for _ in range(height))
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                   chunk(b"IDAT", zlib.compress(rows, 0)) + chunk(b"IEND", b""))
+
+
+def glint(*arguments):
+    return subprocess.run([GLINT, *arguments], capture_output=True, text=True)
+
+
+def report(folder, document, name="page.html"):
+    """Stores the document in its folder and writes its page."""
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "page.json"), "w", encoding="utf-8") as file:
+        json.dump(document, file)
+    out = os.path.join(folder, name)
+    run = glint("report", folder, "-o", out)
+    assert run.returncode == 0 and not run.stderr, run.stderr
+    return out
+
+
+def page(*blocks, title="T", facts=()):
+    return {"format": 1, "title": title, "facts": list(facts), "sections": [{"title": "S", "blocks": list(blocks)}]}
+
+
+def point(x, y, name, steps, picture):
+    return {"x": x, "y": y, "low": y * 0.9, "high": y * 1.1, "name": name, "values": [["screen_trace.steps", steps, ""]],
+            "pictures": [{"file": picture, "caption": f"picture of {name}"}]}
+
+
+def chart(points, **more):
+    return {"chart": {"title": "error against time", "x": {"name": "time", "unit": "ms", "scale": "log"},
+                      "y": {"name": "error", "scale": "log"}, "series": [{"name": "front", "kind": "front", "points": points}],
+                      **more}}
+
+
+# The middle of the marks that stand for points, from the left; ECharts draws them as paths of the symbol's size.
+MARKS = """[...document.querySelectorAll('.plot path')].map(e => e.getBoundingClientRect())
+    .filter(r => Math.abs(r.width - 9) < 1.6 && Math.abs(r.width - r.height) < 0.6 && r.y > document.querySelector('.plot').getBoundingClientRect().y + 40)
+    .map(r => [r.x + r.width / 2, r.y + r.height / 2]).sort((a, b) => a[0] - b[0])"""
+TEXT_OF = "document.querySelector('{}').textContent"
+
+
+class Tests:
+    def __init__(self, folder, browser):
+        self.folder, self.browser = folder, browser
+        png(os.path.join(folder, "red.png"), 40, 30, (255, 0, 0))
+        png(os.path.join(folder, "blue.png"), 40, 30, (0, 0, 255))
+
+    def open(self, path):
+        """Nothing that a page does may reach past itself, or complain."""
+        self.browser.messages.clear()
+        self.browser.requests.clear()
+        self.browser.dialogs.clear()
+        self.browser.open(path)
+        assert self.browser.evaluate("document.documentElement.dataset.ready") == "yes", self.browser.messages
+
+    def quiet(self):
+        outside = [r[:80] for r in self.browser.requests[1:] if not r.startswith("data:image/")]
+        assert not self.browser.messages and not outside and not self.browser.dialogs, \
+            (self.browser.messages, outside, self.browser.dialogs)
+
+    def scatter(self):
+        points = [point(1, 0.1, "few", 8, "red.png"), point(4, 0.02, "many", 64, "blue.png")]
+        self.open(report(self.folder, page(chart(points))))
+        marks = self.browser.evaluate(MARKS)
+        assert len(marks) == 2, marks
+        return marks
+
+    def shown(self):
+        return self.browser.evaluate(TEXT_OF.format("aside"))
+
+    def color_of_picture(self):
+        return self.browser.evaluate("""(async () => {
+            const image = document.querySelector('aside img'), canvas = document.createElement('canvas');
+            await image.decode();
+            canvas.getContext('2d').drawImage(image, 0, 0);
+            return [...canvas.getContext('2d').getImageData(5, 5, 1, 1).data].slice(0, 3);
+        })()""")
+
+    def test_a_click_on_a_point_shows_its_parameters_and_its_picture(self):
+        marks = self.scatter()
+        assert "64" not in self.shown()
+        self.browser.click(*marks[1])
+        assert "many" in self.shown() and "screen_trace.steps64" in self.shown(), self.shown()
+        assert self.color_of_picture() == [0, 0, 255], self.color_of_picture()
+        # it stays when the pointer leaves, pointing elsewhere shows that, and comes back
+        self.browser.point_at(*marks[0])
+        assert "few" in self.shown() and self.color_of_picture() == [255, 0, 0]
+        self.browser.point_at(5, 5)
+        assert "many" in self.shown(), self.shown()
+        self.quiet()
+
+    def test_keys_reach_every_point(self):
+        self.scatter()
+        self.browser.evaluate("document.querySelector('.plot').focus()")
+        self.browser.key("ArrowRight")
+        assert "few" in self.shown()
+        self.browser.key("ArrowRight")
+        assert "many" in self.shown()
+        self.browser.key("Enter")
+        self.browser.key("ArrowLeft")
+        assert "few" in self.shown()
+        self.browser.key("Escape")
+        assert "few" not in self.shown() and "many" not in self.shown()
+        self.quiet()
+
+    def test_names_of_strangers_stay_names(self):
+        where = [HOSTILE + place for place in ("t", "f", "g", "c", "u", "x", "n", "v", "p", "m", "k", "b")]
+        t, f, g, c, u, x, n, v, p, m, k, b = where
+        blocks = [{"text": b}, {"note": b}, {"code": b}, {"table": {"columns": [{"name": c, "unit": u, "help": c}], "rows": [[x], [{"text": x, "value": 1}]]}},
+                  {"pictures": [{"file": "red.png", "caption": p}]},
+                  {"chart": {"title": t, "x": {"name": k, "unit": u}, "y": {"scale": "category", "categories": [k, n]}, "marks": [{"x": 1, "label": m}],
+                             "series": [{"name": n, "kind": "bar", "points": [{"x": 1, "y": 0, "name": v, "values": [[v, v, v]], "pictures": [{"file": "red.png", "caption": p}]}]},
+                                        {"name": v, "kind": "bar", "points": [[2, 1]]}]}}]
+        out = report(self.folder, page(*blocks, title=t, facts=[[f, g]]))
+        with open(out, encoding="utf-8") as file:
+            assert "alert(1)</script>" not in file.read()
+        self.open(out)
+        self.browser.evaluate("document.querySelector('.plot').focus()")
+        self.browser.key("ArrowRight")
+        assert v in self.shown(), self.shown()
+        self.browser.evaluate("document.querySelectorAll('figure button').forEach(b => b.click())")
+        text = self.browser.evaluate("document.body.textContent")
+        for name in where:
+            assert name in text, name
+        assert self.browser.evaluate("document.title") == t
+        assert self.browser.evaluate("document.querySelectorAll('main script, header script, main [onerror], dialog [onerror]').length") == 0
+        self.quiet()
+
+    def test_scripts_that_are_not_the_page_s_own_do_not_run(self):
+        out = report(self.folder, page({"text": "x"}))
+        with open(out, encoding="utf-8") as file:
+            text = file.read()
+        with open(out, "w", encoding="utf-8") as file:
+            file.write(text.replace("</body>", "<script>window.mine = 1</script><img src='http://127.0.0.1:1/x.png'></body>"))
+        self.browser.messages.clear()
+        self.browser.open(out)
+        assert self.browser.evaluate("window.mine === undefined")
+        assert any("Content Security Policy" in m for m in self.browser.messages), self.browser.messages
+
+    def test_tables_sort_by_number(self):
+        rows = [["a", 10], ["b", {"value": 9.5, "low": 9, "high": 10}], ["c", None], ["d", 100]]
+        table = {"table": {"columns": [{"name": "name"}, {"name": "time", "unit": "ms", "bar": True}], "rows": rows}}
+        self.open(report(self.folder, page(table)))
+        order = "[...document.querySelectorAll('tbody tr')].map(r => r.cells[0].textContent).join('')"
+        assert self.browser.evaluate(order) == "abcd"
+        self.browser.evaluate("document.querySelectorAll('th button')[1].click()")
+        assert self.browser.evaluate(order) == "badc"
+        self.browser.evaluate("document.querySelectorAll('th button')[1].click()")
+        assert self.browser.evaluate(order) == "dabc"
+        # numbers end at one place
+        ends = self.browser.evaluate("[...new Set([...document.querySelectorAll('td.number')].map(e => e.getBoundingClientRect().right))].length")
+        assert ends == 1, ends
+        self.quiet()
+
+    def test_a_chart_as_svg_is_xml(self):
+        points = [point(1, 0.1, HOSTILE, 8, "red.png"), point(4, 0.02, "many", 64, "blue.png"), [0, 0.5], [2, None]]
+        odd = HOSTILE + "\u0001\U0001f600\u00e9]]>"
+        block = chart(points, title=odd, marks=[{"y": 0.011, "label": odd}, {"x": 4, "y": 0.02, "label": odd}])
+        block["chart"]["series"].append({"name": odd, "kind": "scatter", "muted": True, "points": [[2, 0.5]]})
+        report(self.folder, page(block))
+        out = os.path.join(self.folder, "chart.svg")
+        run = glint("report", self.folder, "-o", out)
+        assert run.returncode == 0, run.stderr
+        svg = xml.dom.minidom.parse(out)
+        texts = ["".join(c.data for c in e.childNodes) for e in svg.getElementsByTagName("text")]
+        assert any(t.startswith(HOSTILE) and t.endswith("\U0001f600\u00e9]]>") for t in texts), texts
+        assert not svg.getElementsByTagName("script")
+        assert not [n for e in svg.getElementsByTagName("*") for n in e.attributes.keys() if n.startswith("on")]
+
+    def test_marks_stand_at_their_values(self):
+        """The line of a mark lies where the axis puts its value: against two points on either side, in the file."""
+        points = [[1, 0.012], [2, 0.018]]
+        block = {"chart": {"x": {"name": "x"}, "y": {"name": "y"}, "series": [{"name": "s", "kind": "line", "points": points}],
+                           "marks": [{"y": 0.015}]}}
+        report(self.folder, page(block))
+        out = os.path.join(self.folder, "marks.svg")
+        assert glint("report", self.folder, "-o", out).returncode == 0
+        paths = [e for e in xml.dom.minidom.parse(out).getElementsByTagName("path")]
+        (line,) = [e.getAttribute("d") for e in paths if e.getAttribute("stroke-dasharray")]
+        (curve,) = [e.getAttribute("d") for e in paths if e.getAttribute("stroke-width") == "2" and e.getAttribute("fill") == "none"]
+        heights = [float(p.split()[1]) for p in curve[1:].split("L")]
+        mark = float(line[1:].split("L")[0].split()[1])
+        assert abs(mark - sum(heights) / 2) <= 1, (mark, heights)  # 1: lines are moved onto whole pixels
+
+    def test_points_that_a_logarithm_lacks_are_counted(self):
+        self.open(report(self.folder, page(chart([[1, 0.1], [0, 0.2], [-1, 0.2], [3, 0.05]]))))
+        assert "2 points without a place on these axes" in self.browser.evaluate(TEXT_OF.format("main"))
+        self.quiet()
+
+    def test_a_page_of_200_pictures_can_be_sent(self):
+        folder = os.path.join(self.folder, "many")
+        os.makedirs(folder)
+        points = []
+        for i in range(200):
+            # noise is the worst case of any encoder
+            noise(os.path.join(folder, f"{i}.png"), 320, 180)
+            points.append(point(1 + i, 1 / (1 + i), f"p{i}", i, f"{i}.png"))
+        out = report(folder, page(chart(points)))
+        assert os.path.getsize(out) < 20e6, os.path.getsize(out)
+        self.open(out)
+        self.browser.evaluate("document.querySelector('.plot').focus()")
+        self.browser.key("ArrowLeft")
+        assert "p199" in self.shown()
+        assert self.browser.evaluate("document.querySelector('aside img').decode().then(() => document.querySelector('aside img').naturalWidth)") >= 80
+        self.quiet()
+
+    def test_pictures_come_from_the_folder_alone(self):
+        folder = os.path.join(self.folder, "inside")
+        os.makedirs(folder)
+        os.symlink(os.path.join(self.folder, "red.png"), os.path.join(folder, "link.png"))
+        for file in ("../red.png", os.path.join(self.folder, "red.png"), "link.png", "nothing.png", "page.json"):
+            with open(os.path.join(folder, "page.json"), "w", encoding="utf-8") as out:
+                json.dump(page({"pictures": [{"file": file, "caption": ""}]}), out)
+            run = glint("report", folder, "-o", os.path.join(folder, "r.html"))
+            assert run.returncode != 0 and file in run.stderr, (file, run.stderr)
+            assert sorted(os.listdir(folder)) == ["link.png", "page.json"], os.listdir(folder)
+
+    def test_dark_and_light(self):
+        ground = "getComputedStyle(document.body).backgroundColor"
+        self.browser.look(dark=True)
+        self.scatter()
+        dark = self.browser.evaluate(ground)
+        self.browser.evaluate("document.getElementById('look').click()")
+        light = self.browser.evaluate(ground)
+        self.browser.look(dark=False)
+        assert dark == "rgb(22, 24, 29)" and light == "rgb(255, 255, 255)", (dark, light)
+        self.quiet()
+
+
+def main():
+    if not CHROMIUM:
+        print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
+        return 1
+    names = [n for n in dir(Tests) if n.startswith("test_")]
+    print(f"1..{len(names)}")
+    failed = 0
+    with tempfile.TemporaryDirectory(prefix="glint-page-") as folder:
+        browser = Browser(CHROMIUM)
+        tests = Tests(folder, browser)
+        for i, name in enumerate(names, 1):
+            try:
+                getattr(tests, name)()
+                print(f"ok {i} - {name[5:].replace('_', ' ')}", flush=True)
+            except Exception:
+                failed += 1
+                print(f"not ok {i} - {name[5:].replace('_', ' ')}\n# " + traceback.format_exc().replace("\n", "\n# ")[:2000], flush=True)
+        browser.close()
+    return failed > 0
+
+
+sys.exit(main())

@@ -1,0 +1,128 @@
+/* glint report: runs, sweeps and other studies as one page that can be sent. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "args.h"
+#include "report.h"
+
+struct arguments {
+    struct list folders, images;
+    const char *out;
+    uint32_t chart;
+};
+
+enum { KEY_IMAGES = 256, KEY_CHART };
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output", 'o',        "FILE",     0, "The page to write, FILE.html; FILE.svg is one of its charts", 0},
+    {"images", KEY_IMAGES, "NAME,...", 0, "Images of the runs (default: all of the frame's or half the frame's size)", 0},
+    {"chart",  KEY_CHART,  "N",        0, "Which chart FILE.svg holds (default: 1, the first)", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint report run -o run.html", "a run's pictures, times, plan and parameters on one page"},
+    {"glint report a b -o ab.html", "two runs beside each other, and what differs"},
+    {"glint report swept -o swept.html", "the page of a sweep again"},
+    {"glint report swept -o front.svg", "its first chart as a picture for a document"},
+    {0},
+};
+
+extern const struct command cmd_report;
+
+static bool ends_with(const char *text, const char *end) {
+    size_t length = strlen(text), tail = strlen(end);
+    return length > tail && !strcmp(text + length - tail, end);
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case KEY_IMAGES:
+        list_split(&a->images, arg, state);
+        return 0;
+    case KEY_CHART:
+        a->chart = arg_uint("chart", arg, 1, 1000, state);
+        return 0;
+    case ARGP_KEY_ARG:
+        list_add(&a->folders, arg, state);
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->folders.count) argp_error(state, "which run?");
+        if (!a->out) argp_error(state, "where to? -o FILE.html");
+        else if (!ends_with(a->out, ".html") && !ends_with(a->out, ".svg"))
+            argp_error(state, "%s: expected FILE.html or FILE.svg", a->out);
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* Whether a study left its page in the folder. */
+static bool has_page(const char *folder) {
+    char path[4096];
+    return snprintf(path, sizeof path, "%s/page.json", folder) < (int)sizeof path && access(path, F_OK) == 0;
+}
+
+static json_t *make_document(const struct arguments *a, struct glint_error *err) {
+    const char *const *folders = a->folders.items;
+    if (a->folders.count == 1 && has_page(folders[0])) return page_load(folders[0], err);
+    for (size_t i = 0; i < a->folders.count; i++)
+        if (has_page(folders[i])) {
+            glint_fail(err, GLINT_ERROR_USAGE, "%s holds a page of its own: report it alone", folders[i]);
+            return NULL;
+        }
+    return report_runs(folders, a->folders.count, list_or_null(&a->images), err);
+}
+
+/* The chart in place `number` from 1; *seen counts those before. */
+static const json_t *find_chart(const json_t *document, uint32_t number, uint32_t *seen) {
+    size_t i, k;
+    json_t *section, *block;
+    json_array_foreach(json_object_get(document, "sections"), i, section)
+        json_array_foreach(json_object_get(section, "blocks"), k, block) {
+        const json_t *chart = json_object_get(block, "chart");
+        if (chart && ++*seen == number) return chart;
+    }
+    return NULL;
+}
+
+static bool write_chart(const struct arguments *a, const json_t *document, struct glint_error *err) {
+    uint32_t count = 0;
+    const json_t *chart = find_chart(document, a->chart, &count);
+    if (chart) return page_chart_write(a->out, chart, err);
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s: chart %u: there are %u", a->folders.items[0], a->chart, count);
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {.chart = 1};
+    command_parse(&cmd_report, argc, argv, &a);
+    struct glint_error err = {0};
+    json_t *document = make_document(&a, &err);
+    bool ok = document != NULL;
+    if (ok && ends_with(a.out, ".svg")) ok = write_chart(&a, document, &err);
+    else if (ok) ok = page_write(a.out, document, a.folders.items[0], &err);
+    json_decref(document);
+    list_free(&a.folders);
+    list_free(&a.images);
+    return ok ? STATUS_DONE : command_fail(&cmd_report, &err);
+}
+
+const struct command cmd_report = {
+    .name = "report",
+    .arguments = "RUN|STUDY... -o R.html",
+    .summary = "runs or a study as one page that can be sent",
+    .description =
+        "Writes one HTML page that carries everything it shows and fetches nothing: pictures, times, the plan, "
+        "parameters and the device of a run; of several runs, all of it beside each other, and what differs. "
+        "Studies such as sweeps keep their page in their folder, from which it is written again. A click on a "
+        "picture enlarges it, and arrow keys then flip through the others in place.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};

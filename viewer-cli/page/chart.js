@@ -1,0 +1,268 @@
+/* A CHART of page.h as an option of Apache ECharts. Run by browsers and by the program itself, which has no DOM: ES5. */
+var glintChart = (function () {
+    'use strict';
+
+    /* Okabe and Ito's colours, told apart by every kind of eye; shapes tell series apart without them. */
+    var LIGHT = {colors: ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00'],
+                 text: '#1f2328', faint: '#59636e', line: '#d8dee4', muted: '#8c959f', ground: '#ffffff'};
+    var DARK = {colors: ['#56b4e9', '#e69f00', '#2fc79a', '#e39ac4', '#f0e442', '#7f9cff'],
+                text: '#e6e8eb', faint: '#9da7b3', line: '#30363d', muted: '#6e7681', ground: '#16181d'};
+    var SYMBOLS = ['circle', 'diamond', 'triangle', 'rect', 'pin', 'arrow'];
+    var FONT = 'system-ui, Segoe UI, DejaVu Sans, sans-serif'; /* without quotes: the renderer escapes no attributes */
+
+    /* Texts hold what XML has no way to say: control characters, halves of surrogate pairs. */
+    function text(value) {
+        return (value === undefined || value === null ? '' : String(value))
+            .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\u007f\ufffe\uffff]/g, '\u00b7')
+            .replace(/[\ud800-\udbff](?![\udc00-\udfff])/g, '\u00b7')
+            .replace(/(^|[^\ud800-\udbff])[\udc00-\udfff]/g, '$1\u00b7');
+    }
+
+    function isNumber(v) { return typeof v === 'number' && isFinite(v); }
+
+    function list(v) { return Array.isArray(v) ? v : []; }
+
+    function label(axis) { return text(axis.name) + (axis.unit ? ', ' + text(axis.unit) : ''); }
+
+    /* As few digits as a number needs, at most four. */
+    function number(v) {
+        if (!isNumber(v)) return '\u2013';
+        if (v === 0) return '0';
+        var size = Math.abs(v);
+        if (size >= 1e6 || size < 1e-4) return v.toExponential(2).replace(/\.?0+e/, 'e').replace('e+', 'e').replace('-', '\u2212');
+        return String(+v.toPrecision(4)).replace('-', '\u2212');
+    }
+
+    /* [x, y] or {…} as one kind of object; null when an axis cannot show it. */
+    function pointOf(p, x, y) {
+        var point = Array.isArray(p) ? {x: p[0], y: p[1]} : p || {};
+        if (!isNumber(point.x) || !isNumber(point.y)) return null;
+        if ((x.scale === 'log' && point.x <= 0) || (y.scale === 'log' && point.y <= 0)) return null;
+        return point;
+    }
+
+    /* Every point that can be shown, series by series, and how many cannot. */
+    function read(chart) {
+        var x = chart.x || {}, y = chart.y || {}, left = 0;
+        var series = list(chart.series).map(function (s) {
+            var points = list(s.points).map(function (p) { return pointOf(p, x, y); });
+            var shown = points.filter(function (p) { return p; });
+            left += points.length - shown.length;
+            return {name: text(s.name), kind: s.kind || 'line', muted: !!s.muted, stack: s.stack, points: shown};
+        });
+        return {x: x, y: y, series: series, left: left, marks: list(chart.marks)};
+    }
+
+    /* Lowest and highest of an axis, with intervals and marks. */
+    function extent(data, key) {
+        var axis = data[key], low = Infinity, high = -Infinity;
+        function add(v) {
+            if (!isNumber(v) || (axis.scale === 'log' && v <= 0)) return;
+            low = Math.min(low, v);
+            high = Math.max(high, v);
+        }
+        data.series.forEach(function (s) {
+            s.points.forEach(function (p) {
+                add(p[key]);
+                var low = key === 'x' ? p.x_low : p.low, high = key === 'x' ? p.x_high : p.high;
+                add(low);
+                add(high);
+            });
+        });
+        data.marks.forEach(function (m) { add(m[key]); });
+        if (low > high) { low = axis.scale === 'log' ? 1 : 0; high = axis.scale === 'log' ? 10 : 1; }
+        return [low, high];
+    }
+
+    /* Places that a logarithmic axis names: powers of ten, with 2 and 5, or round steps when it spans little. */
+    function logTicks(low, high) {
+        var ticks = [], first = Math.floor(Math.log(low) / Math.LN10), last = Math.ceil(Math.log(high) / Math.LN10);
+        var decades = Math.log(high / low) / Math.LN10;
+        if (!(low > 0 && high > low * 1.001)) return ticks;
+        if (decades < 0.6) {
+            var step = Math.pow(10, Math.floor(Math.log((high - low) / 4) / Math.LN10)), times = (high - low) / 4 / step;
+            step *= times > 5 ? 10 : times > 2 ? 5 : times > 1 ? 2 : 1;
+            for (var v = Math.ceil(low / step) * step; v <= high * (1 + 1e-9); v += step) ticks.push(+v.toPrecision(10));
+            return ticks;
+        }
+        var each = decades > 3 ? [1] : [1, 2, 5], skip = Math.ceil(decades / 8);
+        for (var e = first; e <= last; e++)
+            for (var k = 0; k < each.length && (e - first) % skip === 0; k++) {
+                var t = +(each[k] * Math.pow(10, e)).toPrecision(10);
+                if (t >= low * (1 - 1e-9) && t <= high * (1 + 1e-9)) ticks.push(t);
+            }
+        return ticks;
+    }
+
+    function axisOption(data, key, look) {
+        var axis = data[key], lying = key === 'y' && axis.scale === 'category';
+        var option = {
+            name: label(axis), nameLocation: lying ? 'end' : 'middle', nameTextStyle: {color: look.faint, fontSize: 12},
+            nameMoveOverlap: false, nameGap: key === 'x' ? 28 : 44,
+            axisLine: {show: key === 'x' || lying, onZero: false, lineStyle: {color: look.muted}},
+            axisTick: {show: false}, axisLabel: {color: look.faint, fontSize: 11},
+            splitLine: {show: axis.scale !== 'category', lineStyle: {color: look.line}}
+        };
+        if (axis.scale === 'category') {
+            option.type = 'category';
+            option.data = list(axis.categories).map(text);
+            option.inverse = lying;
+            option.axisLabel.interval = 0;
+            option.axisLabel.width = lying ? 220 : undefined;
+            option.axisLabel.overflow = 'truncate';
+            return option;
+        }
+        var range = extent(data, key), bars = data.series.some(function (s) { return s.kind === 'bar'; });
+        option.type = axis.scale === 'log' ? 'log' : 'value';
+        option.axisLabel.formatter = number;
+        option.scale = !bars;
+        if (option.type === 'log') {
+            var pad = Math.max(Math.pow(range[1] / range[0], 0.04), 1.02);
+            option.min = isNumber(axis.min) && axis.min > 0 ? axis.min : range[0] / pad;
+            option.max = isNumber(axis.max) && axis.max > 0 ? axis.max : range[1] * pad;
+        } else {
+            if (isNumber(axis.min)) option.min = axis.min;
+            if (isNumber(axis.max)) option.max = axis.max;
+        }
+        var ticks = list(axis.ticks).filter(isNumber);
+        if (!ticks.length && option.type === 'log') ticks = logTicks(option.min, option.max);
+        if (ticks.length) option.axisTick.customValues = option.axisLabel.customValues = ticks;
+        return option;
+    }
+
+    /* Lines between the ends of intervals, with caps: [x, y, x of one end, y of it, x of the other, y of it]. */
+    function intervals(s) {
+        var lines = [];
+        if (s.muted) return lines; /* too many marks to tell apart */
+        s.points.forEach(function (p) {
+            if (isNumber(p.low) && isNumber(p.high)) lines.push([p.x, p.y, p.x, p.low, p.x, p.high]);
+            if (isNumber(p.x_low) && isNumber(p.x_high)) lines.push([p.x, p.y, p.x_low, p.y, p.x_high, p.y]);
+        });
+        return lines;
+    }
+
+    /* `group`: [place, count] among bars that stand beside each other, null for points. */
+    function intervalSeries(s, lines, color, group) {
+        return {
+            type: 'custom', name: s.name, silent: true, data: lines, itemStyle: {color: color}, z: group ? 6 : 3,
+            encode: {x: [0, 2, 4], y: [1, 3, 5]}, clip: true, animation: false, tooltip: {show: false},
+            renderItem: function (params, api) {
+                var a = api.coord([api.value(2), api.value(3)]), b = api.coord([api.value(4), api.value(5)]);
+                var upright = Math.abs(a[0] - b[0]) < Math.abs(a[1] - b[1]), cap = group ? 5 : 3.5;
+                var across = group ? api.barLayout({count: group[1]})[group[0]].offsetCenter : 0;
+                if (upright) { a[0] += across; b[0] += across; } else { a[1] += across; b[1] += across; }
+                var dx = upright ? cap : 0, dy = upright ? 0 : cap;
+                return {type: 'path', shape: {pathData:
+                    'M' + a[0] + ' ' + a[1] + 'L' + b[0] + ' ' + b[1] +
+                    'M' + (a[0] - dx) + ' ' + (a[1] - dy) + 'L' + (a[0] + dx) + ' ' + (a[1] + dy) +
+                    'M' + (b[0] - dx) + ' ' + (b[1] - dy) + 'L' + (b[0] + dx) + ' ' + (b[1] + dy)},
+                    style: {stroke: color, lineWidth: 1.2, fill: 'none', opacity: group ? 1 : 0.75}};
+            }
+        };
+    }
+
+    function seriesOption(s, color, symbol) {
+        var front = s.kind === 'front', option = {
+            name: s.name, type: front ? 'line' : s.kind, color: color, animation: false, z: s.muted ? 2 : 4,
+            data: s.points.map(function (p, i) { return {value: [p.x, p.y], point: i}; })
+        };
+        if (s.kind === 'bar') {
+            option.barMaxWidth = 26;
+            option.data.forEach(function (d, i) { d.name = text(s.points[i].name); });
+            if (s.stack) option.stack = text(s.stack);
+            if (s.stack) option.itemStyle = {borderColor: 'transparent', borderWidth: 0.5};
+            return option;
+        }
+        option.symbol = symbol;
+        option.symbolSize = s.muted ? 6 : symbol === 'circle' ? 8 : 10;
+        option.itemStyle = {color: color, opacity: s.muted ? 0.55 : 1};
+        if (option.type !== 'line') return option;
+        option.showAllSymbol = true;
+        option.lineStyle = {width: front ? 1.5 : 2, color: color};
+        if (front) {
+            option.step = 'end';
+            option.data.sort(function (a, b) { return a.value[0] - b.value[0]; });
+        }
+        return option;
+    }
+
+    /* Lines across and single points, on a series of their own. */
+    function markSeries(marks, look) {
+        var lines = [], points = [];
+        marks.forEach(function (m) {
+            if (isNumber(m.x) && isNumber(m.y))
+                points.push({value: [m.x, m.y], label: {show: true, position: 'top', distance: 8, formatter: text(m.label)}});
+            else if (isNumber(m.x)) lines.push({xAxis: m.x, label: {formatter: text(m.label), position: 'insideEndTop'}});
+            else if (isNumber(m.y)) lines.push({yAxis: m.y, label: {formatter: text(m.label), position: 'insideStartTop'}});
+        });
+        return {
+            type: 'scatter', silent: true, animation: false, z: 5, data: points, symbol: 'circle', symbolSize: 16,
+            itemStyle: {color: 'transparent', borderColor: look.text, borderWidth: 1.5},
+            label: {color: look.text, fontSize: 12, fontWeight: 600}, tooltip: {show: false},
+            markLine: {silent: true, animation: false, symbol: 'none', precision: 20, data: lines,
+                       lineStyle: {type: 'dashed', color: look.faint, width: 1}, label: {color: look.faint, fontSize: 11}}
+        };
+    }
+
+    /* What the page and the file share. `titled`: the title is part of the picture. */
+    function option(chart, look, titled) {
+        var data = read(chart), bars = [], series = [], next = 0;
+        data.series.forEach(function (s) {
+            var group = s.stack ? 'stack ' + s.stack : s.name;
+            if (s.kind === 'bar' && bars.indexOf(group) < 0) bars.push(group);
+        });
+        data.series.forEach(function (s) {
+            var color = s.muted ? look.muted : look.colors[next % look.colors.length];
+            var symbol = s.muted ? 'circle' : SYMBOLS[next % SYMBOLS.length], lines = intervals(s);
+            if (!s.muted) next++;
+            series.push(seriesOption(s, color, symbol));
+            if (lines.length)
+                series.push(intervalSeries(s, lines, s.kind === 'bar' ? look.text : color, s.kind !== 'bar' ? null :
+                    [bars.indexOf(s.stack ? 'stack ' + s.stack : s.name), bars.length]));
+        });
+        if (data.marks.length) series.push(markSeries(data.marks, look));
+        var names = data.series.map(function (s) { return s.name; }), legend = names.length > 1;
+        var title = titled && chart.title;
+        return {
+            animation: false, backgroundColor: look.ground, textStyle: {fontFamily: FONT, color: look.text},
+            title: {show: !!title, text: text(chart.title), left: 12, top: 8,
+                    textStyle: {color: look.text, fontSize: 14, fontWeight: 600}},
+            legend: {show: legend, data: names, left: 12, top: title ? 34 : 4, icon: undefined, itemGap: 16,
+                     textStyle: {color: look.text, fontSize: 12}, inactiveColor: look.line},
+            grid: {left: 12, right: 24, top: 20 + (title ? 30 : 0) + (legend ? 26 : 0), bottom: 12,
+                   outerBoundsMode: 'same', outerBoundsContain: 'all'},
+            xAxis: axisOption(data, 'x', look), yAxis: axisOption(data, 'y', look), series: series
+        };
+    }
+
+    /* For each series, its place among those of the option, where intervals are series of their own. */
+    function places(chart) {
+        var next = 0;
+        return read(chart).series.map(function (s) {
+            var place = next;
+            next += intervals(s).length ? 2 : 1;
+            return place;
+        });
+    }
+
+    /* The picture's size: lying bars grow with their number. */
+    function size(chart) {
+        var y = chart.y || {}, rows = y.scale === 'category' ? list(y.categories).length : 0;
+        return [isNumber(chart.width) ? chart.width : 760,
+                isNumber(chart.height) ? chart.height : rows ? 110 + 30 * rows : 440];
+    }
+
+    /* As SVG, in ASCII, whatever the texts hold. */
+    function svg(chart) {
+        var of = size(chart), drawn = echarts.init(null, null, {renderer: 'svg', ssr: true, width: of[0], height: of[1]});
+        drawn.setOption(option(chart, LIGHT, true));
+        var result = drawn.renderToSVGString();
+        drawn.dispose();
+        return result.replace(/[\ud800-\udbff][\udc00-\udfff]|[^\u0000-\u007f]/g, function (c) {
+            var high = c.charCodeAt(0);
+            return '&#' + (c.length < 2 ? high : 0x10000 + ((high - 0xd800) << 10) + c.charCodeAt(1) - 0xdc00) + ';';
+        }) + '\n';
+    }
+
+    return {light: LIGHT, dark: DARK, text: text, number: number, label: label, read: read, option: option, places: places, size: size, svg: svg};
+})();

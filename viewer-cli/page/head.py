@@ -1,0 +1,40 @@
+"""The start of every page: head.py STYLE NOTICE SCRIPT... OUT. The policy names the scripts by their digests, so that nothing
+else on the page runs, and lets nothing be fetched."""
+import base64
+import hashlib
+import sys
+
+style, notice, *scripts, out = sys.argv[1:]
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+digests = []
+for path in scripts:
+    text = read(path)
+    # Browsers end a script at the first, and turn the second into the third before they take its digest.
+    if b"</script" in text.lower() or b"<!--" in text or b"\r" in text:
+        sys.exit(f"{path}: cannot stand in a page as it is")
+    digests.append("'sha256-" + base64.b64encode(hashlib.sha256(text).digest()).decode() + "'")
+policy = (f"default-src 'none'; script-src {' '.join(digests)}; style-src 'unsafe-inline'; img-src data:; "
+          "base-uri 'none'; form-action 'none'")
+with open(out, "w", encoding="utf-8") as file:
+    file.write(f"""<!doctype html>
+<!-- Charts by {" ".join(read(notice).decode().split())} Licensed under the Apache License, Version 2.0,
+     https://www.apache.org/licenses/LICENSE-2.0 -->
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="referrer" content="no-referrer">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>glint</title>
+<style>
+{read(style).decode()}</style>
+</head>
+<body>
+<noscript><p>This page builds itself by a script that it carries; it fetches nothing.</p></noscript>
+<script type="application/json" id="document">""")

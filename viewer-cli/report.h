@@ -1,0 +1,34 @@
+/* Run folders as a document of page.h. */
+#ifndef GLINT_VIEWER_REPORT_H
+#define GLINT_VIEWER_REPORT_H
+
+#include "page.h"
+
+/* Several runs stand beside each other. `images`: which, NULL-terminated; NULL: those of the frame's or half the frame's
+   size that the first run has. */
+json_t *report_runs(const char *const *folders, size_t count, const char *const *images, struct glint_error *err);
+
+/* ---- Its parts ---- */
+
+struct report {
+    const char *const *folders;
+    size_t count;
+    json_t **runs;      /* their run.json */
+    char (*labels)[96]; /* short names */
+    json_t *document;
+    json_t *slots; /* of all runs, as keys in the order in which they are met */
+};
+
+/* "b" of "a" for "a.b"; NULL when there is none. */
+const json_t *report_find(const json_t *run, const char *key);
+/* A member's text, "" when there is none. */
+const char *report_text(const json_t *object, const char *key);
+const json_t *report_pass(const json_t *run, const char *slot);
+bool report_ran(const json_t *pass);
+/* A column for each run; alone it needs no name. */
+void report_columns(json_t *table, const struct report *report, const char *unit);
+
+bool report_pictures(const struct report *report, const char *const *images, struct glint_error *err);
+void report_times(const struct report *report);
+
+#endif
