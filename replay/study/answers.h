@@ -3,6 +3,7 @@
 #define GLINT_STUDY_ANSWERS_H
 
 #include "glint/judge.h"
+#include "glint/reference.h"
 
 enum { QUESTION_SIZE = 256 };
 /* "downsample.ndf=ggx resolve.fog=1 …": pipelines of one question have the same reference and the same truth. */

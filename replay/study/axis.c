@@ -8,8 +8,9 @@
 
 #include "../pipeline.h"
 
-static bool is_rays(const char *name) {
-    return strcmp(name, "pipeline.rays") == 0;
+/* The pipeline's own numbers, which no pass declares. */
+static bool is_own(const char *name) {
+    return strncmp(name, "pipeline.", 9) == 0;
 }
 
 /* The row of slot.parameter in the pipeline; NULL when it has none. */
@@ -27,7 +28,7 @@ static const struct glint_row *find_row(const struct glint_pipeline *pipeline, c
 
 bool axis_applies(const struct axis *axis, const struct glint_pipeline *pipeline) {
     for (size_t i = 0; i < axis->name_count; i++)
-        if (axis->variant || is_rays(axis->names[i]) || find_row(pipeline, axis->names[i])) return true;
+        if (axis->variant || is_own(axis->names[i]) || find_row(pipeline, axis->names[i])) return true;
     return false;
 }
 
@@ -36,7 +37,7 @@ bool axis_assign(const struct axis *axis, struct glint_pipeline *pipeline, const
     struct glint_error own = {0};
     bool ok = true;
     for (size_t i = 0; ok && i < axis->name_count; i++) {
-        if (!axis->variant && !is_rays(axis->names[i]) && !find_row(pipeline, axis->names[i])) continue;
+        if (!axis->variant && !is_own(axis->names[i]) && !find_row(pipeline, axis->names[i])) continue;
         snprintf(assignment, sizeof assignment, "%s=%s", axis->names[i], value);
         ok = axis->variant ? glint_pipeline_use(pipeline, assignment, &own)
                            : glint_pipeline_set(pipeline, assignment, &own);
@@ -162,14 +163,14 @@ static bool read_range(struct axis *axis, const char *text, struct glint_error *
     return ratios ? add_ratios(axis, (size_t)number, err) : add_steps(axis, number, err);
 }
 
-/* The declaration that tells what kind of values the axis takes; none needed for variants and rays. */
+/* The declaration that tells what kind of values the axis takes; none needed for variants and what is the pipeline's own. */
 static bool read_kind(struct axis *axis, const struct glint_pipeline *const *pipelines, size_t count, bool range,
                       struct glint_error *err) {
     for (size_t n = 0; n < axis->name_count; n++) {
         const struct glint_row *row = NULL;
         for (size_t p = 0; p < count && !row; p++) row = find_row(pipelines[p], axis->names[n]);
-        axis->whole |= is_rays(axis->names[n]) || (row && row->type != GLINT_VALUE_FLOAT);
-        if (!row && !is_rays(axis->names[n])) { /* its message says what there is */
+        axis->whole |= is_own(axis->names[n]) || (row && row->type != GLINT_VALUE_FLOAT);
+        if (!row && !is_own(axis->names[n])) { /* its message says what there is */
             struct glint_pipeline *copy = glint_pipeline_copy(pipelines[0], err);
             struct glint_error own = {0};
             char assignment[384];

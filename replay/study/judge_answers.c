@@ -18,8 +18,8 @@ void answers_finish(struct answer **answers) {
     *answers = NULL;
 }
 
-/* A run's reflection, when it is a run of this capture. */
-static bool read_run(const char *folder, struct glint_capture *capture, struct glint_pixels *pixels,
+/* A run's reflection, when it is a run of this capture, and its noise where it declares that. */
+static bool read_run(const char *folder, struct glint_capture *capture, struct answer *answer,
                      struct glint_error *err) {
     char hash[33];
     struct glint_run *run = glint_run_open(folder, err);
@@ -31,7 +31,7 @@ static bool read_run(const char *folder, struct glint_capture *capture, struct g
     if (ok && (!theirs || strcmp(theirs, hash) != 0))
         ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: expected a run of %s (%s), found one of %s (%s)", folder,
                         glint_capture_path(capture), hash, path ? path : "another capture", theirs ? theirs : "?");
-    ok = ok && glint_study_run_reflection(run, pixels, err);
+    ok = ok && glint_study_run_reflection(run, &answer->pixels, err) && glint_study_run_error(run, &answer->error, err);
     json_decref(json);
     glint_run_close(&run);
     return ok;
@@ -47,46 +47,30 @@ static bool kept_path(const char *folder, struct glint_capture *capture, const c
            glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
 }
 
-enum { OUTPUTS = 32 };
-
-/* What may be the reflection; the other images need not stay. */
-static void list_outputs(const struct glint_pipeline *pipeline, const char *outputs[OUTPUTS]) {
-    size_t count = 0;
-    for (size_t p = 0; p < glint_pipeline_pass_count(pipeline); p++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, p);
-        for (size_t r = 0; r < pass->row_count && count < OUTPUTS - 1; r++)
-            if (pass->rows[r].kind == GLINT_ROW_WRITE && pass->rows[r].size == GLINT_SIZE_FULL &&
-                !strcmp(pass->rows[r].unit, "radiance"))
-                outputs[count++] = pass->rows[r].name;
-    }
-    outputs[count] = NULL;
-}
-
-static bool replay_reference(const struct asking *ask, const char *keep, struct glint_pixels *pixels,
-                             struct glint_error *err) {
-    struct glint_pipeline *reference = glint_study_reference(ask->pipeline, err);
-    const char *outputs[OUTPUTS];
-    /* Its images are floats: what it is off by should not be how it is stored. */
-    const struct glint_replay_options options = {
-        .all = ask->options->all, .float_precision = true, .outputs = outputs, .keep_bytes = ask->options->keep_bytes};
-    if (reference) list_outputs(reference, outputs);
-    bool ok = reference && glint_replay_run(ask->replay, reference, &options, ask->progress, ask->user, err) &&
-              glint_study_reflection(ask->replay, pixels, err) &&
-              (!keep || glint_replay_write(ask->replay, keep, NULL, NULL, err));
-    if (reference) glint_pipeline_destroy(&reference);
+/* With the noise that is left in it. */
+static bool trace_reference(const struct asking *ask, const char *folder, struct answer *answer,
+                            struct glint_error *err) {
+    const struct glint_reference_options options = {
+        .folder = folder, .all = ask->options->all, .keep_bytes = ask->options->keep_bytes};
+    const uint32_t rays = ask->options->reference_rays ? ask->options->reference_rays : GLINT_JUDGE_RAYS;
+    struct glint_pipeline *pipeline = glint_study_reference(ask->pipeline, err);
+    struct glint_reference *reference =
+        pipeline ? glint_reference_create(ask->replay, ask->capture, pipeline, &options, err) : NULL;
+    const bool ok =
+        reference &&
+        glint_reference_trace(reference, rays, ask->options->reference_noise, ask->progress, ask->user, err) &&
+        glint_reference_pixels(reference, &answer->pixels, &answer->error, err);
+    if (reference) glint_reference_destroy(&reference);
+    if (pipeline) glint_pipeline_destroy(&pipeline);
     return ok;
 }
 
-static bool find_reference(const struct asking *ask, const char *question, struct glint_pixels *pixels,
-                           struct glint_error *err) {
+static bool find_reference(const struct asking *ask, struct answer *answer, struct glint_error *err) {
     char path[4096];
-    struct glint_error ignored = {0};
-    if (ask->options->reference_run) return read_run(ask->options->reference_run, ask->capture, pixels, err);
-    if (!ask->options->reference_folder) return replay_reference(ask, NULL, pixels, err);
-    if (!kept_path(ask->options->reference_folder, ask->capture, question, path, sizeof path, err)) return false;
-    if (read_run(path, ask->capture, pixels, &ignored)) return true;
-    glint_pixels_finish(pixels);
-    return replay_reference(ask, path, pixels, err);
+    if (ask->options->reference_run) return read_run(ask->options->reference_run, ask->capture, answer, err);
+    if (!ask->options->reference_folder) return trace_reference(ask, NULL, answer, err);
+    return kept_path(ask->options->reference_folder, ask->capture, answer->question, path, sizeof path, err) &&
+           trace_reference(ask, path, answer, err);
 }
 
 const struct answer *answers_get(struct answer **answers, enum glint_answer kind, const struct asking *ask,
@@ -104,7 +88,7 @@ const struct answer *answers_get(struct answer **answers, enum glint_answer kind
     memcpy(answer->question, question, sizeof question);
     bool ok = kind == GLINT_ANSWER_TRUTH
                   ? glint_study_truth(ask->capture, ask->pipeline, &answer->pixels, &answer->error, err)
-                  : find_reference(ask, question, &answer->pixels, err);
+                  : find_reference(ask, answer, err);
     if (!ok) answers_finish(&answer);
     else answer->next = *answers, *answers = answer;
     return answer;

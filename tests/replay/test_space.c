@@ -194,7 +194,7 @@ static void what_is_wrong_is_named(void **state) {
     refused(AXES("cubemap_trace.fallback=black,white"), "expected one of black, lookup, cocoon, found 'white'");
     refused(AXES("screen_trace.steps=4,8", "screen_trace.steps=16"), "varied twice");
     refused(AXES("pipeline.rays=0..4"), "whole number from 1 to 1024");
-    refused(AXES("pipeline.ray=1..4"), "slot");
+    refused(AXES("pipeline.ray=1..4"), "no parameter 'ray'");
     refused(AXES("screen_trace.thickness=0..1:0.001", "cubemap_trace.steps_hq=1..1024"), "found a grid of 1025024");
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = plain();

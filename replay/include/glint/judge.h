@@ -16,17 +16,19 @@ enum glint_answer {
 };
 const char *glint_answer_name(enum glint_answer answer); /* "reference", "truth" */
 
+enum { GLINT_JUDGE_RAYS = 64 };
 struct glint_judge_options {
     bool reference, truth; /* which answers pipelines are compared with */
-    /* Where the reference comes from. A run folder, which must be of this capture; NULL: the preset `reference` is
-       replayed, once for each question that pipelines ask (their lobe and their fog). */
+    /* Where the reference comes from. A run folder, which must be of this capture; NULL: it is traced, once for each question
+       that pipelines ask (their lobe and their fog), as <glint/reference.h> does it. */
     const char *reference_run;
-    /* NULL, or a folder that must exist: replayed references are kept there as run folders, and found again. */
-    const char *reference_folder;
-    bool all;           /* every pass runs, also one that has nothing to do */
-    uint32_t metrics;   /* as in struct glint_metric_options; 0: the cheap ones */
-    uint32_t resamples; /* of the intervals of errors; 0: no intervals */
-    uint32_t seed;      /* likewise */
+    const char *reference_folder; /* NULL, or a folder that must exist: references are kept in it, and found again */
+    uint32_t reference_rays;      /* a pixel; 0: GLINT_JUDGE_RAYS */
+    double reference_noise;       /* relative, at which it has enough of them; 0: never */
+    bool all;                     /* every pass runs, also one that has nothing to do */
+    uint32_t metrics;             /* as in struct glint_metric_options; 0: the cheap ones */
+    uint32_t resamples;           /* of the intervals of errors; 0: no intervals */
+    uint32_t seed;                /* likewise */
     uint64_t
         keep_bytes; /* memory of the device for images beside those of one run; 0: a quarter of it, 4 GiB at most */
 };
@@ -45,8 +47,8 @@ struct glint_capture *glint_judge_capture(const struct glint_judge *judge);
 /* One enum glint_surface for each pixel of the loaded capture's G-buffer. */
 const uint8_t *glint_judge_surfaces(const struct glint_judge *judge);
 
-/* What a pipeline is compared with, of R G B; valid until the next load. *error: see glint_study_truth; NULL for the
-   reference. The capture's lack of a truth is GLINT_ERROR_FORMAT. */
+/* What a pipeline is compared with, of R G B (A); valid until the next load. *error: the standard error of each pixel relative
+   to its value, NULL where none is declared. The capture's lack of a truth is GLINT_ERROR_FORMAT. */
 const struct glint_pixels *glint_judge_answer(struct glint_judge *judge, enum glint_answer answer,
                                               const struct glint_pipeline *pipeline, const float **error,
                                               glint_progress progress, void *user, struct glint_error *err);
