@@ -7,6 +7,7 @@ Nothing is shared with the library: the matrices come from the primaries, the ke
 """
 import array
 import math
+import operator
 import os
 import random
 import subprocess
@@ -21,12 +22,16 @@ def plane(width, height, value):
 
 
 def convolved(image, kernel):
-    """`kernel` maps (dx, dy) to weights; past an edge the nearest pixel repeats."""
+    """`kernel` maps (dx, dy) to weights of a square; past an edge the nearest pixel repeats."""
     height, width = len(image), len(image[0])
-    taps = list(kernel.items())
+    radius = max(dx for dx, _ in kernel)
+    reach = range(-radius, radius + 1)
+    weights = [[kernel[dx, dy] for dx in reach] for dy in reach]
+    wide = [row[:1] * radius + row + row[-1:] * radius for row in image]
 
     def at(x, y):
-        return sum(w * image[min(max(y + dy, 0), height - 1)][min(max(x + dx, 0), width - 1)] for (dx, dy), w in taps)
+        rows = (wide[min(max(y + dy, 0), height - 1)][x:x + 2 * radius + 1] for dy in reach)
+        return sum(sum(map(operator.mul, w, row)) for w, row in zip(weights, rows))
     return plane(width, height, at)
 
 
@@ -124,7 +129,7 @@ def derivative(ppd, order, across):
             kernel[dx, dy] = -t * gauss if order == 1 else (t * t / sigma**2 - 1) * gauss
     up = math.fsum(w for w in kernel.values() if w > 0)
     down = -math.fsum(w for w in kernel.values() if w < 0)
-    return {at: w / (up if w > 0 else down) for at, w in kernel.items() if w}
+    return {at: w / (up if w > 0 else down) for at, w in kernel.items()}
 
 
 def features(image, ppd, order):
