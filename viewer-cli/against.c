@@ -5,7 +5,6 @@
 
 #include "against.h"
 #include "args.h"
-#include "table.h"
 
 void against_parse(struct against *against, char *text, struct argp_state *state) {
     static const char *const answers[] = {"truth", "reference", "both", NULL};
@@ -21,14 +20,18 @@ void against_parse(struct against *against, char *text, struct argp_state *state
 
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
                    struct glint_error *err) {
-    if (!against->reference || against->run) return true;
-    return (against->pipeline = glint_study_reference(pipeline, err)) != NULL &&
-           (against->replay = glint_replay_create(device, err)) != NULL;
+    against->device = device;
+    return !against->reference || (against->pipeline = glint_study_reference(pipeline, err)) != NULL;
 }
 
 void against_finish(struct against *against) {
     glint_replay_destroy(&against->replay);
     glint_pipeline_destroy(&against->pipeline);
+}
+
+static bool load(struct against *against, struct glint_capture *capture, struct glint_error *err) {
+    if (!against->replay && !(against->replay = glint_replay_create(against->device, err))) return false;
+    return glint_replay_load(against->replay, capture, err);
 }
 
 /* An answer, and the standard error of one that is a mean of samples. */
@@ -55,9 +58,8 @@ static bool reference_answer(struct against *against, struct glint_capture *capt
     const struct glint_reference_options options = {.all = against->all};
     if (against->run) return run_answer(against->run, answer, err);
     struct glint_reference *reference =
-        glint_replay_load(against->replay, capture, err)
-            ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
-            : NULL;
+        load(against, capture, err) ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
+                                    : NULL;
     bool ok = reference &&
               glint_reference_trace(reference, glint_pipeline_rays(against->pipeline), 0, against->progress,
                                     against->user, err) &&
@@ -66,26 +68,94 @@ static bool reference_answer(struct against *against, struct glint_capture *capt
     return glint_replay_load(against->replay, NULL, ok ? err : NULL) && ok;
 }
 
+/* Where mirror-like reflections are from, here and in the reference, of which one ray is enough for that: those of rougher surfaces are
+   drawn, and no two are the same. */
+static bool cross_sources(struct against *against, struct glint_capture *capture, const uint8_t *surfaces,
+                          struct comparison *c, struct glint_error *err) {
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
+    const struct glint_replay_options options = {.all = against->all, .diagnostics = true};
+    const size_t pixels = (size_t)gbuffer->width * gbuffer->height;
+    if (!c->found_source.labels) return true;
+    struct glint_pipeline *reference = glint_study_reference(against->pipeline, err);
+    bool ok = reference && glint_pipeline_set(reference, "pipeline.rays=1", err) && load(against, capture, err) &&
+              glint_replay_run(against->replay, reference, &options, against->progress, against->user, err) &&
+              glint_study_source(against->replay, gbuffer->width, gbuffer->height, &c->reference_source, err) &&
+              glint_replay_load(against->replay, NULL, err);
+    if (reference) glint_pipeline_destroy(&reference);
+    if (!ok || !c->reference_source.labels) return ok;
+    uint8_t *mask = malloc(pixels);
+    c->sources = malloc((c->found_source.count + 1) * (c->reference_source.count + 1) * sizeof *c->sources);
+    ok = (mask && c->sources) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; ok && i < pixels; i++) mask[i] = surfaces[i] == GLINT_SURFACE_MIRROR;
+    if (ok) glint_classes_cross(&c->found_source, &c->reference_source, pixels, mask, c->sources);
+    free(mask);
+    return ok;
+}
+
+/* Every class that is known of the pixels. */
+struct sets {
+    struct glint_classes of[GLINT_CAPTURE_CLASSES + 1];
+    size_t own, count; /* own: those that are released with this */
+};
+
+static bool compare(const struct against *against, struct glint_capture *capture, const struct sets *sets,
+                    const struct glint_pixels *found, const struct answer *answer, struct glint_metric_table *table,
+                    struct glint_error *err) {
+    const double exposure = glint_capture_frame(capture)->exposure;
+    struct glint_metric_options options = against->metrics;
+    metric_args_default(&options);
+    options.found_channels = options.truth_channels = "R G B";
+    options.mask = sets->of[GLINT_CLASSES_SURFACE].labels;
+    options.classes = sets->of;
+    options.class_sets = sets->count;
+    options.truth_error = answer->error;
+    options.exposure = exposure > 0 ? log2(exposure) : 0;
+    return glint_metrics_compare(found, &answer->pixels, &options, table, err);
+}
+
 static bool compare_images(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
                            const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
     struct glint_pixels found = {0};
     struct answer truth = {0}, reference = {0};
-    uint8_t *surfaces = NULL;
-    bool ok = glint_study_reflection(replay, &found, err) && (surfaces = glint_study_surfaces(capture, err)) != NULL;
+    struct sets sets = {0};
+    bool ok = glint_study_reflection(replay, &found, err) &&
+              glint_study_source(replay, found.width, found.height, &c->found_source, err) &&
+              glint_study_classes(capture, sets.of, &sets.own, err);
+    sets.count = sets.own;
+    if (c->found_source.labels) sets.of[sets.count++] = c->found_source;
+    const uint8_t *surfaces = sets.of[GLINT_CLASSES_SURFACE].labels;
     if (ok && c->truth)
         ok = glint_study_truth(capture, pipeline, &truth.pixels, &truth.error, err) &&
-             glint_study_image(&found, &truth.pixels, 3, surfaces, truth.error, &c->to_truth, err);
+             compare(against, capture, &sets, &found, &truth, &c->to_truth, err);
     if (ok && c->reference)
         ok = reference_answer(against, capture, &reference, err) &&
-             glint_study_image(&found, &reference.pixels, 3, surfaces, reference.error, &c->to_reference, err);
+             compare(against, capture, &sets, &found, &reference, &c->to_reference, err) &&
+             cross_sources(against, capture, surfaces, c, err);
     if (ok && c->truth && c->reference)
         ok = glint_study_missing(&reference.pixels, reference.error, &truth.pixels, truth.error, surfaces, &c->missing,
                                  err);
-    free(surfaces);
+    for (size_t k = 0; k < sets.own; k++) glint_classes_finish(&sets.of[k]);
     answer_finish(&truth);
     answer_finish(&reference);
     glint_pixels_finish(&found);
     return ok;
+}
+
+void comparison_finish(struct comparison *c) {
+    glint_metric_table_finish(&c->to_truth);
+    glint_metric_table_finish(&c->to_reference);
+    glint_classes_finish(&c->found_source);
+    glint_classes_finish(&c->reference_source);
+    free(c->sources);
+    *c = (struct comparison){0};
+}
+
+bool against_valid(const struct comparison *c, const char *capture, struct glint_error *err) {
+    char what[600];
+    snprintf(what, sizeof what, "%.500s: the reflection against the truth", capture);
+    if (!glint_metrics_valid(&c->to_truth, what, err)) return false;
+    snprintf(what, sizeof what, "%.500s: the reflection against the reference", capture);
+    return glint_metrics_valid(&c->to_reference, what, err);
 }
 
 static bool draws_normals(const struct glint_pipeline *pipeline) {
@@ -114,180 +184,4 @@ bool against_compare(struct against *against, struct glint_replay *replay, struc
     }
     snprintf(c->no_image, sizeof c->no_image, "%s", image.message);
     return true;
-}
-
-static void percent(struct table *table, double part) {
-    if (isfinite(part)) table_cell(table, "%.2f", 100 * part);
-    else table_cell(table, "∞");
-}
-
-static void print_rays(const struct comparison *c) {
-    static const char *const titles[] = {
-        "<tracer",         "<ended by",     ">rays",           ">share %", ">within 5 % of truth",
-        ">median error %", ">95th error %", ">radiance error", NULL};
-    struct table *table = table_create(titles);
-    for (size_t i = 0; i < c->rays.count; i++) {
-        const struct glint_trace_row *r = &c->rays.rows[i];
-        table_cell(table, "%s", r->tracer);
-        table_cell(table, "%s", r->text);
-        table_cell(table, "%zu", r->rays);
-        table_cell(table, "%.1f", 100 * r->share);
-        table_cell(table, "%.1f", 100 * r->right);
-        percent(table, r->median_error);
-        percent(table, r->p95_error);
-        if (isfinite(r->radiance_error)) table_cell(table, "%.4f", r->radiance_error);
-        else table_cell(table, "-");
-    }
-    printf("\nrays of surfaces up to roughness %g, travelled distance against the truth's mirror ray:\n",
-           GLINT_MIRROR_ROUGHNESS);
-    table_print(table, stdout);
-    table_destroy(&table);
-}
-
-static void print_distances(const struct glint_trace_table *rays) {
-    static const char *const titles[] = {"<surfaces",     ">rays",    ">within 5 % of truth", ">median error %",
-                                         ">95th error %", ">invalid", ">fetches a ray",       NULL};
-    struct table *table = table_create(titles);
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_distance_error *e = &rays->surfaces.of[k];
-        if (e->rays == 0) continue;
-        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
-        table_cell(table, "%llu", (unsigned long long)e->rays);
-        table_cell(table, "%.1f", 100 * e->right);
-        percent(table, e->median);
-        percent(table, e->p95);
-        table_cell(table, "%llu", (unsigned long long)e->invalid);
-        table_cell(table, "%.1f", rays->fetches[k]);
-    }
-    printf("\ntravelled distance of all rays:\n");
-    table_print(table, stdout);
-    table_destroy(&table);
-}
-
-static void print_image(const struct glint_image_errors *image, const char *what) {
-    static const char *const titles[] = {"<surfaces",     ">pixels",       ">mean",      ">mean error",
-                                         ">RMSE",         ">relative MSE", ">symmetric", ">its noise",
-                                         ">RMSE without", ">invalid",      NULL};
-    struct table *table = table_create(titles);
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_image_error *e = &image->of[k];
-        if (e->pixels + e->invalid == 0) continue;
-        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
-        table_cell(table, "%llu", (unsigned long long)e->pixels);
-        table_cell(table, "%.5f", e->truth_mean);
-        table_cell(table, "%+.5f", e->mean);
-        table_cell(table, "%.5f", e->rmse);
-        table_cell(table, "%.5f", e->relative_mse);
-        table_cell(table, "%.5f", e->symmetric);
-        table_cell(table, "%.5f", e->truth_noise);
-        table_cell(table, "%.5f", e->clean_rmse);
-        table_cell(table, "%llu", (unsigned long long)e->invalid);
-    }
-    printf("\n%s:\n", what);
-    table_print(table, stdout);
-    table_destroy(&table);
-}
-
-/* What the error comes from. The parts need not add up to it: they may cancel out. */
-static void print_parts(const struct comparison *c) {
-    static const char *const titles[] = {"<surfaces", ">algorithms", ">missing information", ">together", NULL};
-    struct table *table = table_create(titles);
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        if (c->to_truth.of[k].pixels == 0) continue;
-        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
-        table_cell(table, "%.5f", c->to_reference.of[k].clean_rmse);
-        table_cell(table, "%.5f", c->missing.of[k].clean_rmse);
-        table_cell(table, "%.5f", c->to_truth.of[k].clean_rmse);
-    }
-    puts("\nRMSE without the noise of truth and reference:");
-    table_print(table, stdout);
-    table_destroy(&table);
-}
-
-void against_print(const struct comparison *c) {
-    if (c->has_rays) {
-        print_rays(c);
-        print_distances(&c->rays);
-        if (c->jittered) puts("normals are jittered; --set downsample.jitter=false compares mirror rays");
-    }
-    if (!c->has_image) {
-        printf("\nno picture compared: %s\n", c->no_image);
-        return;
-    }
-    if (c->truth) print_image(&c->to_truth, "reflection before it is composed, against the truth");
-    if (c->reference) print_image(&c->to_reference, "reflection before it is composed, against the reference");
-    if (!c->truth || !c->reference) return;
-    print_image(&c->missing, "the reference against the truth: what the capture's data lack");
-    print_parts(c);
-}
-
-static json_t *rays_json(const struct glint_trace_table *table) {
-    json_t *rows = json_array();
-    for (size_t i = 0; i < table->count; i++) {
-        const struct glint_trace_row *r = &table->rows[i];
-        json_array_append_new(rows, json_pack("{s:s, s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "tracer", r->tracer, "reason",
-                                              r->reason, "rays", (json_int_t)r->rays, "share", json_number(r->share),
-                                              "right", json_number(r->right), "median_error",
-                                              json_number(r->median_error), "p95_error", json_number(r->p95_error),
-                                              "radiance_error", json_number(r->radiance_error)));
-    }
-    return rows;
-}
-
-static json_t *distances_json(const struct glint_trace_table *rays) {
-    json_t *rows = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_distance_error *e = &rays->surfaces.of[k];
-        if (e->rays == 0) continue;
-        json_array_append_new(rows, json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:f}", "surfaces",
-                                              glint_surface_name((enum glint_surface)k), "rays", (json_int_t)e->rays,
-                                              "invalid", (json_int_t)e->invalid, "right", json_number(e->right),
-                                              "median_error", json_number(e->median), "p95_error", json_number(e->p95),
-                                              "fetches", rays->fetches[k]));
-    }
-    return rows;
-}
-
-static json_t *image_json(const struct glint_image_errors *image) {
-    json_t *rows = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
-        const struct glint_image_error *e = &image->of[k];
-        if (e->pixels + e->invalid == 0) continue;
-        json_array_append_new(rows, json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "surfaces",
-                                              glint_surface_name((enum glint_surface)k), "pixels",
-                                              (json_int_t)e->pixels, "invalid", (json_int_t)e->invalid, "truth_mean",
-                                              json_number(e->truth_mean), "mean_error", json_number(e->mean), "rmse",
-                                              json_number(e->rmse), "relative_mse", json_number(e->relative_mse),
-                                              "symmetric", json_number(e->symmetric), "truth_noise",
-                                              json_number(e->truth_noise), "clean_rmse", json_number(e->clean_rmse),
-                                              "clean_relative_mse", json_number(e->clean_relative_mse)));
-    }
-    return json_pack("{s:f, s:o}", "epsilon", GLINT_RELATIVE_EPSILON, "surfaces", rows);
-}
-
-/* {"image": …} */
-static json_t *errors_json(const struct glint_image_errors *image) {
-    return json_pack("{s:o}", "image", image_json(image));
-}
-
-static json_t *truth_json(const struct comparison *c) {
-    json_t *json = c->has_image ? errors_json(&c->to_truth) : json_object();
-    if (!c->has_rays) return json;
-    json_object_set_new(json, "max_roughness", json_real(GLINT_MIRROR_ROUGHNESS));
-    json_object_set_new(json, "jittered", json_boolean(c->jittered));
-    json_object_set_new(json, "rays", rays_json(&c->rays));
-    json_object_set_new(json, "distances", distances_json(&c->rays));
-    return json;
-}
-
-void against_json(const struct comparison *c, json_t *run) {
-    const bool parts = c->has_image && c->truth && c->reference;
-    if (c->truth) json_object_set_new(run, "against_truth", truth_json(c));
-    if (c->reference && c->has_image) json_object_set_new(run, "against_reference", errors_json(&c->to_reference));
-    if (parts) json_object_set_new(run, "missing_information", errors_json(&c->missing));
-}
-
-uint64_t against_invalid(const struct comparison *c) {
-    const uint64_t truth = c->to_truth.of[0].invalid, reference = c->to_reference.of[0].invalid;
-    return truth > reference ? truth : reference;
 }

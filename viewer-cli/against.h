@@ -6,15 +6,19 @@
 #include <jansson.h>
 
 #include "glint/reference.h"
+#include "metric_args.h"
 
 struct against {
     bool truth, reference;
     bool all;                /* the reference runs every pass too */
     glint_progress progress; /* of the reference's replay */
     void *user;
-    const char *run; /* the reference's run folder; NULL: it is replayed */
+    const char *run;                     /* the reference's run folder; NULL: it is replayed */
+    struct glint_metric_options metrics; /* those of METRIC_OPTIONS */
+    struct glint_device *device;
     struct glint_pipeline *pipeline;
-    struct glint_replay *replay; /* its own, so that the history of the run it is compared with stays */
+    struct glint_replay
+        *replay; /* its own, so that the history of the run it is compared with stays; NULL until it is needed */
 };
 
 /* Reads "truth", "reference", "reference=RUN", "both" or "both=RUN". */
@@ -30,16 +34,21 @@ struct comparison {
     bool truth, reference; /* what it is compared with */
     bool has_rays, has_image, jittered;
     struct glint_trace_table rays;
-    struct glint_image_errors to_truth, to_reference, missing;
+    struct glint_metric_table to_truth, to_reference;
+    struct glint_image_errors missing;
     char no_image[1024]; /* why, when there is none */
+    /* Where both have mirror-like reflections from, after a run with diagnostics: glint_classes_cross. */
+    struct glint_classes found_source, reference_source;
+    uint64_t *sources;
 };
-/* After a run. */
+/* After a run. Release it by comparison_finish, whether this succeeded or not. */
 bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
                      const struct glint_pipeline *pipeline, struct comparison *comparison, struct glint_error *err);
 void against_print(const struct comparison *comparison);
 /* Adds "against_truth", "against_reference", "missing_information" to what is said of a run. */
 void against_json(const struct comparison *comparison, json_t *run);
-/* Pixels that are NaN or infinite. */
-uint64_t against_invalid(const struct comparison *comparison);
+/* False when one of the images is NaN or infinite somewhere: how many pixels, and which is the first. */
+bool against_valid(const struct comparison *comparison, const char *capture, struct glint_error *err);
+void comparison_finish(struct comparison *comparison);
 
 #endif

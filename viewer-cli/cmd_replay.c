@@ -39,6 +39,7 @@ static const struct argp_option options[] = {
         "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
         "preset reference on the same capture, or what glint reference kept of it: reference=RUN. both (or both=RUN): also what "
         "the reference itself is off the truth", 0},
+    METRIC_OPTIONS,
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
@@ -51,6 +52,7 @@ static const struct example examples[] = {
     {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "with a shader of your own"},
     {"glint replay street.exr --against truth --set downsample.jitter=false", "how many rays are right, and why not"},
     {"glint replay street.exr --against reference", "how far the picture is from the converged answer"},
+    {"glint replay street.exr --against truth --metrics rmse,hdr_flip --ppd 40", "by these metrics, seen from nearer"},
     {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME; again: completes what was interrupted"},
     {0},
 };
@@ -100,6 +102,7 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         argp_error(state, "which capture?");
         return 0;
     }
+    if (metric_args_parse(key, arg, state, &a->against.metrics) == 0) return 0;
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
@@ -230,7 +233,7 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     options.history = history;
     struct progress progress;
     struct pipe pipe;
-    struct comparison comparison, *compared = job->against->truth || job->against->reference ? &comparison : NULL;
+    struct comparison comparison = {0}, *compared = job->against->truth || job->against->reference ? &comparison : NULL;
     const char *file = pipe_input(&pipe, path, err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
     if (!capture) {
@@ -250,9 +253,8 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
         json_array_append_new(job->runs,
                               run_json(path, folder, compared, job->replay, glint_device_get_info(job->device)));
     else if (ok) print_run(path, folder, compared, job);
-    if (ok && compared && against_invalid(compared))
-        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the reflection is NaN or infinite in %llu pixels", path,
-                        (unsigned long long)against_invalid(compared));
+    if (ok && compared) ok = against_valid(compared, path, err);
+    comparison_finish(&comparison);
     glint_replay_load(job->replay, NULL, NULL);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
@@ -357,5 +359,6 @@ const struct command cmd_replay = {
     .options = options,
     .parse = parse,
     .examples = examples,
+    .values = metric_args_values,
     .run = run,
 };

@@ -189,3 +189,29 @@ bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, cons
     for (size_t t = 0; t < TRACERS; t++) free(tracers[t].reasons);
     return ok;
 }
+
+enum { SOURCE_SCREEN = 1, SOURCE_CUBE_MAP, SOURCE_FALLBACK, SOURCE_SKY, SOURCE_NOTHING, SOURCES = SOURCE_NOTHING };
+static const char *const source_names[SOURCES] = {"screen", "cube map", "fallback", "sky", "nothing found"};
+
+static uint8_t source_of(const struct tracer *tracers, size_t group) {
+    if (group == 0) return 0;
+    const char *reason = reasons[group % REASONS].name;
+    if (!strcmp(reason, "hit"))
+        return strcmp(tracers[group / REASONS].name, "screen") ? SOURCE_CUBE_MAP : SOURCE_SCREEN;
+    if (!strcmp(reason, "sky")) return SOURCE_SKY;
+    return !strcmp(reason, "fallback") ? SOURCE_FALLBACK : SOURCE_NOTHING;
+}
+
+bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t height, struct glint_classes *source,
+                        struct glint_error *err) {
+    struct tracer tracers[TRACERS] = {0};
+    size_t count = 0, pixels = (size_t)width * height;
+    *source = (struct glint_classes){"source", source_names, SOURCES, NULL};
+    bool ok = find_tracers(replay, tracers, &count, err);
+    if (ok && count && !(source->labels = malloc(pixels)))
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "sources of reflections: out of memory");
+    for (size_t i = 0; ok && count && i < pixels; i++)
+        source->labels[i] = source_of(tracers, group_of(tracers, count, texel_of(tracers[0].end, i, width, height)));
+    for (size_t t = 0; t < TRACERS; t++) free(tracers[t].reasons);
+    return ok;
+}

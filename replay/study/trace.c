@@ -60,7 +60,7 @@ static float *read_truth(struct glint_capture *capture, const char *name, const 
 
 struct sample {
     double error, radiance_error;
-    uint32_t group;
+    uint32_t group, truth;
 };
 
 static int by_error(const void *a, const void *b) {
@@ -75,6 +75,7 @@ static void summarize(const struct sample *samples, size_t count, uint32_t first
     for (size_t i = 0; i < count; ++i) {
         if (samples[i].group < first || samples[i].group > last) continue;
         ++row->rays;
+        ++row->truth[samples[i].truth];
         right += samples[i].error <= 0.05;
         row->radiance_error += samples[i].radiance_error;
     }
@@ -108,15 +109,15 @@ static void fill(struct sample *samples, size_t count, struct glint_trace_table 
 struct inputs {
     struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, screen_fetches, cubemap_fetches,
         reflection;
-    float *distance, *radiance;
-    uint32_t width, height; /* of the truth */
+    float *mirror, *radiance; /* mirror: distance, visible */
+    uint32_t width, height;   /* of the truth */
 };
 
 static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct glint_capture *capture,
                         struct glint_error *err) {
-    static const char *const rgb[] = {"R", "G", "B"}, *const distance[] = {"distance.Z"};
-    in->distance = read_truth(capture, "truth.mirror", distance, 1, err);
-    if (!in->distance) return false;
+    static const char *const rgb[] = {"R", "G", "B"}, *const mirror[] = {"distance.Z", "visible"};
+    in->mirror = read_truth(capture, "truth.mirror", mirror, 2, err);
+    if (!in->mirror) return false;
     in->width = glint_capture_find(capture, "truth.mirror")->width;
     in->height = glint_capture_find(capture, "truth.mirror")->height;
     if (glint_capture_find(capture, "truth.reflection.ggx")) {
@@ -140,7 +141,7 @@ static void free_inputs(struct inputs *in) {
                                &in->finished,   &in->screen_end,     &in->cubemap_end,
                                &in->reflection, &in->screen_fetches, &in->cubemap_fetches};
     for (size_t i = 0; i < sizeof images / sizeof images[0]; ++i) free(images[i]->data.any);
-    free(in->distance);
+    free(in->mirror);
     free(in->radiance);
 }
 
@@ -158,6 +159,11 @@ static double radiance_error(const struct inputs *in, size_t texel, size_t pixel
         sum += fabs(found - truth) / (found + truth + GLINT_SYMMETRIC_EPSILON) / 3;
     }
     return sum;
+}
+
+static uint32_t truth_end(const struct inputs *in, size_t pixel) {
+    if (isinf(in->mirror[2 * pixel])) return GLINT_TRUTH_SKY;
+    return in->mirror[2 * pixel + 1] > 0.5F ? GLINT_TRUTH_ON_SCREEN : GLINT_TRUTH_ELSEWHERE;
 }
 
 /* Rays of all surfaces: the arrays have room for one a texel. */
@@ -185,7 +191,8 @@ static void compare(const struct inputs *in, size_t i, struct rays *rays) {
     bool on_screen = in->finished.data.u && in->finished.data.u[i] != 0;
     bool by_screen = on_screen || !in->cubemap_end.data.u; /* nothing traces on where the screen ends */
     uint32_t reason = reason_at(by_screen ? &in->screen_end : &in->cubemap_end, i);
-    float distance = in->distance[pixel], travelled = in->travelled.data.f[i], roughness = in->normal.data.f[4 * i + 3];
+    float distance = in->mirror[2 * pixel], travelled = in->travelled.data.f[i],
+          roughness = in->normal.data.f[4 * i + 3];
     if (reason == 0 || !(distance > 0)) return;
     rays->found[rays->count] = travelled;
     rays->truth[rays->count] = distance;
@@ -195,7 +202,7 @@ static void compare(const struct inputs *in, size_t i, struct rays *rays) {
     if (!(roughness <= (float)rays->max_roughness)) return;
     rays->samples[rays->sample_count++] =
         (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),
-                        (by_screen ? 0 : REASONS) + reason};
+                        (by_screen ? 0 : REASONS) + reason, truth_end(in, pixel)};
 }
 
 static bool allocate_rays(struct rays *rays, size_t texels, struct glint_error *err) {

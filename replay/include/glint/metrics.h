@@ -56,8 +56,8 @@ bool glint_metrics_parse(const char *names, uint32_t *metrics, struct glint_erro
 
 /* A label for each pixel and the labels' names; any partition of an image: by surface, by angle, by source. */
 struct glint_classes {
-    char title[32];           /* "surface" */
-    const char *const *names; /* names[0] is that of label 1; not copied */
+    const char *title;        /* "surface"; not copied, nor are the names */
+    const char *const *names; /* names[0] is that of label 1 */
     uint32_t count;           /* of names; at most GLINT_CLASSES */
     uint8_t *labels;          /* one a pixel, rows from the top: k for names[k - 1], 0 for none of them; malloc'd */
 };

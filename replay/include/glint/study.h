@@ -9,10 +9,30 @@
 extern "C" {
 #endif
 
-/* ---- What is compared ---- */
+/* ---- Classes of pixels ---- */
 
 /* One enum glint_surface for each pixel of the G-buffer, rows from the top; malloc'd, NULL on failure. */
 uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error *err);
+
+/* What a capture says of each pixel of its G-buffer. Labels are 0 where nothing reflects, so that those of the first set are the mask
+   of what is compared. */
+enum {
+    GLINT_CLASSES_SURFACE, /* by roughness: enum glint_surface */
+    GLINT_CLASSES_ANGLE, /* by N·V, the cosine between normal and direction to the eye: up to 0.1 (grazing), 0.25, 0.5, 1 */
+    GLINT_CLASSES_DISTANCE, /* by the surface's distance from the eye: up to 3 m, 10 m, 30 m, farther */
+    GLINT_CLASSES_HIT, /* by how far the exact mirror ray goes: up to 1 m, 4 m, 16 m, farther, sky; needs truth.mirror */
+    GLINT_CAPTURE_CLASSES
+};
+/* *count receives how many sets there are: GLINT_CAPTURE_CLASSES, or one less without truth.mirror. Each is released by
+   glint_classes_finish. */
+bool glint_study_classes(struct glint_capture *capture, struct glint_classes sets[GLINT_CAPTURE_CLASSES], size_t *count,
+                         struct glint_error *err);
+/* Where the last run, one with diagnostics, has each pixel's reflection from, by the end reason of its ray: screen, cube map, fallback,
+   sky, nothing found; 0 without a ray. `labels` is NULL when no tracer ran. */
+bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t height, struct glint_classes *source,
+                        struct glint_error *err);
+
+/* ---- What is compared ---- */
 
 /* The reflection of the last run at full resolution, as the passes left it for `compose`. False with an error when
    there is none. */
@@ -63,6 +83,7 @@ bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, cons
                       const struct glint_pixels *truth, const uint8_t *compared, struct glint_ends *ends,
                       struct glint_error *err);
 
+enum { GLINT_TRUTH_ON_SCREEN, GLINT_TRUTH_ELSEWHERE, GLINT_TRUTH_SKY, GLINT_TRUTH_ENDS };
 /* Rays that ended for one reason in one tracer. Their distance is compared with truth.mirror at the pixel they start
    from. A ray that reports +inf (only the direction counts) is right where the truth is the sky, and infinitely wrong
    elsewhere; so is the converse. */
@@ -71,9 +92,10 @@ struct glint_trace_row {
     const char *reason; /* a name of passes/shared/end_reasons.h, "all" */
     const char *text;   /* what it means */
     size_t rays;
-    double share;        /* of all rays */
-    double right;        /* share of this row's rays within 5 % of the truth */
-    double median_error; /* relative */
+    size_t truth[GLINT_TRUTH_ENDS]; /* of these rays, where the truth's mirror ray ends */
+    double share;                   /* of all rays */
+    double right;                   /* share of this row's rays within 5 % of the truth */
+    double median_error;            /* relative */
     double p95_error;
     double
         radiance_error; /* mean of |found - truth|/(found + truth + GLINT_SYMMETRIC_EPSILON) over R G B of reflection_half and

@@ -1,0 +1,37 @@
+/* The options of commands that compare images: which metrics, and what these must assume. */
+#ifndef GLINT_VIEWER_METRIC_ARGS_H
+#define GLINT_VIEWER_METRIC_ARGS_H
+
+#include <argp.h>
+#include <jansson.h>
+
+#include "glint/metrics.h"
+
+enum { KEY_METRICS = 640, KEY_PPD, KEY_PEAK };
+
+/* clang-format off */
+#define METRIC_OPTIONS \
+    {"metrics", KEY_METRICS, "NAME,...", 0, "What to compare images by, or all (default: all but hdr_flip): ", 0}, \
+    {"ppd",     KEY_PPD,     "N",        0, "Pixels per degree that the eye sees, for flip and hdr_flip (default 67: 3840 pixels, " \
+        "as wide as they are far)", 0}, \
+    {"peak",    KEY_PEAK,    "N",        0, "Peak of psnr (default: the highest value of what is compared with)", 0}
+/* clang-format on */
+
+/* Reads one of METRIC_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */
+error_t metric_args_parse(int key, char *arg, struct argp_state *state, struct glint_metric_options *options);
+/* The names of the metrics, for the help of KEY_METRICS; malloc'd, NULL for other keys. */
+char *metric_args_values(int key);
+/* What is not set yet is set to what commands use: metrics, resamples, seed. */
+void metric_args_default(struct glint_metric_options *options);
+
+/* The chosen metrics of all pixels with their intervals, and those of each class that has pixels. */
+void metrics_print(const struct glint_metric_table *table);
+/* {"epsilon", "peak", …, "surfaces": [row…], "classes": [row…]}: rows of the set `surface`, with all pixels first, and those of the
+   other sets. */
+json_t *metrics_json(const struct glint_metric_table *table);
+
+/* How often each label of `rows` meets each of `columns`, in per cent of what both label, where `mask` is not 0. */
+void cross_print(const struct glint_classes *rows, const struct glint_classes *columns, const uint64_t *table);
+json_t *cross_json(const struct glint_classes *rows, const struct glint_classes *columns, const uint64_t *table);
+
+#endif
