@@ -69,6 +69,44 @@ float next_t(View view, vec3 direction, float t) {
     return max(t + k * dot(from_center, from_center) / turn, t * (1.0 + 1e-6) + 1e-6);
 }
 
+// A vector with the axes of a face: across it to the right and down, and out of it.
+vec3 on_face(vec3 d, int face) {
+    float front = (face & 1) == 0 ? 1.0 : -1.0;
+    if (face < 2) return vec3(-front * d.z, -d.y, front * d.x);
+    if (face < 4) return vec3(d.x, front * d.z, front * d.y);
+    return vec3(front * d.x, -d.y, front * d.z);
+}
+
+// How far on the ray leaves a cone over a rectangle of the face, from its inside; +inf: never. A border b is the plane
+// across = b · out.
+float leaves(vec3 from, vec3 along, vec2 low, vec2 high) {
+    vec2 to_low = along.xy - low * along.z, to_high = along.xy - high * along.z;
+    vec2 by_low = mix(vec2(INFINITE), (low * from.z - from.xy) / to_low, lessThan(to_low, vec2(0.0)));
+    vec2 by_high = mix(vec2(INFINITE), (high * from.z - from.xy) / to_high, greaterThan(to_high, vec2(0.0)));
+    vec2 first = min(by_low, by_high);
+    return max(min(first.x, first.y), 0.0);
+}
+
+// Where the ray leaves the texels of a coarser level around it, when nothing that they hold is as near as the ray gets
+// meanwhile: it is farthest from the centre at one of the ends. Otherwise t itself; +inf: it ends in the sky. Texels at the
+// level's border with others are interpolated with those, so that the last one is not entered; within a face there are none.
+float beyond_cell(View view, vec3 direction, float t, int level, inout uint fetches) {
+    vec3 from_center = at(view, direction, t), face = face_from_direction(from_center);
+    float size = float(frame.counts.z), coarse = float(max(int(frame.counts.z) >> level, 1));
+    Patch cells = patch_of(cubemap_distance_mips, face, view.place, level);
+    fetches += 4u;
+    // Planes between texels may come nearer than their corners by less than a texel's part.
+    float least = min(min(cells.distance_m.x, cells.distance_m.y), min(cells.distance_m.z, cells.distance_m.w));
+    least *= 1.0 - 2.0 / size;
+    vec2 low = face.xy * coarse - 0.5 - cells.part, high = min(low + 2.0, coarse);
+    low = mix(low / coarse + 1.0 / size, vec2(0.0), lessThanEqual(low, vec2(0.0)));
+    high = mix(high / coarse - 1.0 / size, vec2(1.0), greaterThanEqual(high, vec2(coarse)));
+    int number = int(face.z);
+    float way = leaves(on_face(from_center, number), on_face(direction, number), 2.0 * low - 1.0, 2.0 * high - 1.0);
+    if (!(way < LARGEST)) return least < LARGEST ? t : INFINITE;
+    return max(length(from_center), length(at(view, direction, t + way))) < least ? t + way : t;
+}
+
 struct Result {
     float travelled_m;
     uint place, end, steps, fetches;
@@ -135,12 +173,35 @@ void end_at(inout Result result, float travelled_m, uint place, uint end) {
     result.end = end;
 }
 
+const int FINEST_SKIP = 2; // a cell of which is wider than the texels that it leaves out
+const int PATIENCE = 4;    // steps until it is tried again
+
 Result march(vec3 origin, vec3 direction, float start_m, uint best) {
     Result result = Result(start_m, NO_PLACE, END_steps_exhausted, 0u, 0u);
     Walk walk;
+    int level = 4, wait = 0;
     change_view(walk, origin, direction, start_m, start_m, result.fetches);
     while (result.steps < uint(steps) && walk.t < length_m && (walk.seen || unseen == unseen_pass)) {
         result.steps++;
+        if (skip && has_cubemap_distance_mips && walk.seen && --wait < 0) {
+            float beyond = beyond_cell(walk.view, direction, walk.t, level, result.fetches);
+            if (!(beyond < LARGEST)) {
+                end_at(result, INFINITE, place_of_sky(walk.view.place), END_sky);
+                return result;
+            }
+            if (beyond > walk.t) {
+                walk.t = beyond * (1.0 + 1e-6) + 1e-6;
+                walk.front = true;
+                take_finer_view(walk, origin, direction, result.fetches);
+                level = min(level + 1, findMSB(frame.counts.z));
+                continue;
+            }
+            if (level > FINEST_SKIP) {
+                level--;
+                continue;
+            }
+            wait = PATIENCE;
+        }
         float next = next_t(walk.view, direction, walk.t);
         if (!(next < LARGEST)) { // one texel is left: the sky, or a surface that the ray must be behind at twice its distance
             float last_m = seen_distance(direction, walk.view.place);

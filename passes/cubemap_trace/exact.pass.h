@@ -1,10 +1,13 @@
-/* What the other tracers are measured against: nothing is skipped, and every active cube map is asked. */
+/* What the other tracers are measured against: no texel that a ray may meet is stepped over, and every active cube
+   map is asked. */
 PASS("Half-texel march", "glint, after 000, Multiple cube-maps")
 #include "slot.h"
 #line 202
+OPTIONAL_READ(texture2DArray, cubemap_distance_mips, R32F, CUBEMAPS_MIPS, INFINITY)
 SPEC(int,   steps,       16384, 1,  1048576, "steps", "glint", "most steps of a ray")
 SPEC(int,   refinements, 24,    0,  64,    "halvings", "glint", "times the step in which a ray went behind is halved")
 SPEC(bool,  interpolate, true,  0,  1,     "1", "glint", "distance between four texels of one surface, exact on planes; off: the nearest texel")
+SPEC(bool,  skip,        false, 0,  1,     "1", "glint", "step over coarse texels that the ray stays in front of; cubemap_mips.join must be nearest; off: none")
 CHOICE2(unseen, pass, stop, pass, "chosen by measuring", "where no cube map sees the ray it ends, or goes on until one does")
 PUSH(float, texel_part,  0.5,   0.01, 4.0, "texels", "glint", "how far a step moves the direction from the centre")
 PUSH(float, length_m,    1e5,   0.001, 1e6, "m", "glint", "no farther than this")
