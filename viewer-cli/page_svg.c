@@ -48,7 +48,7 @@ static bool draw_all(struct drawing *drawing, const char *path, struct glint_err
 
 bool page_chart_write(const char *path, const json_t *chart, struct glint_error *err) {
     /* ASCII: what lies beyond 16 bits arrives as the pairs that JavaScript knows */
-    struct drawing drawing = {.chart = json_dumps(chart, JSON_ENSURE_ASCII | JSON_COMPACT)};
+    struct drawing drawing = {.chart = json_dumps(chart, JSON_ENSURE_ASCII | JSON_COMPACT | JSON_ENCODE_ANY)};
     bool ok = drawing.chart ? draw_all(&drawing, path, err) && text_file_write(path, drawing.svg, err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(drawing.chart);

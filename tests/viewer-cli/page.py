@@ -120,6 +120,16 @@ class Tests:
         assert "few" in self.shown() and self.color_of_picture() == [255, 0, 0]
         self.browser.point_at(5, 5)
         assert "many" in self.shown(), self.shown()
+        # kept after another one: what differs is marked, and the enlarged picture flips to the other's in place
+        differing = "[...document.querySelectorAll('aside .differs')].map(e => e.textContent).join()"
+        assert self.browser.evaluate(differing) == ""
+        self.browser.click(*marks[0])
+        assert self.browser.evaluate(differing) == "8"
+        self.browser.evaluate("document.querySelector('aside figure button').click()")
+        caption = TEXT_OF.format("dialog p")
+        assert "picture of few" in self.browser.evaluate(caption)
+        self.browser.key("ArrowRight")
+        assert "picture of many" in self.browser.evaluate(caption)
         self.quiet()
 
     def test_keys_reach_every_point(self):
@@ -247,6 +257,24 @@ class Tests:
             run = glint("report", folder, "-o", os.path.join(folder, "r.html"))
             assert run.returncode != 0 and file in run.stderr, (file, run.stderr)
             assert sorted(os.listdir(folder)) == ["link.png", "page.json"], os.listdir(folder)
+
+    def test_nonsense_leaves_the_rest(self):
+        charts = [5, {"series": [None, {"points": [None, "x", {}, {"x": 1, "y": "a"}, [1, 2]]}]},
+                  {"x": {"scale": "log", "min": 5, "max": 5}, "series": [{"kind": "nothing", "points": [[1, 2]]}], "marks": [None, {"x": "1"}]},
+                  {"y": {"scale": "category"}, "series": [{"kind": "bar", "points": [[1, 7]]}], "height": 1e9}]
+        blocks = [None, 3, *({"chart": c} for c in charts), {"table": {"rows": [None, [{}]]}}, {"table": 1}, {"pictures": [None, 1]},
+                  {"note": [1]}, {"text": "the last one"}]
+        document = page(*blocks)
+        document["sections"].append(None)
+        self.open(report(self.folder, document))
+        assert "the last one" in self.browser.evaluate(TEXT_OF.format("main"))
+        self.quiet()
+        for i in range(1, 5):
+            out = os.path.join(self.folder, "nonsense.svg")
+            run = glint("report", self.folder, "--chart", str(i), "-o", out)
+            assert run.returncode == 0, run.stderr
+            xml.dom.minidom.parse(out)
+        assert "there are 4" in glint("report", self.folder, "--chart=5", "-o", out).stderr
 
     def test_dark_and_light(self):
         ground = "getComputedStyle(document.body).backgroundColor"

@@ -22,6 +22,8 @@ var glintChart = (function () {
 
     function list(v) { return Array.isArray(v) ? v : []; }
 
+    function object(v) { return v && typeof v === 'object' ? v : {}; }
+
     function label(axis) { return text(axis.name) + (axis.unit ? ', ' + text(axis.unit) : ''); }
 
     /* As few digits as a number needs, at most four. */
@@ -35,7 +37,7 @@ var glintChart = (function () {
 
     /* [x, y] or {…} as one kind of object; null when an axis cannot show it. */
     function pointOf(p, x, y) {
-        var point = Array.isArray(p) ? {x: p[0], y: p[1]} : p || {};
+        var point = Array.isArray(p) ? {x: p[0], y: p[1]} : object(p);
         if (!isNumber(point.x) || !isNumber(point.y)) return null;
         if ((x.scale === 'log' && point.x <= 0) || (y.scale === 'log' && point.y <= 0)) return null;
         return point;
@@ -43,14 +45,14 @@ var glintChart = (function () {
 
     /* Every point that can be shown, series by series, and how many cannot. */
     function read(chart) {
-        var x = chart.x || {}, y = chart.y || {}, left = 0;
-        var series = list(chart.series).map(function (s) {
+        var x = object(chart.x), y = object(chart.y), left = 0;
+        var series = list(chart.series).map(object).map(function (s) {
             var points = list(s.points).map(function (p) { return pointOf(p, x, y); });
             var shown = points.filter(function (p) { return p; });
             left += points.length - shown.length;
-            return {name: text(s.name), kind: s.kind || 'line', muted: !!s.muted, stack: s.stack, points: shown};
+            return {name: text(s.name), kind: ['scatter', 'bar', 'front'].indexOf(s.kind) < 0 ? 'line' : s.kind, muted: !!s.muted, stack: s.stack, points: shown};
         });
-        return {x: x, y: y, series: series, left: left, marks: list(chart.marks)};
+        return {x: x, y: y, series: series, left: left, marks: list(chart.marks).map(object)};
     }
 
     /* Lowest and highest of an axis, with intervals and marks. */
@@ -247,14 +249,14 @@ var glintChart = (function () {
 
     /* The picture's size: lying bars grow with their number. */
     function size(chart) {
-        var y = chart.y || {}, rows = y.scale === 'category' ? list(y.categories).length : 0;
-        return [isNumber(chart.width) ? chart.width : 760,
-                isNumber(chart.height) ? chart.height : rows ? 110 + 30 * rows : 440];
+        var y = object(chart.y), rows = y.scale === 'category' ? list(y.categories).length : 0;
+        function side(v, usual) { return Math.min(Math.max(isNumber(v) ? v : usual, 200), 4000); }
+        return [side(chart.width, 760), side(chart.height, rows ? 110 + 30 * rows : 440)];
     }
 
     /* As SVG, in ASCII, whatever the texts hold. */
-    function svg(chart) {
-        var of = size(chart), drawn = echarts.init(null, null, {renderer: 'svg', ssr: true, width: of[0], height: of[1]});
+    function svg(description) {
+        var chart = object(description), of = size(chart), drawn = echarts.init(null, null, {renderer: 'svg', ssr: true, width: of[0], height: of[1]});
         drawn.setOption(option(chart, LIGHT, true));
         var result = drawn.renderToSVGString();
         drawn.dispose();

@@ -139,10 +139,11 @@
         if (!view.dialog.open) view.dialog.showModal();
     }
 
-    function figures(pictures) {
-        const known = list(pictures).filter(sourceOf);
+    /* `more`: what flipping through the enlarged ones comes to after them. */
+    function figures(pictures, more) {
+        const known = list(pictures).filter(sourceOf), all = [...known, ...list(more).filter(sourceOf)];
         return known.map((p, i) => element('figure', null,
-            element('button', {type: 'button', click: () => enlarge(known, i), 'aria-label': `enlarge ${glintChart.text(p.caption)}`},
+            element('button', {type: 'button', click: () => enlarge(all, i), 'aria-label': `enlarge ${glintChart.text(p.caption)}`},
                 element('img', {src: sourceOf(p), alt: glintChart.text(p.caption), loading: 'lazy'})),
             element('figcaption', null, p.caption)));
     }
@@ -171,10 +172,10 @@
         const told = points.some(({p}) => list(p.values).length || list(p.pictures).length);
         const plot = element('div', {class: 'plot', tabindex: 0, role: 'group',
             'aria-label': `chart: ${glintChart.text(chart.title)}; arrow keys go through its points, Enter keeps one`});
-        plot.style.height = `${glintChart.size(chart)[1]}px`;
-        const aside = element('aside', {class: 'point', 'aria-live': 'polite'});
+        const aside = element('aside', {class: 'point', 'aria-live': 'polite', tabindex: 0});
+        plot.style.height = aside.style.height = `${glintChart.size(chart)[1]}px`;
         const order = points.map((_, k) => k).sort((a, b) => points[a].p.x - points[b].p.x || points[a].p.y - points[b].p.y);
-        const state = {drawn: null, kept: -1, at: -1};
+        const state = {drawn: null, kept: -1, before: -1, at: -1};
 
         function coordinate(key, p) {
             const axis = read[key];
@@ -187,24 +188,26 @@
             state.at = k;
             if (!told) return;
             if (k < 0) {
-                aside.replaceChildren(element('p', {class: 'faint'}, 'Point at a mark to see its parameters and its picture; a click keeps it, Escape lets go, arrow keys go to the next.'));
+                aside.replaceChildren(element('p', {class: 'faint'}, 'Point at a mark to see its parameters and its picture; a click keeps it, Escape lets go, arrow keys go to the next. What differs from the one kept before is marked, and its pictures follow when this one\'s are enlarged.'));
                 return;
             }
-            const {p, s} = points[k], kept = state.kept >= 0 && state.kept !== k ? points[state.kept].p : null;
+            /* the point that was kept before is what this one is compared with */
+            const {p, s} = points[k], before = points[state.kept === k ? state.before : state.kept]?.p;
             aside.replaceChildren(element('h4', null, p.name || s.name),
-                terms([coordinate('x', p), coordinate('y', p)], null), element('hr'),
-                terms(list(p.values), kept && list(kept.values)), ...figures(p.pictures));
+                terms([coordinate('x', p), coordinate('y', p)], null), ...figures(p.pictures, list(before?.pictures)),
+                terms(list(p.values), before && list(before.values)));
         }
 
         function ring() {
             const shown = state.at >= 0 ? points[state.at].p : null;
-            state.drawn.setOption({series: [{id: 'chosen', data: shown ? [[shown.x, shown.y]] : []}]});
+            state.drawn?.setOption({series: [{id: 'chosen', data: shown ? [[shown.x, shown.y]] : []}]});
         }
 
         function go(k) { show(k); ring(); }
 
         function keep(k) {
             if (table && state.kept >= 0) table.lineOf(state.kept).classList.remove('chosen');
+            if (k !== state.kept) state.before = k < 0 ? -1 : state.kept;
             state.kept = k;
             if (table && k >= 0) table.lineOf(k).classList.add('chosen');
             go(k);
@@ -249,7 +252,16 @@
 
         const table = points.length ? pointTable(read, points, coordinate, keep) : null;
         show(-1);
-        charts.push({draw, resize: () => state.drawn.resize()});
+        charts.push({
+            draw() {
+                try {
+                    draw();
+                } catch (error) {
+                    plot.replaceChildren(element('p', {class: 'note'}, `this chart cannot be drawn: ${error.message}`));
+                }
+            },
+            resize() { state.drawn?.resize(); },
+        });
         return element('section', null,
             chart.title ? element('h3', null, chart.title) : null,
             element('div', {class: told ? 'chart told' : 'chart'}, plot, told ? aside : null),
@@ -280,6 +292,16 @@
         chart: b => chartElement(b.chart),
     };
 
+    /* A block that cannot be shown says so, and the others stay. */
+    function blockElement(block) {
+        const kind = Object.keys(blocks).find(k => block && block[k] !== undefined);
+        try {
+            return kind ? blocks[kind](block) : null;
+        } catch (error) {
+            return element('p', {class: 'note'}, `a ${kind} cannot be shown: ${error.message}`);
+        }
+    }
+
     function setLook(look) {
         document.documentElement.dataset.look = look;
         toggle.textContent = look === 'dark' ? 'Light' : 'Dark';
@@ -287,12 +309,13 @@
     }
 
     const toggle = element('button', {type: 'button', id: 'look', click: () => setLook(document.documentElement.dataset.look === 'dark' ? 'light' : 'dark')});
-    const sections = list(page.sections).map((s, i) => element('section', {id: `s${i}`}, s.title ? element('h2', null, s.title) : null,
-        ...list(s.blocks).map(b => { const kind = Object.keys(blocks).find(k => k in b); return kind ? blocks[kind](b) : null; })));
+    const parts = list(page.sections).filter(s => s && typeof s === 'object');
+    const sections = parts.map((s, i) => element('section', {id: `s${i}`}, s.title ? element('h2', null, s.title) : null,
+        ...list(s.blocks).map(blockElement)));
     document.title = glintChart.text(page.title);
     document.body.replaceChildren(
         element('header', null, toggle, element('h1', null, page.title), terms(list(page.facts), null),
-            sections.length > 2 ? element('nav', {'aria-label': 'sections'}, ...list(page.sections).map((s, i) => element('a', {href: `#s${i}`}, s.title))) : null),
+            sections.length > 2 ? element('nav', {'aria-label': 'sections'}, ...parts.map((s, i) => element('a', {href: `#s${i}`}, s.title))) : null),
         element('main', null, ...sections), view.dialog);
     const dark = matchMedia('(prefers-color-scheme: dark)');
     setLook(dark.matches ? 'dark' : 'light');
