@@ -7,6 +7,7 @@
 #include "pipe.h"
 #include "pipeline_args.h"
 #include "progress.h"
+#include "report.h"
 #include "shot.h"
 #include "table.h"
 
@@ -246,8 +247,10 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     job->against->all = options.all;
     bool ok = glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
-              (!folder || glint_replay_write(job->replay, folder, progress_report, &progress, err)) &&
-              (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err));
+              (!folder || (report_keep_errors(folder, NULL, err) &&
+                           glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
+              (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
+              (!compared || !folder || report_keep_errors(folder, compared, err));
     progress_end(&progress);
     if (ok && job->runs)
         json_array_append_new(job->runs,

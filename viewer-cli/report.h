@@ -8,6 +8,10 @@
    size that the first run has. */
 json_t *report_runs(const char *const *folders, size_t count, const char *const *images, struct glint_error *err);
 
+struct comparison;
+/* Keeps in a run's folder what the run was compared with, for its reports; NULL: nothing, and what was there is removed. */
+bool report_keep_errors(const char *folder, const struct comparison *compared, struct glint_error *err);
+
 /* ---- Its parts ---- */
 
 struct report {
@@ -29,6 +33,8 @@ bool report_ran(const json_t *pass);
 void report_columns(json_t *table, const struct report *report, const char *unit);
 
 bool report_pictures(const struct report *report, const char *const *images, struct glint_error *err);
+/* When runs were compared with something. */
+void report_errors(const struct report *report);
 void report_times(const struct report *report);
 
 #endif

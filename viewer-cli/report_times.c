@@ -99,14 +99,22 @@ static void add_work(const struct report *r, json_t *blocks, bool cached_work) {
     json_decref(series);
 }
 
+/* What a device's times are worth, each once. */
+static void add_warnings(const struct report *r, json_t *blocks) {
+    for (size_t i = 0; i < r->count; i++) {
+        const json_t *device = json_object_get(r->runs[i], "device");
+        bool told = strcmp(report_text(device, "type"), "cpu") != 0;
+        for (size_t k = 0; k < i && !told; k++) told = json_equal(device, json_object_get(r->runs[k], "device"));
+        char text[600];
+        snprintf(text, sizeof text, "%.200s: %.200s, which say nothing about a GPU's", report_text(device, "name"),
+                 report_text(device, "times_are"));
+        if (!told) page_text(blocks, "note", text);
+    }
+}
+
 void report_times(const struct report *r) {
     json_t *blocks = page_section(r->document, "Times");
-    for (size_t i = 0; i < r->count; i++) {
-        char text[512];
-        const json_t *device = json_object_get(r->runs[i], "device");
-        snprintf(text, sizeof text, "%.96s: %.300s", r->labels[i], report_text(device, "times_are"));
-        if (!strcmp(report_text(device, "type"), "cpu")) page_text(blocks, "note", text);
-    }
+    add_warnings(r, blocks);
     add_work(r, blocks, false);
     add_work(r, blocks, true);
 }

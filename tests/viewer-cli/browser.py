@@ -37,6 +37,12 @@ class Browser:
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
     def receive(self):
         while b"\0" not in self.buffer:
             piece = os.read(self.come, 1 << 20)
@@ -80,9 +86,21 @@ class Browser:
             self.notice(answer)
 
     def open(self, path):
+        for said in (self.messages, self.requests, self.dialogs):
+            said.clear()
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
         while self.notice(self.receive()) != "Page.loadEventFired":
             pass
+
+    def show(self, path):
+        """Opens a page of glint report."""
+        self.open(path)
+        assert self.evaluate("document.documentElement.dataset.ready") == "yes", self.messages
+
+    def quiet(self):
+        """Nothing that the page did reached past itself, and nothing complained."""
+        outside = [r[:80] for r in self.requests[1:] if not r.startswith("data:image/")]
+        assert not self.messages and not outside and not self.dialogs, (self.messages, outside, self.dialogs)
 
     def evaluate(self, expression):
         result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)

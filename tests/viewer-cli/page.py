@@ -5,34 +5,23 @@ import struct
 import subprocess
 import sys
 import tempfile
-import traceback
 import xml.dom.minidom
 import zlib
 
+import tap
 from browser import Browser
 
 GLINT, CHROMIUM = sys.argv[1:]
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>&quot;\"'`${alert(3)}"
 
 
-def png(path, width, height, color):
-    """A picture of one colour, without anybody's library."""
+def png(path, width, height, rows, level=9):
+    """A picture, without anybody's library."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    rows = (b"\0" + bytes(color) * width) * height
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-                   chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
-
-
-def noise(path, width, height):
-    """What no PNG makes small."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    rows = b"".join(b"\0" + os.urandom(3 * width) for _ in range(height))
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-                   chunk(b"IDAT", zlib.compress(rows, 0)) + chunk(b"IEND", b""))
+                   chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows), level)) + chunk(b"IEND", b""))
 
 
 def glint(*arguments):
@@ -75,25 +64,12 @@ TEXT_OF = "document.querySelector('{}').textContent"
 class Tests:
     def __init__(self, folder, browser):
         self.folder, self.browser = folder, browser
-        png(os.path.join(folder, "red.png"), 40, 30, (255, 0, 0))
-        png(os.path.join(folder, "blue.png"), 40, 30, (0, 0, 255))
-
-    def open(self, path):
-        """Nothing that a page does may reach past itself, or complain."""
-        self.browser.messages.clear()
-        self.browser.requests.clear()
-        self.browser.dialogs.clear()
-        self.browser.open(path)
-        assert self.browser.evaluate("document.documentElement.dataset.ready") == "yes", self.browser.messages
-
-    def quiet(self):
-        outside = [r[:80] for r in self.browser.requests[1:] if not r.startswith("data:image/")]
-        assert not self.browser.messages and not outside and not self.browser.dialogs, \
-            (self.browser.messages, outside, self.browser.dialogs)
+        png(os.path.join(folder, "red.png"), 40, 30, [b"\xff\0\0" * 40] * 30)
+        png(os.path.join(folder, "blue.png"), 40, 30, [b"\0\0\xff" * 40] * 30)
 
     def scatter(self):
         points = [point(1, 0.1, "few", 8, "red.png"), point(4, 0.02, "many", 64, "blue.png")]
-        self.open(report(self.folder, page(chart(points))))
+        self.browser.show(report(self.folder, page(chart(points))))
         marks = self.browser.evaluate(MARKS)
         assert len(marks) == 2, marks
         return marks
@@ -130,7 +106,7 @@ class Tests:
         assert "picture of few" in self.browser.evaluate(caption)
         self.browser.key("ArrowRight")
         assert "picture of many" in self.browser.evaluate(caption)
-        self.quiet()
+        self.browser.quiet()
 
     def test_keys_reach_every_point(self):
         self.scatter()
@@ -144,7 +120,7 @@ class Tests:
         assert "few" in self.shown()
         self.browser.key("Escape")
         assert "few" not in self.shown() and "many" not in self.shown()
-        self.quiet()
+        self.browser.quiet()
 
     def test_names_of_strangers_stay_names(self):
         where = [HOSTILE + place for place in ("t", "f", "g", "c", "u", "x", "n", "v", "p", "m", "k", "b")]
@@ -157,7 +133,7 @@ class Tests:
         out = report(self.folder, page(*blocks, title=t, facts=[[f, g]]))
         with open(out, encoding="utf-8") as file:
             assert "alert(1)</script>" not in file.read()
-        self.open(out)
+        self.browser.show(out)
         self.browser.evaluate("document.querySelector('.plot').focus()")
         self.browser.key("ArrowRight")
         assert v in self.shown(), self.shown()
@@ -167,7 +143,7 @@ class Tests:
             assert name in text, name
         assert self.browser.evaluate("document.title") == t
         assert self.browser.evaluate("document.querySelectorAll('main script, header script, main [onerror], dialog [onerror]').length") == 0
-        self.quiet()
+        self.browser.quiet()
 
     def test_scripts_that_are_not_the_page_s_own_do_not_run(self):
         out = report(self.folder, page({"text": "x"}))
@@ -175,7 +151,6 @@ class Tests:
             text = file.read()
         with open(out, "w", encoding="utf-8") as file:
             file.write(text.replace("</body>", "<script>window.mine = 1</script><img src='http://127.0.0.1:1/x.png'></body>"))
-        self.browser.messages.clear()
         self.browser.open(out)
         assert self.browser.evaluate("window.mine === undefined")
         assert any("Content Security Policy" in m for m in self.browser.messages), self.browser.messages
@@ -183,7 +158,7 @@ class Tests:
     def test_tables_sort_by_number(self):
         rows = [["a", 10], ["b", {"value": 9.5, "low": 9, "high": 10}], ["c", None], ["d", 100]]
         table = {"table": {"columns": [{"name": "name"}, {"name": "time", "unit": "ms", "bar": True}], "rows": rows}}
-        self.open(report(self.folder, page(table)))
+        self.browser.show(report(self.folder, page(table)))
         order = "[...document.querySelectorAll('tbody tr')].map(r => r.cells[0].textContent).join('')"
         assert self.browser.evaluate(order) == "abcd"
         self.browser.evaluate("document.querySelectorAll('th button')[1].click()")
@@ -193,7 +168,7 @@ class Tests:
         # numbers end at one place
         ends = self.browser.evaluate("[...new Set([...document.querySelectorAll('td.number')].map(e => e.getBoundingClientRect().right))].length")
         assert ends == 1, ends
-        self.quiet()
+        self.browser.quiet()
 
     def test_a_chart_as_svg_is_xml(self):
         points = [point(1, 0.1, HOSTILE, 8, "red.png"), point(4, 0.02, "many", 64, "blue.png"), [0, 0.5], [2, None]]
@@ -226,9 +201,9 @@ class Tests:
         assert abs(mark - sum(heights) / 2) <= 1, (mark, heights)  # 1: lines are moved onto whole pixels
 
     def test_points_that_a_logarithm_lacks_are_counted(self):
-        self.open(report(self.folder, page(chart([[1, 0.1], [0, 0.2], [-1, 0.2], [3, 0.05]]))))
+        self.browser.show(report(self.folder, page(chart([[1, 0.1], [0, 0.2], [-1, 0.2], [3, 0.05]]))))
         assert "2 points without a place on these axes" in self.browser.evaluate(TEXT_OF.format("main"))
-        self.quiet()
+        self.browser.quiet()
 
     def test_a_page_of_200_pictures_can_be_sent(self):
         folder = os.path.join(self.folder, "many")
@@ -236,16 +211,16 @@ class Tests:
         points = []
         for i in range(200):
             # noise is the worst case of any encoder
-            noise(os.path.join(folder, f"{i}.png"), 320, 180)
+            png(os.path.join(folder, f"{i}.png"), 320, 180, [os.urandom(960) for _ in range(180)], 0)
             points.append(point(1 + i, 1 / (1 + i), f"p{i}", i, f"{i}.png"))
         out = report(folder, page(chart(points)))
         assert os.path.getsize(out) < 20e6, os.path.getsize(out)
-        self.open(out)
+        self.browser.show(out)
         self.browser.evaluate("document.querySelector('.plot').focus()")
         self.browser.key("ArrowLeft")
         assert "p199" in self.shown()
         assert self.browser.evaluate("document.querySelector('aside img').decode().then(() => document.querySelector('aside img').naturalWidth)") >= 80
-        self.quiet()
+        self.browser.quiet()
 
     def test_pictures_come_from_the_folder_alone(self):
         folder = os.path.join(self.folder, "inside")
@@ -266,9 +241,9 @@ class Tests:
                   {"note": [1]}, {"text": "the last one"}]
         document = page(*blocks)
         document["sections"].append(None)
-        self.open(report(self.folder, document))
+        self.browser.show(report(self.folder, document))
         assert "the last one" in self.browser.evaluate(TEXT_OF.format("main"))
-        self.quiet()
+        self.browser.quiet()
         for i in range(1, 5):
             out = os.path.join(self.folder, "nonsense.svg")
             run = glint("report", self.folder, "--chart", str(i), "-o", out)
@@ -285,28 +260,15 @@ class Tests:
         light = self.browser.evaluate(ground)
         self.browser.look(dark=False)
         assert dark == "rgb(22, 24, 29)" and light == "rgb(255, 255, 255)", (dark, light)
-        self.quiet()
+        self.browser.quiet()
 
 
 def main():
     if not CHROMIUM:
         print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
         return 1
-    names = [n for n in dir(Tests) if n.startswith("test_")]
-    print(f"1..{len(names)}")
-    failed = 0
-    with tempfile.TemporaryDirectory(prefix="glint-page-") as folder:
-        browser = Browser(CHROMIUM)
-        tests = Tests(folder, browser)
-        for i, name in enumerate(names, 1):
-            try:
-                getattr(tests, name)()
-                print(f"ok {i} - {name[5:].replace('_', ' ')}", flush=True)
-            except Exception:
-                failed += 1
-                print(f"not ok {i} - {name[5:].replace('_', ' ')}\n# " + traceback.format_exc().replace("\n", "\n# ")[:2000], flush=True)
-        browser.close()
-    return failed > 0
+    with tempfile.TemporaryDirectory(prefix="glint-page-") as folder, Browser(CHROMIUM) as browser:
+        return tap.run(Tests(folder, browser))
 
 
 sys.exit(main())

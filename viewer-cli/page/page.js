@@ -75,9 +75,9 @@
     function cellElements(cell, column) {
         const td = element('td', {class: column.number ? 'number' : null}, cellText(cell, column.decimals));
         const v = valueOf(cell);
-        if (column.bar && column.number && v > 0 && column.largest > 0) {
+        if (column.bar && column.number && v > 0) {
             td.classList.add('bar');
-            td.style.setProperty('--share', `${(100 * v / column.largest).toFixed(1)}%`);
+            td.style.setProperty('--share', `${(100 * v / column.full).toFixed(1)}%`);
         }
         return column.intervals ? [td, element('td', {class: 'interval'}, intervalText(cell, column.decimals))] : [td];
     }
@@ -86,6 +86,8 @@
     function tableElement(table, choose) {
         const rows = list(table.rows).map(list);
         const columns = list(table.columns).map((c, i) => columnOf(c, rows.map(r => r[i])));
+        /* bars of one unit have one scale */
+        for (const c of columns) c.full = Math.max(...columns.filter(o => o.bar && o.number && o.unit === c.unit).map(o => o.largest));
         const lines = rows.map((row, i) => {
             const tr = element('tr', choose ? {class: 'choice', tabindex: 0} : null, ...columns.flatMap((c, k) => cellElements(row[k], c)));
             if (choose) {

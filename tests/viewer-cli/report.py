@@ -1,0 +1,133 @@
+"""glint report over runs, read back in headless Chromium: report.py GLINT CHROMIUM. Speaks TAP."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import tap
+from browser import Browser
+
+GLINT, CHROMIUM = sys.argv[1:]
+NAME = "<img src=x onerror=alert(1)>.exr"
+# A section's table as lists of texts, without its intervals and its heads' units.
+TABLE = """(title => [...[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent === title)
+    .querySelectorAll('table')].map(t => [...t.rows].map(r => [...r.cells].filter(c => !c.classList.contains('interval'))
+    .map(c => (c.querySelector('button') || c).textContent))))"""
+
+
+def glint(*arguments, status=0):
+    run = subprocess.run([GLINT, *arguments], capture_output=True, text=True)
+    assert run.returncode == status, (arguments, run.returncode, run.stderr)
+    return run.stderr
+
+
+class Tests:
+    def __init__(self, folder, browser):
+        self.folder, self.browser = folder, browser
+        self.capture = self.path(NAME)
+        glint("sample", "room", "-o", self.capture, "--size=96x54", "--cube-size=16", "--truth=1")
+        glint("replay", self.capture, "-o", self.path("a"), "--against=truth", "--set=downsample.jitter=false")
+        glint("replay", self.capture, "-o", self.path("b"), "--set=downsample.jitter=false",
+              "--set=cubemap_trace.steps_hq=8", "--use=blur=none", "--skip=temporal", "--repeat=3")
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_json(self, name):
+        with open(os.path.join(self.path(name), "run.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def show(self, *runs):
+        out = self.path("report.html")
+        glint("report", *(self.path(r) for r in runs), "-o", out)
+        self.browser.show(out)
+
+    def table(self, title, which=0):
+        """Its lines below the heads."""
+        return self.browser.evaluate(f"{TABLE}({json.dumps(title)})[{which}].slice(1)")
+
+    def test_a_run_is_told_whole(self):
+        run = self.run_json("b")
+        self.show("b")
+        facts = self.browser.evaluate("Object.fromEntries([...document.querySelectorAll('header dt')].map(e => [e.textContent, e.nextSibling.textContent]))")
+        assert facts["device"] == run["device"]["name"] and facts["capture"] == run["capture"]["path"], facts
+        assert NAME in facts["capture"] and facts["resolution"] == "96 × 54", facts
+        plan = dict(self.table("Plan"))
+        assert list(plan) == [p["slot"] for p in run["passes"]]
+        for p in run["passes"]:
+            assert p["reason"] in plan[p["slot"]] and (p["ran"] or "left out" in plan[p["slot"]]), plan[p["slot"]]
+        assert any(not p["ran"] for p in run["passes"])
+        parameters = {(slot, name): value for slot, name, value in self.table("Parameters")}
+        assert len(parameters) == sum(len(p["parameters"]) for p in run["passes"])
+        assert parameters["downsample", "jitter"] == "no" and parameters["cubemap_trace", "steps_hq"] == "8"
+        self.browser.quiet()
+
+    def test_times_are_those_of_the_run(self):
+        run = self.run_json("b")
+        self.show("b")
+        for which, cached in ((1, False), (3, True)):  # each behind the table of its chart
+            told = dict(self.table("Times", which))
+            passes = [p for p in run["passes"] if p["ran"] and p.get("cached_work", False) == cached]
+            assert list(told) == [p["slot"] for p in passes], (list(told), cached)
+            for p in passes:
+                found = float(told[p["slot"]].replace("\u202f", ""))
+                assert abs(found - p["time_ns"]["median"] / 1e6) <= 0.06 * found + 1e-4, (p, found)  # two digits at least
+
+    def test_pictures_are_whole(self):
+        self.show("a")
+        sizes = self.browser.evaluate("Promise.all([...document.querySelectorAll('main img')].map(i => i.decode().then(() => i.naturalWidth)))")
+        names = self.browser.evaluate("[...document.querySelectorAll('main figcaption')].map(c => c.textContent.split(':')[0])")
+        assert len(sizes) == len(names) and min(sizes) >= 96, sizes
+        screen = {i["name"] for p in self.run_json("a")["passes"] for i in p.get("images", ()) if (i["width"], i["height"]) in ((96, 54), (48, 27))
+                  and ".level" not in i["name"]}
+        assert screen and set(names) == screen, screen ^ set(names)
+        glint("report", self.path("a"), "-o", self.path("two.html"), "--images=travelled,composed")
+        self.browser.show(self.path("two.html"))
+        assert self.browser.evaluate("document.querySelectorAll('main img').length") == 3
+        self.browser.quiet()
+
+    def test_runs_stand_beside_each_other(self):
+        self.show("a", "b")
+        assert self.table("What differs") == [["cubemap_trace", "steps_hq", "24", "8"], ["blur", "", "plus", "–"],
+                                               ["temporal", "", "rough", "–"]], self.table("What differs")
+        captions = self.browser.evaluate("[...document.querySelectorAll('main figcaption')].map(c => c.textContent)")
+        assert sum(c.startswith("a, composed") for c in captions) == sum(c.startswith("b, composed") for c in captions) == 2
+        self.browser.quiet()
+
+    def test_errors_are_those_of_the_comparison(self):
+        with open(os.path.join(self.path("a"), "errors.json"), encoding="utf-8") as file:
+            (everything,) = [s for s in json.load(file)["against_truth"]["image"]["surfaces"] if s["surfaces"] == "all"]
+        self.show("a")
+        (told,) = [row for table in (0, 1) for row in self.table("Error", table) if row[0] == "all" and len(row) > 5]
+        assert int(told[1].replace("\u202f", "")) == everything["pixels"]
+        assert abs(float(told[4]) - everything["rmse"]) < 1e-3, (told, everything)
+        assert not os.path.exists(os.path.join(self.path("b"), "errors.json"))
+
+    def test_errors_of_an_older_run_do_not_stay(self):
+        arguments = ("replay", self.capture, "-o", self.path("c"), "--set=downsample.jitter=false")
+        glint(*arguments, "--against=truth")
+        assert os.path.exists(os.path.join(self.path("c"), "errors.json"))
+        glint(*arguments)
+        assert not os.path.exists(os.path.join(self.path("c"), "errors.json"))
+
+    def test_what_cannot_be_reported_is_named(self):
+        assert "nowhere" in glint("report", self.path("nowhere"), "-o", self.path("x.html"), status=1)
+        assert "x.txt" in glint("report", self.path("a"), "-o", self.path("x.txt"), status=2)
+        os.makedirs(self.path("study"), exist_ok=True)
+        with open(self.path("study/page.json"), "w", encoding="utf-8") as file:
+            file.write('{"format": 2}')
+        assert "format" in glint("report", self.path("study"), "-o", self.path("x.html"), status=1)
+        assert "alone" in glint("report", self.path("a"), self.path("study"), "-o", self.path("x.html"), status=2)
+        assert not os.path.exists(self.path("x.html"))
+
+
+def main():
+    if not CHROMIUM:
+        print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
+        return 1
+    with tempfile.TemporaryDirectory(prefix="glint-report-") as folder, Browser(CHROMIUM) as browser:
+        return tap.run(Tests(folder, browser))
+
+
+sys.exit(main())
