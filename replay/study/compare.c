@@ -51,12 +51,19 @@ struct row {
 struct look {
     struct comparison *c;
     struct row *rows;
+    bool peak; /* it is asked for */
 };
 
 static bool is_finite(const float *values, const uint32_t *at, uint32_t count) {
     for (uint32_t k = 0; k < count; k++)
         if (!isfinite(values[at[k]])) return false;
     return true;
+}
+
+static float highest(const float *values, const uint32_t *at, uint32_t count) {
+    float value = 0;
+    for (uint32_t k = 0; k < count; k++) value = fabsf(values[at[k]]) > value ? fabsf(values[at[k]]) : value;
+    return value;
 }
 
 static void look_at_rows(void *user, size_t first, size_t last) {
@@ -76,8 +83,7 @@ static void look_at_rows(void *user, size_t first, size_t last) {
             row.invalid_found += !found_valid;
             row.invalid_truth += !truth_valid;
             if (c->use[i] == INVALID && row.first == width) row.first = (uint32_t)(i - y * width);
-            for (uint32_t k = 0; k < c->channels && truth_valid; k++)
-                row.peak = fmaxf(row.peak, fabsf(truth[c->truth_at[k]]));
+            if (truth_valid && look->peak) row.peak = fmaxf(row.peak, highest(truth, c->truth_at, c->channels));
         }
         look->rows[y] = row;
     }
@@ -86,7 +92,8 @@ static void look_at_rows(void *user, size_t first, size_t last) {
 static bool choose_pixels(struct comparison *c, struct glint_error *err) {
     struct glint_metric_table *t = c->table;
     uint32_t width = c->found->width, height = c->found->height;
-    struct look look = {c, malloc(((size_t)height + 1) * sizeof *look.rows)};
+    const bool peak = c->options->peak <= 0 && asks_for(c, GLINT_METRIC_PSNR);
+    struct look look = {c, malloc(((size_t)height + 1) * sizeof *look.rows), peak};
     c->use = malloc((size_t)width * height + 1);
     bool ok = (look.rows && c->use) || glint_fail(err, GLINT_ERROR_MEMORY, "images to compare: out of memory");
     if (ok) parallel_rows(height, look_at_rows, &look);
@@ -98,7 +105,7 @@ static bool choose_pixels(struct comparison *c, struct glint_error *err) {
         }
         t->invalid_found += row->invalid_found;
         t->invalid_truth += row->invalid_truth;
-        if (c->options->peak <= 0) t->peak = fmax(t->peak, (double)row->peak);
+        if (peak) t->peak = fmax(t->peak, (double)row->peak);
     }
     free(look.rows);
     return ok;
@@ -106,39 +113,52 @@ static bool choose_pixels(struct comparison *c, struct glint_error *err) {
 
 /* ---- Sums ---- */
 
-static void sum_pixel(const struct comparison *c, size_t i, double sums[SUM_COUNT]) {
+/* Over the channels of a pixel that is compared. The inner loop of all: what it adds to are variables of its own. */
+static void sum_channels(const struct comparison *c, size_t i, double sums[SUM_COUNT]) {
     const float *found = c->found->values + i * c->found->components,
                 *truth = c->truth->values + i * c->truth->components;
-    double error =
-        c->options->truth_error && isfinite(c->options->truth_error[i]) ? (double)c->options->truth_error[i] : 0;
-    const double epsilon = c->table->epsilon;
-    for (int k = 0; k < SUM_COUNT; k++) sums[k] = 0;
-    if (c->use[i] == INVALID) {
-        sums[SUM_INVALID] = 1;
-        return;
+    const float error = c->options->truth_error ? c->options->truth_error[i] : 0;
+    const double variance = isfinite(error) ? (double)error * (double)error : 0, epsilon = c->table->epsilon;
+    const uint32_t channels = c->channels;
+    double all = 0, difference = 0, square = 0, relative = 0, symmetric = 0, noise = 0, relative_noise = 0;
+    for (uint32_t k = 0; k < channels; k++) {
+        const double t = (double)truth[c->truth_at[k]], f = (double)found[c->found_at[k]], d = f - t;
+        const double weight = 1 / (t * t + epsilon);
+        all += t;
+        difference += d;
+        square += d * d;
+        relative += d * d * weight;
+        symmetric += fabs(d) / (fabs(f) + fabs(t) + GLINT_SYMMETRIC_EPSILON);
+        noise += t * t * variance;
+        relative_noise += t * t * variance * weight;
     }
     sums[SUM_PIXELS] = 1;
-    for (uint32_t k = 0; k < c->channels; k++) {
-        double t = (double)truth[c->truth_at[k]], f = (double)found[c->found_at[k]], d = f - t;
-        double weight = 1 / (t * t + epsilon), noise = t * t * error * error;
-        sums[SUM_TRUTH] += t;
-        sums[SUM_DIFFERENCE] += d;
-        sums[SUM_SQUARE] += d * d;
-        sums[SUM_RELATIVE] += d * d * weight;
-        sums[SUM_SYMMETRIC] += fabs(d) / (fabs(f) + fabs(t) + GLINT_SYMMETRIC_EPSILON);
-        sums[SUM_NOISE] += noise;
-        sums[SUM_RELATIVE_NOISE] += noise * weight;
-    }
-    if (c->ssim && !isnan(c->ssim[i])) {
-        sums[SUM_WINDOWS] = 1;
-        sums[SUM_SSIM] = (double)c->ssim[i];
-    }
-    if (c->table->flip) sums[SUM_FLIP] = (double)c->table->flip[i];
-    if (c->table->hdr_flip) sums[SUM_HDR_FLIP] = (double)c->table->hdr_flip[i];
+    sums[SUM_INVALID] = 0;
+    sums[SUM_TRUTH] = all;
+    sums[SUM_DIFFERENCE] = difference;
+    sums[SUM_SQUARE] = square;
+    sums[SUM_RELATIVE] = relative;
+    sums[SUM_SYMMETRIC] = symmetric;
+    sums[SUM_NOISE] = noise;
+    sums[SUM_RELATIVE_NOISE] = relative_noise;
 }
 
-static void add_sums(double *to, const double *from) {
-    for (int k = 0; k < SUM_COUNT; k++) to[k] += from[k];
+static void sum_pixel(const struct comparison *c, size_t i, double sums[SUM_COUNT]) {
+    if (c->use[i] == INVALID) {
+        for (int k = 0; k < SUM_COUNT; k++) sums[k] = k == SUM_INVALID;
+        return;
+    }
+    sum_channels(c, i, sums);
+    if (c->quantities == SUM_CHEAP) return;
+    const bool window = c->ssim && !isnan(c->ssim[i]);
+    sums[SUM_WINDOWS] = window;
+    sums[SUM_SSIM] = window ? (double)c->ssim[i] : 0;
+    sums[SUM_FLIP] = c->table->flip ? (double)c->table->flip[i] : 0;
+    sums[SUM_HDR_FLIP] = c->table->hdr_flip ? (double)c->table->hdr_flip[i] : 0;
+}
+
+static void add_sums(const struct comparison *c, double *to, const double *from) {
+    for (int k = 0; k < c->quantities; k++) to[k] += from[k];
 }
 
 static void sum_tile(const struct comparison *c, uint32_t column, uint32_t row) {
@@ -149,12 +169,12 @@ static void sum_tile(const struct comparison *c, uint32_t column, uint32_t row) 
         for (size_t i = (size_t)y * width + left; i < (size_t)y * width + right; i++) {
             if (c->use[i] == LEFT_OUT) continue;
             sum_pixel(c, i, sums);
-            add_sums(all, sums);
+            add_sums(c, all, sums);
             double *of_set = all + SUM_COUNT;
             for (size_t s = 0; s < c->options->class_sets; s++) {
                 const struct glint_classes *set = &c->options->classes[s];
                 uint8_t label = set->labels[i];
-                if (label && label <= set->count) add_sums(of_set + (size_t)(label - 1) * SUM_COUNT, sums);
+                if (label && label <= set->count) add_sums(c, of_set + (size_t)(label - 1) * SUM_COUNT, sums);
                 of_set += set->count * SUM_COUNT;
             }
         }
@@ -201,7 +221,7 @@ double figure_of(const struct comparison *c, enum glint_metric metric, const dou
 static void fill_row(const struct comparison *c, size_t row) {
     struct glint_metric_row *r = &c->table->rows[row];
     double sums[SUM_COUNT] = {0};
-    for (size_t tile = 0; tile < (size_t)c->across * c->down; tile++) add_sums(sums, sums_of(c, tile, row));
+    for (size_t tile = 0; tile < (size_t)c->across * c->down; tile++) add_sums(c, sums, sums_of(c, tile, row));
     r->pixels = (uint64_t)sums[SUM_PIXELS];
     r->invalid = (uint64_t)sums[SUM_INVALID];
     r->truth_mean = r->pixels ? sums[SUM_TRUTH] / (sums[SUM_PIXELS] * c->channels) : NAN;
@@ -258,6 +278,7 @@ bool glint_metrics_compare(const struct glint_pixels *found, const struct glint_
                           found->width, found->height, truth->width, truth->height);
     bool ok = match_channels(&c, err) && choose_pixels(&c, err) && name_rows(&c, err) && make_tiles(&c, err) &&
               map_ssim(&c, err) && map_flip(&c, err);
+    c.quantities = c.ssim || table->flip || table->hdr_flip ? SUM_COUNT : SUM_CHEAP;
     if (ok) parallel_rows(c.down, sum_tiles, &c);
     for (size_t row = 0; ok && row < table->count; row++) fill_row(&c, row);
     if (ok && o.resamples) ok = find_intervals(&c, err);

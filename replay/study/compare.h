@@ -38,6 +38,7 @@ struct comparison {
     float *ssim;                 /* a value a pixel, NAN without a window; NULL when not asked for */
     uint32_t tile, across, down; /* tiles: edge in pixels, how many */
     double *sums;                /* [tile][row of the table][quantity] */
+    int quantities;              /* of SUM_COUNT that are there, from the first */
 };
 
 /* Value of a metric, of sums over pixels. */

@@ -10,15 +10,15 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Contrast sensitivity, section 4.1, spatial filtering: sums of a·√(π/b)·exp(-π²d²/b) over d in degrees. */
+/* Contrast sensitivity, of the paper's color pipeline, spatial filtering: sums of a·√(π/b)·exp(-π²d²/b) over d in degrees. */
 struct gaussian {
     double a, b;
 };
 static const struct gaussian ACHROMATIC = {1, 0.0047}, RED_GREEN = {1, 0.0053},
                              BLUE_YELLOW[2] = {{34.1, 0.04}, {13.5, 0.025}};
-/* Section 4.2: the width of the features that are looked for, in degrees. */
+/* Of its feature pipeline: the width of the edges and points that are looked for, in degrees. */
 static const double FEATURE_WIDTH = 0.082;
-/* Exponents of the two differences, and where the color difference's range is bent: sections 4.1 and 4.2. */
+/* Exponents q_c and q_f of the two differences; p_c and p_t, where the color difference's range is bent. */
 static const float COLOR_POWER = 0.7F, FEATURE_POWER = 0.5F, BEND_COLOR = 0.4F, BEND_VALUE = 0.95F;
 
 /* ---- Kernels ---- */

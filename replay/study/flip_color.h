@@ -35,7 +35,7 @@ static inline float flip_lab_root(float t) {
     return t > knee * knee * knee ? cbrtf(t) : t / (3 * knee * knee) + 4.0F / 29;
 }
 
-/* L*a*b* with Hunt's effect: colors look more colorful the lighter they are (section 4.1 of the paper). */
+/* L*a*b* with Hunt's effect: colors look more colorful the lighter they are: the paper's color pipeline. */
 static inline void flip_hunt_of_rgb(const float rgb[3], float lab[3]) {
     float xyz[3];
     flip_xyz_of_rgb(rgb, xyz);

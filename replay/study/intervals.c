@@ -19,7 +19,6 @@ struct bootstrap {
     const struct comparison *c;
     struct entry *entries;
     size_t count, tiles, rows;
-    int quantities;  /* that are there, from the first */
     double *values;  /* [row][metric][resample] */
     double *sums;    /* [worker][row][quantity] */
     uint32_t *drawn; /* [worker][tile] */
@@ -52,7 +51,7 @@ static bool resample(void *user, uint32_t worker, size_t index) {
         const double *from = sums_of(b->c, e->tile, e->row), times = drawn[e->tile];
         double *to = sums + e->row * SUM_COUNT;
         if (times > 0)
-            for (int k = 0; k < b->quantities; k++) to[k] += times * from[k];
+            for (int k = 0; k < b->c->quantities; k++) to[k] += times * from[k];
     }
     for (size_t row = 0; row < b->rows; row++)
         for (size_t k = 0; k < GLINT_METRIC_COUNT; k++)
@@ -90,7 +89,6 @@ bool find_intervals(struct comparison *c, struct glint_error *err) {
     const size_t resamples = c->options->resamples;
     struct bootstrap b = {.c = c, .tiles = (size_t)c->across * c->down, .rows = c->table->count};
     const uint32_t workers = glint_loop_workers(resamples, 0);
-    b.quantities = c->ssim || c->table->flip || c->table->hdr_flip ? SUM_COUNT : SUM_CHEAP;
     b.entries = malloc(b.tiles * b.rows * sizeof *b.entries);
     b.values = malloc(b.rows * GLINT_METRIC_COUNT * resamples * sizeof *b.values);
     b.sums = malloc(workers * b.rows * SUM_COUNT * sizeof *b.sums);

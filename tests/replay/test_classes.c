@@ -1,0 +1,98 @@
+/* Classes of pixels, against the geometry that the fixture's G-buffer was made from. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "glint/study.h"
+
+enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT };
+
+/* Places in `names` of the classes: the first whose limit is not exceeded. */
+static unsigned bin(double value, double a, double b, double c) {
+    return value <= a ? 1 : value <= b ? 2 : value <= c ? 3 : 4;
+}
+
+/* The camera stands 1.5 m over the floor, 6 m before the wall: the cosine is the height over the distance, or those 6 m. All of it is
+   `scale` times as far in the frame that is looked at. */
+static void check_room(const struct fixture *fixture, uint32_t number, double scale, const unsigned *distances) {
+    struct glint_classes sets[GLINT_CAPTURE_CLASSES];
+    struct glint_error err = {0};
+    size_t count = 0, seen[GLINT_CAPTURE_CLASSES][8] = {{0}};
+    char path[128];
+    snprintf(path, sizeof path, "%s/room.exr", fixture->folder);
+    assert_true(fixture_write_capture(path, &(struct fixture_options){.number = number}, &err));
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    if (!capture || !glint_study_classes(capture, sets, &count, &err)) fail_msg("%s", err.message);
+    assert_int_equal(count, GLINT_CLASSES_HIT); /* there is no truth.mirror */
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) {
+            const double dx = ((x + 0.5) / W * 2 - 1) * 0.9, dy = (1 - (y + 0.5) / H * 2) * 0.55;
+            const bool on_floor = dy < 0 && -1.5 / dy < 6, sky = !on_floor && 1.5 + 6 * dy > 3;
+            const double distance = (on_floor ? -1.5 / dy : 6) * sqrt(1 + dx * dx + dy * dy);
+            const double roughness = (double)(float)(0.02 + 0.5 * x / W);
+            const bool reflects = !sky && (on_floor || x % 11 == 0);
+            const unsigned surface = roughness <= 0.1 ? 1 : roughness <= 0.5 ? 2 : 3;
+            const unsigned angle = bin((on_floor ? 1.5 : 6) / distance, 0.1, 0.25, 0.5);
+            const size_t i = (size_t)y * W + (size_t)x;
+            assert_int_equal(sets[GLINT_CLASSES_SURFACE].labels[i], reflects ? surface : 0);
+            assert_int_equal(sets[GLINT_CLASSES_ANGLE].labels[i], reflects ? angle : 0);
+            assert_int_equal(sets[GLINT_CLASSES_DISTANCE].labels[i], reflects ? bin(scale * distance, 3, 10, 30) : 0);
+            for (size_t k = 0; k < count; k++) seen[k][sets[k].labels[i]]++;
+        }
+    for (size_t k = 2; k <= 4; k++) assert_true(seen[GLINT_CLASSES_ANGLE][k] > 0);
+    for (size_t k = 0; k < 2; k++) assert_true(seen[GLINT_CLASSES_DISTANCE][distances[k]] > 0);
+    for (size_t k = 0; k < count; k++) glint_classes_finish(&sets[k]);
+    glint_capture_close(&capture);
+}
+
+static void angles_and_distances_are_those_of_the_room(void **state) {
+    check_room(*state, 15, 2, (const unsigned[]){2, 3});
+    check_room(*state, 47, 6, (const unsigned[]){3, 4});
+}
+
+static void hits_are_binned_and_know_the_sky(void **state) {
+    const struct fixture *fixture = *state;
+    static float mirror[H][W][2];
+    static const float distances[] = {0, 0.5F, 1, 1.5F, 4, 10, 17, INFINITY};
+    static const uint8_t expected[] = {0, 1, 1, 2, 2, 3, 4, 5};
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++) mirror[y][x][0] = distances[x % 8];
+    const struct glint_channel channels[] = {{"distance.Z", GLINT_F32, &mirror[0][0][0], 2 * sizeof(float), 0, NULL},
+                                             {"visible", GLINT_F32, &mirror[0][0][1], 2 * sizeof(float), 0, NULL}};
+    const struct glint_part part = {
+        .name = "truth.mirror", .width = W, .height = H, .channels = channels, .channel_count = 2};
+    struct glint_classes sets[GLINT_CAPTURE_CLASSES];
+    struct glint_error err = {0};
+    size_t count = 0, compared = 0;
+    char path[128];
+    snprintf(path, sizeof path, "%s/mirror.exr", fixture->folder);
+    if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err))
+        fail_msg("%s", err.message);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    if (!capture || !glint_study_classes(capture, sets, &count, &err)) fail_msg("%s", err.message);
+    assert_int_equal(count, GLINT_CAPTURE_CLASSES);
+    for (size_t i = 0; i < (size_t)W * H; i++) {
+        if (!sets[GLINT_CLASSES_SURFACE].labels[i]) continue;
+        assert_int_equal(sets[GLINT_CLASSES_HIT].labels[i], expected[i % W % 8]);
+        compared++;
+    }
+    assert_true(compared > 8 * 8);
+    for (size_t k = 0; k < count; k++) glint_classes_finish(&sets[k]);
+    glint_capture_close(&capture);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(angles_and_distances_are_those_of_the_room),
+        cmocka_unit_test(hits_are_binned_and_know_the_sky),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);
+}
