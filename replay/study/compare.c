@@ -252,6 +252,7 @@ static bool make_tiles(struct comparison *c, struct glint_error *err) {
     c->across = (width + c->tile - 1) / c->tile;
     c->down = (height + c->tile - 1) / c->tile;
     c->table->tile_px = c->tile;
+    c->table->tiles = c->across * c->down;
     c->sums = calloc((size_t)c->across * c->down * c->table->count * SUM_COUNT + 1, sizeof *c->sums);
     return c->sums || glint_fail(err, GLINT_ERROR_MEMORY, "images to compare: out of memory");
 }
@@ -293,6 +294,7 @@ void glint_metric_table_finish(struct glint_metric_table *table) {
     free(table->rows);
     free(table->flip);
     free(table->hdr_flip);
+    free(table->resampled);
     *table = (struct glint_metric_table){0};
 }
 

@@ -65,7 +65,7 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* A resample that drew none of a class's tiles has no value for it. */
+/* The ends of the interval, of `values`, which are moved. A resample that drew none of a class's tiles has no value for it. */
 static void set_interval(struct glint_figure *figure, double *values, size_t resamples) {
     size_t n = 0;
     for (size_t i = 0; i < resamples; i++)
@@ -94,7 +94,8 @@ bool find_intervals(struct comparison *c, struct glint_error *err) {
     b.sums = malloc(workers * b.rows * SUM_COUNT * sizeof *b.sums);
     b.drawn = malloc(workers * b.tiles * sizeof *b.drawn);
     uint32_t *tiles_of_row = calloc(b.rows, sizeof *tiles_of_row);
-    bool ok = (b.entries && b.values && b.sums && b.drawn && tiles_of_row) ||
+    double *sorted = malloc(resamples * sizeof *sorted);
+    bool ok = (b.entries && b.values && b.sums && b.drawn && tiles_of_row && sorted) ||
               glint_fail(err, GLINT_ERROR_MEMORY, "confidence intervals: out of memory");
     if (ok) {
         list_entries(&b, tiles_of_row);
@@ -102,12 +103,36 @@ bool find_intervals(struct comparison *c, struct glint_error *err) {
     }
     /* A single tile cannot say how much tiles differ. */
     for (size_t row = 0; ok && row < b.rows; row++)
-        for (size_t k = 0; tiles_of_row[row] > 1 && k < GLINT_METRIC_COUNT; k++)
-            set_interval(&c->table->rows[row].of[k], b.values + (row * GLINT_METRIC_COUNT + k) * resamples, resamples);
+        for (size_t k = 0; tiles_of_row[row] > 1 && k < GLINT_METRIC_COUNT; k++) {
+            memcpy(sorted, b.values + (row * GLINT_METRIC_COUNT + k) * resamples, resamples * sizeof *sorted);
+            set_interval(&c->table->rows[row].of[k], sorted, resamples);
+        }
+    if (ok && c->options->keep_resampled) {
+        c->table->resampled = b.values;
+        b.values = NULL;
+    }
+    free(sorted);
     free(b.entries);
     free(b.values);
     free(b.sums);
     free(b.drawn);
     free(tiles_of_row);
     return ok;
+}
+
+bool glint_metrics_difference(const struct glint_metric_table *a, const struct glint_metric_table *b, size_t row,
+                              enum glint_metric metric, struct glint_figure *difference, struct glint_error *err) {
+    const size_t n = a->resamples, first = (row * GLINT_METRIC_COUNT + metric) * n;
+    *difference = (struct glint_figure){NAN, NAN, NAN};
+    if (!a->resampled || !b->resampled || a->count != b->count || row >= a->count || b->resamples != n ||
+        a->seed != b->seed || a->tiles != b->tiles || a->tile_px != b->tile_px)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "difference of two comparisons: expected the same size, classes, resamples and seed, kept");
+    double *values = malloc(n * sizeof *values);
+    if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "difference of two comparisons: out of memory");
+    difference->value = b->rows[row].of[metric].value - a->rows[row].of[metric].value;
+    for (size_t i = 0; i < n; i++) values[i] = b->resampled[first + i] - a->resampled[first + i];
+    if (!isnan(a->rows[row].of[metric].low) && !isnan(b->rows[row].of[metric].low)) set_interval(difference, values, n);
+    free(values);
+    return true;
 }

@@ -204,6 +204,73 @@ static void the_same_seed_gives_the_same_interval(void **state) {
     glint_metric_table_finish(&b);
 }
 
+/* Two pictures err alike but for one that errs by 0.02 more: the intervals of both overlap, that of the difference is narrow and holds it. */
+static void a_difference_is_surer_than_its_parts(void **state) {
+    (void)state;
+    enum { SIZE = 128 };
+    static float first[SIZE * SIZE], second[SIZE * SIZE], truth[SIZE * SIZE];
+    const struct glint_pixels f = {SIZE, SIZE, 1, first}, s = {SIZE, SIZE, 1, second}, t = {SIZE, SIZE, 1, truth};
+    struct glint_metric_options o = {.resamples = GLINT_RESAMPLES, .seed = 1, .keep_resampled = true};
+    uint64_t random = 9;
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            const int i = y * SIZE + x;
+            first[i] = x % 4 || y % 4 ? first[(y / 4 * 4) * SIZE + x / 4 * 4] : (float)uniform(&random);
+            second[i] = first[i] + 0.02F + 0.01F * (float)(uniform(&random) - 0.5);
+        }
+    struct glint_metric_table a = compared(&f, &t, &o), b = compared(&s, &t, &o);
+    struct glint_figure difference;
+    struct glint_error err = {0};
+    const struct glint_figure *p = &a.rows[0].of[GLINT_METRIC_MEAN], *q = &b.rows[0].of[GLINT_METRIC_MEAN];
+    assert_true(p->high > q->low);
+    assert_true(glint_metrics_difference(&a, &b, 0, GLINT_METRIC_MEAN, &difference, &err));
+    assert_true(difference.low <= 0.02 && 0.02 <= difference.high);
+    assert_near(difference.value, q->value - p->value, 0);
+    assert_true(difference.high - difference.low < 0.1 * (p->high - p->low));
+    assert_true(glint_metrics_difference(&a, &b, 0, GLINT_METRIC_RMSE, &difference, &err));
+    assert_true(difference.low > 0);
+    glint_metric_table_finish(&b);
+    o.seed = 2;
+    b = compared(&s, &t, &o);
+    assert_false(glint_metrics_difference(&a, &b, 0, GLINT_METRIC_MEAN, &difference, &err));
+    glint_metric_table_finish(&a);
+    glint_metric_table_finish(&b);
+}
+
+/* What is left out is black for those metrics that look at neighbours, whatever it holds. */
+static void what_is_left_out_leaks_into_no_neighbour(void **state) {
+    (void)state;
+    enum { SIZE = 24, PIXELS = SIZE * SIZE };
+    static float found[3 * PIXELS], truth[3 * PIXELS], black_found[3 * PIXELS], black_truth[3 * PIXELS];
+    static uint8_t mask[PIXELS];
+    uint64_t random = 11;
+    for (int i = 0; i < PIXELS; i++) {
+        mask[i] = i % SIZE >= 9;
+        for (int k = 0; k < 3; k++) {
+            black_found[3 * i + k] = mask[i] ? (float)uniform(&random) : 0;
+            black_truth[3 * i + k] = mask[i] ? (float)uniform(&random) : 0;
+            found[3 * i + k] = mask[i] ? black_found[3 * i + k] : NAN;
+            truth[3 * i + k] = mask[i] ? black_truth[3 * i + k] : 1e9F;
+        }
+    }
+    const struct glint_pixels f = {SIZE, SIZE, 3, found}, t = {SIZE, SIZE, 3, truth};
+    const struct glint_pixels bf = {SIZE, SIZE, 3, black_found}, bt = {SIZE, SIZE, 3, black_truth};
+    static const char *const names[] = {"kept"};
+    const struct glint_classes kept = {"kept", names, 1, mask};
+    const struct glint_metric_options o = {.metrics = GLINT_METRICS_ALL, .mask = mask, .ppd = 30};
+    struct glint_metric_options all = {.metrics = GLINT_METRICS_ALL, .ppd = 30, .classes = &kept, .class_sets = 1};
+    struct glint_metric_table a = compared(&f, &t, &o);
+    all.start_exposure = a.start_exposure;
+    all.stop_exposure = a.stop_exposure;
+    struct glint_metric_table b = compared(&bf, &bt, &all);
+    assert_int_equal(a.rows[0].pixels, SIZE * (SIZE - 9));
+    for (int k = 0; k < GLINT_METRIC_COUNT; k++) assert_near(a.rows[0].of[k].value, b.rows[1].of[k].value, 1e-12);
+    for (int i = 0; i < PIXELS; i++)
+        if (!mask[i]) assert_true(a.flip[i] == 0 && a.hdr_flip[i] == 0);
+    glint_metric_table_finish(&a);
+    glint_metric_table_finish(&b);
+}
+
 static void metrics_have_names(void **state) {
     (void)state;
     uint32_t chosen = 0;
@@ -227,6 +294,8 @@ int main(void) {
         cmocka_unit_test(flat_images_have_closed_forms),
         cmocka_unit_test(intervals_hold_the_mean_as_often_as_they_say),
         cmocka_unit_test(the_same_seed_gives_the_same_interval),
+        cmocka_unit_test(a_difference_is_surer_than_its_parts),
+        cmocka_unit_test(what_is_left_out_leaks_into_no_neighbour),
         cmocka_unit_test(metrics_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

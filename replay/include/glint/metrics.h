@@ -92,6 +92,7 @@ struct glint_metric_options {
     double start_exposure, stop_exposure;
     uint32_t resamples; /* of the bootstrap behind the intervals; 0: none, intervals are NAN */
     uint32_t seed;
+    bool keep_resampled; /* for glint_metrics_difference */
 };
 #define GLINT_RESAMPLES 400
 
@@ -118,9 +119,10 @@ struct glint_metric_table {
     double epsilon, peak, ppd, exposure;  /* as used */
     double start_exposure, stop_exposure; /* of HDR-FLIP, f-stops */
     uint32_t exposures;                   /* 0: not computed */
-    uint32_t resamples, seed, tile_px;
+    uint32_t resamples, seed, tile_px, tiles;
     /* A value a pixel, malloc'd, NULL when not asked for. */
     float *flip, *hdr_flip;
+    double *resampled; /* [row][metric][resample], malloc'd, NULL unless asked for */
 };
 
 /* Both images are of one size. False with an error when they are not, or share no channel. */
@@ -130,6 +132,12 @@ bool glint_metrics_compare(const struct glint_pixels *found, const struct glint_
 void glint_metric_table_finish(struct glint_metric_table *table);
 /* False, with how many and where the first is, when either image was NaN or infinite; `what` begins the message. */
 bool glint_metrics_valid(const struct glint_metric_table *table, const char *what, struct glint_error *err);
+
+/* How much more `b` errs than `a` in a metric of a row, and the interval of that difference. Both are comparisons of images of one size by
+   the same classes, resamples and seed, and keep their resampled figures: tiles were drawn alike, so that what both pictures
+   have in common is in neither end of the interval. It is far narrower than what two intervals beside each other tell. */
+bool glint_metrics_difference(const struct glint_metric_table *a, const struct glint_metric_table *b, size_t row,
+                              enum glint_metric metric, struct glint_figure *difference, struct glint_error *err);
 
 /* ---- Errors by class of surface ---- */
 
