@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""What each part of the preset mafia_de buys, on and off: mafia_de.py GLINT [-o docs/mafia_de.md]."""
+"""What each part of the preset mafia_de buys, on and off: mafia_de.py GLINT [-o DOCS]."""
 import argparse
 import json
 import pathlib
 import tempfile
 
-from pages import KINDS, Times, compare, options, preset, run, sample, table
+from pages import Times, compare, errors, options, picture, preset, run, sample, sheet, table
 
 SIZE, CUBE, TRUTH = '320x180', '128', '64'
 SCENES = ('street', 'room', 'hotel')
+ALONE = 'cubemap_trace.length_m=0.001 cubemap_trace.length_lq_m=0.001 cubemap_trace.exhausted=fallback cubemap_trace.fallback=black'
+FOG = ('--set', 'resolve.fog=false')  # which the truth lacks
 # Name on the page, what is changed.
 COLOUR = [
     ('`mafia_de`', ''),
@@ -25,6 +27,16 @@ COLOUR = [
     ('outliers kept: `temporal.outlier=1e6`', 'temporal.outlier=1e6'),
     ('`upscale=bilinear`', 'upscale=bilinear'),
     ('cube maps by direction: `cubemap_trace=lookup`', 'cubemap_trace=lookup'),
+    ('the screen alone: no ray goes on in cube maps', ALONE),
+    ('cube maps alone: `screen_trace.length_m=0`', 'screen_trace.length_m=0'),
+]
+# A camera that has moved far since the frame before, so that much was hidden then.
+MOVED, MOVED_SCENES = ('--first-frame', '2', '--travel', '0.5,0,-0.2'), ('street', 'room')
+MOVING = [
+    ('`mafia_de`', ''),
+    ("this frame's picture: `resolve=hit`", 'resolve=hit'),
+    ('hidden points taken: `resolve.reject=false`', 'resolve.reject=false'),
+    ('hidden points black: `resolve.hidden=black`', 'resolve.hidden=black'),
 ]
 GLASS = [
     ('all', ''),
@@ -39,16 +51,9 @@ def timed():
     return {scene: {words: preset('mafia_de', words) for _, words in rows} for scene, rows in (('street', COLOUR), ('glasshouse', GLASS))}
 
 
-def errors(glint, capture, words):
-    told = json.loads(run(glint, 'replay', capture, '--preset', 'mafia_de', '--set', 'resolve.fog=false', '--json', '--against', 'truth', *options(words)))
-    found = {row['surfaces']: row['rmse'] for row in told['runs'][0]['against_truth']['image']['surfaces']}
-    return ', '.join(f'{found[kind]:.3f}' for kind in KINDS)
-
-
-def colour(glint, folder, times):
-    captures = [sample(glint, scene, folder, SIZE, CUBE, '--truth', TRUTH) for scene in SCENES]
-    rows = [[name, *(errors(glint, capture, words) for capture in captures), *times.cells('street', words)] for name, words in COLOUR]
-    return table(['', *SCENES, *(f'{head}, street' for head in times.heads)], rows)
+def colour(glint, captures, scenes, wanted, times):
+    rows = [[name, *(errors(glint, capture, 'mafia_de', words, *FOG)[0] for capture in captures), *times.cells('street', words)] for name, words in wanted]
+    return table(['', *scenes, *(f'{head}, street' for head in times.heads)], rows)
 
 
 def glass(glint, folder, times):
@@ -58,18 +63,54 @@ def glass(glint, folder, times):
     return table(['', 'panes', *times.heads], rows)
 
 
+def replayed(glint, capture, folder, name, words):
+    run(glint, 'replay', capture, '--preset', 'mafia_de', '-o', folder / name, '--diagnostics', *FOG, *options(words))
+    return folder / name
+
+
+def levels(glint, capture, folder, docs):
+    """The article's own sequence of pictures, and the same without edges."""
+    aware, blind = (replayed(glint, capture, folder, name, words) for name, words in (('aware', ''), ('blind', 'blur.edges=false upscale=bilinear')))
+    picked, blurred = next(aware.glob('*-downsample.exr')), next(aware.glob('*-blur.exr'))
+    tiles = [
+        ('normals that rays are drawn about', f'{aware}:normal_jittered'), ('edges, level 1', f'{picked}:edge_levels'),
+        ('edges, level 3', f'{picked}:edge_levels.level2'), ('reflection, level 1', f'{aware}:reflection_half'),
+        ('level 3, blurred along rows', f'{blurred}:reflection_across'), ('and along columns', f'{blurred}:reflection_levels.level2'),
+        ('level 2, with what came up', f'{blurred}:reflection_levels.level1'), ('level 1, with what came up', f'{aware}:reflection_blurred'),
+        ('full resolution', f'{aware}:reflection'), ('the same, blind to edges', f'{blind}:reflection'),
+        ('path traced', f'{capture}:truth.reflection.ggx'), ('composed', f'{aware}:composed')]
+    sheet([(text, picture(glint, source, folder / f'level-{i}.png')) for i, (text, source) in enumerate(tiles)], 3, docs / 'mafia_de-levels.jpg')
+
+
+def previous(glint, capture, folder, docs):
+    made = {name: replayed(glint, capture, folder, name, words) for name, words in (('kept', ''), ('taken', 'resolve.reject=false'), ('alone', ALONE))}
+    tiles = [
+        ('found (blue), outside (green), hidden (yellow)', f"{made['kept']}:previous_source"), ('hidden points taken', f"{made['taken']}:reflection_blurred"),
+        ('hidden points refused', f"{made['kept']}:reflection_blurred"), ('the screen alone', f"{made['alone']}:reflection"),
+        ('with cube maps', f"{made['kept']}:reflection"), ('path traced', f'{capture}:truth.reflection.ggx')]
+    sheet([(text, picture(glint, source, folder / f'previous-{i}.png')) for i, (text, source) in enumerate(tiles)], 3, docs / 'mafia_de-sources.jpg')
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('glint')
-    parser.add_argument('-o', '--output', default='docs/mafia_de.md', type=pathlib.Path)
-    arguments = parser.parse_args()
-    times = Times('mafia_de')
+    parser.add_argument('-o', '--docs', default='docs', type=pathlib.Path)
+    given = parser.parse_args()
+    times, text = Times('mafia_de'), pathlib.Path(__file__).with_name('mafia_de.md.in').read_text()
     with tempfile.TemporaryDirectory() as folder:
-        text = pathlib.Path(__file__).with_name('mafia_de.md.in').read_text()
-        text = text.replace('@COLOUR@\n', colour(arguments.glint, folder, times))
-        text = text.replace('@GLASS@\n', glass(arguments.glint, folder, times))
-        text = text.replace('@TIMES@', times.told())
-    arguments.output.write_text(text)
+        folder = pathlib.Path(folder)
+
+        def captures(scenes, *more):
+            return [sample(given.glint, scene, folder, SIZE, CUBE, '--truth', TRUTH, *more) for scene in scenes]
+
+        still = captures(SCENES)
+        text = text.replace('@COLOUR@\n', colour(given.glint, still, SCENES, COLOUR, times))
+        levels(given.glint, still[1], folder, given.docs)
+        moved = captures(MOVED_SCENES, *MOVED)
+        text = text.replace('@MOVING@\n', colour(given.glint, moved, MOVED_SCENES, MOVING, Times()))
+        previous(given.glint, moved[1], folder, given.docs)
+        text = text.replace('@GLASS@\n', glass(given.glint, folder, times))
+    (given.docs / 'mafia_de.md').write_text(text.replace('@TIMES@', times.told()))
 
 
 if __name__ == '__main__':

@@ -14,6 +14,7 @@ os.environ["GLINT_CACHE"] = "none"  # each run is to do its own work
 HERE = pathlib.Path(__file__).parent
 PRESETS = HERE.parent / "samples/presets"
 RECORDS = HERE / "records/times"
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 KINDS = ("mirror-like", "glossy", "rough")
 
 
@@ -69,6 +70,29 @@ def compare(glint, capture, presets, rounds, together=6):
     return answer["device"], told
 
 
+def errors(glint, capture, name, words, *more, figures=("rmse",)):
+    """Of the reflection against the truth: mirror-like, glossy and rough surfaces, one cell for each figure."""
+    told = json.loads(run(glint, "replay", capture, "--preset", name, "--json", "--against", "truth", *options(words), *more))
+    found = {row["surfaces"]: row for row in told["runs"][0]["against_truth"]["image"]["surfaces"]}
+    return [", ".join(f"{found[kind][figure]:.3f}" for kind in KINDS) for figure in figures]
+
+
+def picture(glint, source, out, *more):
+    """What glint view makes of a run's image or a file's layer, without its legend."""
+    run(glint, "view", source, "--no-legend", "-o", out, *more)
+    return out
+
+
+def sheet(tiles, columns, out, width=400, height=225):
+    """A JPEG of (label, picture) tiles."""
+    made = []
+    for i, (label, file) in enumerate(tiles):
+        made.append(pathlib.Path(file).with_name(f"tile-{i}.png"))
+        run("oiiotool", file, "--ch", "R,G,B", "--resize:filter=box", f"{width}x{height}", "--create", f"{width}x{height + 20}", 3,
+            "--paste", "+0+20", f"--text:x=4:y=15:size=13:font={FONT}", label, "-o", made[-1])
+    run("oiiotool", *made, "--mosaic:pad=4", f"{columns}x{-(-len(made) // columns)}", "--compression", "jpeg:82", "-o", out)
+
+
 def table(titles, rows):
     lines = ["| " + " | ".join(titles) + " |", "| --- |" + " ---: |" * (len(titles) - 1)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
@@ -77,8 +101,9 @@ def table(titles, rows):
 class Times:
     """A page's columns of milliseconds, one for each device that there is a record of."""
 
-    def __init__(self, page):
-        self.records = [json.loads(path.read_text()) for path in sorted(RECORDS.glob("*.json"))]
+    def __init__(self, page=None):
+        """No page: no columns."""
+        self.records = [json.loads(path.read_text()) for path in sorted(RECORDS.glob("*.json"))] if page else []
         self.page, self.heads = page, [f"ms, {r['as']}" for r in self.records]
 
     def cells(self, scene, key):
