@@ -25,10 +25,16 @@ COLOUR = [
     ('`blur.width=1`', 'blur.width=1'),
     ('edges by shading normals: `downsample.vertex_planes=false`', 'downsample.vertex_planes=false'),
     ('outliers kept: `temporal.outlier=1e6`', 'temporal.outlier=1e6'),
+    ('`upscale.lobes=false`', 'upscale.lobes=false'),
     ('`upscale=bilinear`', 'upscale=bilinear'),
+    ('blind: `blur.edges=false`, `upscale=bilinear`', 'blur.edges=false upscale=bilinear'),
     ('cube maps by direction: `cubemap_trace=lookup`', 'cubemap_trace=lookup'),
     ('the screen alone: no ray goes on in cube maps', ALONE),
     ('cube maps alone: `screen_trace.length_m=0`', 'screen_trace.length_m=0'),
+    ('16 rays: `mafia_de`', 'pipeline.rays=16'),
+    ('16 rays: `blur.edges=false`', 'pipeline.rays=16 blur.edges=false'),
+    ('16 rays: `upscale=bilinear`', 'pipeline.rays=16 upscale=bilinear'),
+    ('16 rays: blind', 'pipeline.rays=16 blur.edges=false upscale=bilinear'),
 ]
 # A camera that has moved far since the frame before, so that much was hidden then.
 MOVED, MOVED_SCENES = ('--first-frame', '2', '--travel', '0.5,0,-0.2'), ('street', 'room')

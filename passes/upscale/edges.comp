@@ -8,6 +8,7 @@
 };
 #include "shared/camera.glsl"
 #include "shared/edges.glsl"
+#include "shared/reuse.glsl"
 #include "upscale/source.glsl"
 
 // What a texel weighs that is not of the pixel's surface: where none of the four is, the nearest mixture is better than nothing.
@@ -21,10 +22,10 @@ float in_same_plane(vec3 position, vec3 normal, ivec2 texel, float depth_m) {
     return clamp(2.0 - 2.0 * abs(dot(way, normal)) / max(depth_part * abs(position.z), 1e-20), 0.0, 1.0);
 }
 
-vec4 mixture(ivec2 pixel, float depth_m, vec3 world_normal) {
+vec4 mixture(ivec2 pixel, float depth_m, vec4 surface) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 position = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-    vec3 normal = mat3(frame.view_from_world) * normalize(world_normal);
+    vec3 normal = mat3(frame.view_from_world) * surface.xyz;
     vec2 place = (vec2(pixel) + 0.5) / reduction(frame.size) - 0.5;
     ivec2 corner = ivec2(floor(place)), last = ivec2(frame.size.zw) - 1;
     vec2 part = place - vec2(corner), between = vec2(corner + 1) / vec2(frame.size.zw);
@@ -37,6 +38,8 @@ vec4 mixture(ivec2 pixel, float depth_m, vec3 world_normal) {
         bool used = all(greaterThanEqual(texel, ivec2(0))) && all(lessThanEqual(texel, last)) && depths_m[i] < LARGEST;
         near[i] = used ? side.x * side.y : 0.0;
         same[i] = near[i] > 0.0 ? in_same_plane(position, normal, texel, depths_m[i]) : 0.0;
+        // Edges lie between texels: which side of them the pixel is on is for its own normal and roughness to say.
+        if (lobes && same[i] > 0.0) same[i] *= lobe_agreement(surface, texelFetch(normal_half, texel, 0), roughness_part);
         if (near[i] * same[i] > near[own] * same[own]) own = uint(i);
     }
     if (edges && same[own] > 0.0)
@@ -56,6 +59,10 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
-    vec3 normal = texelFetch(normal_full, pixel, 0).xyz;
-    imageStore(reflection, pixel, reflects(depth_m, normal) ? mixture(pixel, depth_m, normal) : vec4(0.0));
+    vec4 surface = texelFetch(normal_full, pixel, 0), color = vec4(0.0);
+    if (reflects(depth_m, surface.xyz)) {
+        float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
+        color = mixture(pixel, depth_m, vec4(normalize(surface.xyz), roughness));
+    }
+    imageStore(reflection, pixel, color);
 }

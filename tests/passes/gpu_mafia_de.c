@@ -218,6 +218,45 @@ static void nothing_leaks_over_edges(void **state) {
     }
 }
 
+/* The colours are the normals: floor and wall meet in a corner, where each is near the other's plane, so that normals alone
+   tell them apart. A pixel takes its own surface's colour wherever one of the four texels around it has it. */
+static void corners_keep_their_colours(void **state) {
+    struct gpu *gpu = *state;
+    enum {
+        EDGES,
+        BLIND_TO_LOBES,
+        BILINEAR,
+        HEIGHT = SIZE - 4
+    }; /* the corner runs through blocks, near a pixel of the floor */
+    int wrong[3] = {0}, checked = 0;
+    for (int kind = 0; kind < 3; ++kind) {
+        load(gpu, &(struct plain){.width = SIZE, .height = HEIGHT, .fov_y_degrees = 60, .floor = true});
+        gpu_use(gpu, kind == BILINEAR ? "upscale=bilinear" : "upscale=edges");
+        if (kind == BLIND_TO_LOBES) gpu_set(gpu, "upscale.lobes=false");
+        gpu_shader(gpu, "resolve", "stand_in.comp");
+        gpu_set(gpu, "resolve.texel_scale=4");
+        gpu_run(gpu);
+        float *color = gpu_floats(gpu, "reflection", NULL, NULL),
+              *full = gpu_part(gpu, "gbuffer", (const char *[]){"normal.Y"}, 1),
+              *half = gpu_floats(gpu, "normal_half", NULL, NULL);
+        for (int y = 1; y < HEIGHT - 1; ++y)
+            for (int x = 1; x < SIZE - 1; ++x) {
+                const float own = full[y * SIZE + x];
+                const int row = (y - 1) / 2; /* of the upper two of the four texels */
+                if (half[4 * (row * SIZE / 2 + x / 2) + 1] != own &&
+                    half[4 * ((row + 1) * SIZE / 2 + x / 2) + 1] != own)
+                    continue;
+                checked += kind == EDGES;
+                wrong[kind] += fabsf(color[4 * (y * SIZE + x) + 1] - own) > 1e-3f;
+            }
+        free(color), free(full), free(half);
+    }
+    print_message("# of %d pixels %d have the other surface's colour, %d by edges alone, %d bilinear\n", checked,
+                  wrong[0], wrong[BLIND_TO_LOBES], wrong[BILINEAR]);
+    assert_true(checked > SIZE * (HEIGHT - 8));
+    assert_true(wrong[EDGES] == 0 && wrong[BLIND_TO_LOBES] >= SIZE - 2 && wrong[BILINEAR] >= SIZE - 2);
+}
+
 /* ---- outliers ---- */
 
 static double luminance(const float *c) {
@@ -340,6 +379,7 @@ int main(void) {
         cmocka_unit_test(levels_hold_pixels_of_the_picture_and_their_edges),
         cmocka_unit_test(noise_of_rough_surfaces_falls_and_mirrors_keep_theirs),
         cmocka_unit_test(nothing_leaks_over_edges),
+        cmocka_unit_test(corners_keep_their_colours),
         cmocka_unit_test(bright_samples_are_held_at_what_is_around),
         cmocka_unit_test(hits_find_their_colour_in_the_previous_frame),
         cmocka_unit_test(hidden_hits_are_found_in_cube_maps),
