@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "pass_names.h"
+#include "pixels.h"
 
 const char *const contest_over[CONTEST_OVER] = {"water", "transparent"};
 
@@ -151,11 +152,8 @@ static bool read_picture(struct glint_judge *judge, struct showing *s, struct an
     struct glint_replay *replay = glint_judge_replay(judge);
     const struct glint_image *image = glint_study_picture(replay);
     if (!image) return true;
-    a->picture = (struct glint_pixels){image->width, image->height, image->components, NULL};
     snprintf(a->picture_name, sizeof a->picture_name, "%s", image->name);
-    a->picture.values = malloc((size_t)image->width * image->height * image->components * sizeof(float));
-    bool ok = a->picture.values ? glint_replay_read_image(replay, image, GLINT_F32, a->picture.values, err)
-                                : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    bool ok = pixels_read(replay, image, &a->picture, err);
     for (int k = 0; ok && k < CONTEST_OVER; k++) {
         s->over[k].drawn = glint_study_draws(replay, contest_over[k]);
         ok = glint_study_over(&a->picture, glint_judge_capture(judge), contest_over[k], &s->over[k].error, err);

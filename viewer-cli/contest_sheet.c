@@ -1,43 +1,22 @@
 /* What presets give, as pictures beside each other. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "contest.h"
-
-static struct source source_of(const struct glint_pixels *pixels, const char *title, const char *unit) {
-    struct source source = {
-        .width = pixels->width, .height = pixels->height, .components = pixels->components, .texels = pixels->values};
-    snprintf(source.title, sizeof source.title, "%s", title);
-    snprintf(source.unit, sizeof source.unit, "%s", unit);
-    for (uint32_t k = 0; k < pixels->components; k++)
-        snprintf(source.channels[k], sizeof source.channels[k], "%c", pixels->components == 1 ? 'E' : "RGBA"[k]);
-    return source;
-}
-
-static bool draw(struct picture *cell, const struct glint_pixels *pixels, const char *title, const char *label,
-                 struct glint_error *err) {
-    const struct render_options options = {.falsecolor = {.range_given = true, .low = 0, .high = 1}};
-    const struct source source = source_of(pixels, title, pixels->components == 1 ? "1" : "radiance");
-    return sheet_cell(cell, &source, label, &options, err);
-}
+#include "pixels.h"
 
 /* The symmetric error of each pixel that the preset gives; black elsewhere. */
 static bool draw_error(struct picture *cell, const struct answer *a, const uint8_t *surfaces, const char *label,
                        struct glint_error *err) {
-    size_t count = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
-    struct glint_pixels error = {a->verdict.reflection.width, a->verdict.reflection.height, 1,
-                                 calloc(count, sizeof(float))};
-    if (!error.values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < count; i++)
-        for (uint32_t k = 0; k < 3 && a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE; k++) {
-            float found = a->verdict.reflection.values[i * a->verdict.reflection.components + k],
-                  truth = a->truth->values[3 * i + k];
-            error.values[i] +=
-                fabsf(found - truth) / (fabsf(found) + fabsf(truth) + (float)GLINT_SYMMETRIC_EPSILON) / 3;
-        }
-    bool ok = draw(cell, &error, "error where it gives a reflection", label, err);
+    const size_t count = (size_t)a->truth->width * a->truth->height;
+    struct glint_pixels error = {0};
+    uint8_t *mask = malloc(count + 1);
+    bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE;
+    ok = ok && pixels_difference(&a->verdict.reflection, a->truth, mask, &error, err) &&
+         pixels_draw(cell, &error, "error where it gives a reflection", label, err);
     glint_pixels_finish(&error);
+    free(mask);
     return ok;
 }
 
@@ -52,7 +31,7 @@ static bool draw_given(struct picture *cell, const struct answer *a, const char 
         if (a->verdict.given[i])
             memcpy(given.values + i * given.components, a->verdict.reflection.values + i * given.components,
                    given.components * sizeof *given.values);
-    bool ok = draw(cell, &given, "reflection", label, err);
+    bool ok = pixels_draw(cell, &given, "reflection", label, err);
     glint_pixels_finish(&given);
     return ok;
 }
@@ -62,7 +41,7 @@ bool contest_draw(struct picture *cells, size_t columns, size_t column, const st
     return draw_given(&cells[column], answer, contestant->label, err) &&
            (!answer->truth || draw_error(&cells[columns + column], answer, surfaces, contestant->label, err)) &&
            (!answer->picture.values ||
-            draw(&cells[2 * columns + column], &answer->picture, answer->picture_name, contestant->label, err));
+            pixels_draw(&cells[2 * columns + column], &answer->picture, answer->picture_name, contestant->label, err));
 }
 
 bool contest_draw_truth(struct picture *cells, size_t columns, const struct glint_pixels *truth,
@@ -71,13 +50,13 @@ bool contest_draw_truth(struct picture *cells, size_t columns, const struct glin
     const char *path = glint_capture_path(capture), *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     const struct glint_part_info *scene = glint_capture_find(capture, "scene");
     const struct glint_part_info *lit = scene ? scene : glint_capture_find(capture, "lit");
-    if (truth && !draw(&cells[0], truth, "the true reflection", name, err)) return false;
+    if (truth && !pixels_draw(&cells[0], truth, "the true reflection", name, err)) return false;
     if (!lit) return true;
     struct glint_pixels pixels = {lit->width, lit->height, 3, NULL};
     pixels.values = malloc((size_t)lit->width * lit->height * 3 * sizeof *pixels.values);
     bool ok = pixels.values ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
-                                  draw(&cells[2 * columns], &pixels,
-                                       scene ? "the true picture" : "lit, without reflections", name, err)
+                                  pixels_draw(&cells[2 * columns], &pixels,
+                                              scene ? "the true picture" : "lit, without reflections", name, err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     glint_pixels_finish(&pixels);
     return ok;

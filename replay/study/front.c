@@ -12,7 +12,8 @@ struct place {
 static int by_x_then_y(const void *a, const void *b) {
     const struct place *p = a, *q = b;
     if (p->x != q->x) return p->x < q->x ? -1 : 1;
-    return (p->y > q->y) - (p->y < q->y);
+    if (p->y != q->y) return p->y < q->y ? -1 : 1;
+    return (p->point > q->point) - (p->point < q->point);
 }
 
 bool glint_pareto(const double *x, const double *y, size_t count, bool *on, struct glint_error *err) {
@@ -24,14 +25,11 @@ bool glint_pareto(const double *x, const double *y, size_t count, bool *on, stru
         if (!isnan(x[i]) && !isnan(y[i])) places[valid++] = (struct place){x[i], y[i], i};
     }
     qsort(places, valid, sizeof *places, by_x_then_y);
-    double lowest = INFINITY,
-           at = INFINITY; /* what is before beats all above `lowest`; so does the last on the front */
+    double lowest = 0; /* of those before: what is not lower is beaten by one of them, or equal to it */
     for (size_t i = 0; i < valid; i++) {
-        const bool twin = places[i].x == at && places[i].y == lowest;
-        if (!(places[i].y < lowest) && !twin && !(i == 0)) continue;
+        if (i > 0 && !(places[i].y < lowest)) continue;
         on[places[i].point] = true;
         lowest = places[i].y;
-        at = places[i].x;
     }
     free(places);
     return true;

@@ -136,7 +136,7 @@ static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict
         *pass = (struct glint_verdict_pass){.pass = results[i].pass,
                                             .ran = results[i].ran,
                                             .cached_work = results[i].cached_work,
-                                            .executed = results[i].ran && !results[i].cached};
+                                            .executed = results[i].ran && !results[i].cached && !results[i].pass->host};
         memcpy(pass->reason, results[i].reason, sizeof pass->reason);
     }
     return true;

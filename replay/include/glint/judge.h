@@ -56,7 +56,7 @@ const struct glint_pixels *glint_judge_answer(struct glint_judge *judge, enum gl
 struct glint_verdict_pass {
     const struct glint_pass *pass;
     bool ran, cached_work;
-    bool executed; /* false also where nothing changed since an earlier run */
+    bool executed; /* on the device; false also where nothing changed since an earlier run */
     char reason[192];
 };
 struct glint_verdict {

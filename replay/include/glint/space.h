@@ -36,7 +36,8 @@ struct glint_pipeline *glint_space_pipeline(const struct glint_space *space, siz
    order in which they run, NULL-terminated. */
 bool glint_space_sort(struct glint_space *space, const char *const *slots, struct glint_error *err);
 
-/* on[i]: no point is at most as high on both axes and lower on one. Points with a NaN are never on the front. */
+/* on[i]: no point is at most as high on both axes and lower on one; of equal points the first. Points with a NaN are never
+   on the front. */
 bool glint_pareto(const double *x, const double *y, size_t count, bool *on, struct glint_error *err);
 
 #ifdef __cplusplus

@@ -1,0 +1,303 @@
+/* glint sweep: what each choice of parameters and variants costs and buys. */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pass_names.h"
+#include "pipeline_args.h"
+#include "sweep.h"
+#include "text_file.h"
+
+struct arguments {
+    struct sweep sweep;
+    struct pipeline_args pipeline;
+    struct list axes;
+    const char *sample, *metric, *device;
+    uint32_t hypercube, seed;
+    bool json;
+};
+
+enum {
+    KEY_VARY = 256,
+    KEY_SAMPLE,
+    KEY_SEED,
+    KEY_REPEAT,
+    KEY_WHOLE,
+    KEY_REFERENCE,
+    KEY_RAYS,
+    KEY_METRIC,
+    KEY_NO_PICTURES
+};
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",    'o',           "FOLDER",        0, "Where all results are kept; an interrupted sweep goes on from what is there", 0},
+    {"vary",      KEY_VARY,      "NAMES=VALUES",  0, "What varies: SLOT.PARAM=A..B[:STEP|:log|:logN], SLOT.PARAM=A,B,C or SLOT=VARIANT,VARIANT; "
+                                                     "several names with + between them take the same value. Several --vary make a grid", 0},
+    {"sample",    KEY_SAMPLE,    "lhs:N",         0, "Instead of a grid, N points of a Latin hypercube: each axis in N parts, each part hit once", 0},
+    {"seed",      KEY_SEED,      "N",             0, "Of the sample (default 1)", 0},
+    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds, in turns: each point once a round (default 3; 0: no times)", 0},
+    {"whole",     KEY_WHOLE,     NULL,            0, "In each round run all passes of each point in one piece, not what the points have in common once", 0},
+    {"reference", KEY_REFERENCE, "RUN|truth",     0, "What errors are against: a run of glint reference (one for each capture), or the truth in the capture "
+                                                     "(default: a reference traced once and kept in the folder)", 0},
+    {"rays",      KEY_RAYS,      "N",             0, "Rays a pixel of the reference that is traced (default 64)", 0},
+    {"metric",    KEY_METRIC,    "NAME",          0, "The error of fronts (default rmse); there are ", 0},
+    {"no-pictures", KEY_NO_PICTURES, NULL,        0, "Leave the pictures out", 0},
+    {"preset",    'p',           "NAME|FILE",     0, "The pipeline that is varied: a preset's name or a JSON file (default mafia3)", 0},
+    {"use",       KEY_USE,       "SLOT=VARIANT",  0, "Use this variant of a slot in every point", 0},
+    {"set",       KEY_SET,       "SLOT.PARAM=VALUE", 0, "Set a parameter in every point; glint passes SLOT lists them", 0},
+    {"shader",    KEY_SHADER,    "SLOT=FILE",     0, "Compile the slot's shader from this file instead", 0},
+    {"all",       KEY_ALL,       NULL,            0, "Run every pass, even one that has nothing to do", 0},
+    {"device",    'd',           "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/points.json", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint sweep street.exr -o steps --vary screen_trace.cells=8..512:log", "one parameter, doubled from 8 to 512"},
+    {"glint sweep street.exr room.exr -o both --vary screen_trace=linear,hiz,dda",
+     "variants on two captures: mean and worst case"},
+    {"glint sweep street.exr -o grid --vary cubemap_trace.steps_hq=8..64:8 --vary cubemap_trace.refinements=1..6",
+     "a grid of two"},
+    {"glint sweep street.exr -o tied --vary cubemap_trace.steps_hq+cubemap_trace.steps_lq=4..128:log9",
+     "two that take the same value"},
+    {"glint sweep street.exr -o many --sample lhs:100 --vary temporal.history=0..32 --vary downsample.share=0.2..1",
+     "a hundred points that cover both evenly"},
+    {"glint sweep street.exr -o free --repeat 0 --vary screen_trace.steps=4..128:log -p kf2",
+     "no times: fetches a pixel are the same on every device"},
+    {"glint reference street.exr -o ref --rays 256", "a better reference, for --reference ref"},
+    {0},
+};
+
+extern const struct command cmd_sweep;
+
+static char *values(int key) {
+    const char *names[GLINT_METRIC_COUNT + 1] = {NULL};
+    for (size_t m = 0; m < GLINT_METRIC_COUNT; m++) names[m] = glint_metric(m)->name;
+    return key == KEY_METRIC ? join_names("", names) : NULL;
+}
+
+static void parse_sample(struct arguments *a, char *text, struct argp_state *state) {
+    if (strncmp(text, "lhs:", 4) != 0 || !isdigit((unsigned char)text[4]))
+        argp_error(state, "--sample %s: expected lhs:N, such as lhs:100", text);
+    else a->hypercube = arg_uint("sample", text + 4, 1, 100000, state);
+    a->sample = text;
+}
+
+static error_t parse_answer(int key, char *arg, struct argp_state *state, struct arguments *a) {
+    switch (key) {
+    case KEY_REFERENCE:
+        if (!strcmp(arg, "truth")) a->sweep.truth = true;
+        else list_add(&a->sweep.references, arg, state);
+        return 0;
+    case KEY_RAYS:
+        a->sweep.rays = arg_uint("rays", arg, 1, 1 << 20, state);
+        return 0;
+    case KEY_METRIC:
+        a->metric = arg;
+        return 0;
+    case 'd':
+        a->device = arg;
+        return 0;
+    case ARGP_KEY_ARG:
+        list_add(&a->sweep.captures, arg, state);
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->sweep.captures.count) argp_error(state, "which capture?");
+        if (!a->sweep.out) argp_error(state, "where to? -o FOLDER");
+        if (!a->axes.count) argp_error(state, "what varies? --vary SLOT.PARAM=A..B");
+        if (a->sweep.truth && a->sweep.references.count)
+            argp_error(state, "--reference: expected runs or the truth, found both");
+        if (a->sweep.references.count && a->sweep.references.count != a->sweep.captures.count)
+            argp_error(state, "--reference: expected one run for each of %zu captures, found %zu",
+                       a->sweep.captures.count, a->sweep.references.count);
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'o':
+        a->sweep.out = arg;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case KEY_VARY:
+        list_add(&a->axes, arg, state);
+        return 0;
+    case KEY_SAMPLE:
+        parse_sample(a, arg, state);
+        return 0;
+    case KEY_SEED:
+        a->seed = arg_uint("seed", arg, 0, UINT32_MAX, state);
+        return 0;
+    case KEY_REPEAT:
+        a->sweep.rounds = arg_uint("repeat", arg, 0, 100000, state);
+        return 0;
+    case KEY_WHOLE:
+        a->sweep.whole = true;
+        return 0;
+    case KEY_NO_PICTURES:
+        a->sweep.pictures = false;
+        return 0;
+    case 'p':
+    case KEY_USE:
+    case KEY_SET:
+    case KEY_SHADER:
+    case KEY_ALL:
+        return pipeline_args_parse(key, arg, state, &a->pipeline);
+    }
+    return parse_answer(key, arg, state, a);
+}
+
+/* Names that are not known, with the nearest that is. */
+static bool check_names(const char *axis, struct glint_error *err) {
+    const char *equals = strchr(axis, '=');
+    char assignment[300];
+    for (const char *name = axis; equals && name < equals; name += strcspn(name, "+=") + 1) {
+        const int length = (int)strcspn(name, "+=");
+        if (length > 0 && memchr(name, '.', (size_t)length)) {
+            snprintf(assignment, sizeof assignment, "%.*s=0", length, name);
+            if (!check_set(assignment, err)) return false;
+        } else if (length > 0 && !check_slot(name, (size_t)length, err)) return false;
+    }
+    return true;
+}
+
+static bool check_variants(const char *axis, struct glint_error *err) {
+    const char *equals = strchr(axis, '=');
+    char assignment[300];
+    if (!equals || memchr(axis, '.', (size_t)(equals - axis)) || memchr(axis, '+', (size_t)(equals - axis)))
+        return true;
+    for (const char *value = equals + 1; *value; value += strcspn(value, ","), value += *value == ',') {
+        snprintf(assignment, sizeof assignment, "%.*s=%.*s", (int)(equals - axis), axis, (int)strcspn(value, ","),
+                 value);
+        if (*value != ',' && !check_use(assignment, err)) return false;
+    }
+    return true;
+}
+
+/* The order in which the slots run. */
+static bool sort_points(struct sweep *sweep, struct glint_error *err) {
+    struct glint_capture *capture = glint_capture_open(sweep->captures.items[0], NULL, err);
+    struct glint_replay *replay = capture ? glint_replay_create(NULL, err) : NULL;
+    const struct glint_plan_entry *entries;
+    size_t count = 0;
+    bool ok = replay && glint_replay_load(replay, capture, err) &&
+              glint_replay_plan(replay, sweep->base, NULL, &entries, &count, err);
+    const char **slots = ok ? calloc(count + 1, sizeof *slots) : NULL;
+    for (size_t i = 0; slots && i < count; i++) slots[i] = entries[i].pass->slot;
+    if (ok)
+        ok = slots ? glint_space_sort(sweep->space, slots, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    free(slots);
+    if (replay) glint_replay_destroy(&replay);
+    if (capture) glint_capture_close(&capture);
+    return ok;
+}
+
+static bool choose_metric(struct arguments *a, struct glint_error *err) {
+    uint32_t bits = 1u << GLINT_METRIC_RMSE;
+    if (a->metric && !glint_metrics_parse(a->metric, &bits, err)) return false;
+    if (bits & (bits - 1)) return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected one metric", a->metric);
+    while (!(bits >> a->sweep.metric & 1)) a->sweep.metric++;
+    a->sweep.metrics = GLINT_METRICS_CHEAP | bits;
+    return true;
+}
+
+static bool begin(struct arguments *a, struct glint_error *err) {
+    const struct glint_device_options device = {.select = a->device};
+    struct sweep *sweep = &a->sweep;
+    for (size_t i = 0; i < a->axes.count; i++)
+        if (!check_names(a->axes.items[i], err) || !check_variants(a->axes.items[i], err)) return false;
+    sweep->all = a->pipeline.replay.all;
+    if (!choose_metric(a, err) || !(sweep->base = pipeline_args_create(&a->pipeline, err))) return false;
+    sweep->space = a->hypercube ? glint_space_create_hypercube(sweep->base, a->axes.items, a->hypercube, a->seed, err)
+                                : glint_space_create(sweep->base, a->axes.items, err);
+    char sample[64] = "grid";
+    if (a->hypercube) snprintf(sample, sizeof sample, "lhs:%u seed %u", a->hypercube, a->seed);
+    sweep->points = sweep->space ? glint_space_count(sweep->space) : 0;
+    return sweep->space && sort_points(sweep, err) && (sweep->device = glint_device_create(&device, err)) &&
+           sweep_open(sweep, a->axes.items, sample, &a->pipeline.shader, err);
+}
+
+static bool write_tables(const struct sweep *sweep, struct glint_error *err) {
+    char path[4096];
+    json_t *json = sweep_json(sweep);
+    char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL, *csv = sweep_csv(sweep);
+    bool ok = (text && csv) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    ok = ok && sweep_path(sweep, "points.json", path, err) && text_file_write(path, text, err) &&
+         sweep_path(sweep, "points.csv", path, err) && text_file_write(path, csv, err);
+    free(csv);
+    free(text);
+    json_decref(json);
+    return ok;
+}
+
+/* Points that failed, and figures that are none. */
+static enum status report_failures(const struct sweep *sweep) {
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; i < sweep->captures.count * sweep->points; i++) {
+        const char *failed = json_string_value(json_object_get(sweep->rows[i].look, "failed"));
+        const double invalid = sweep_figure(&sweep->rows[i], "invalid");
+        if (!failed && !(invalid > 0)) continue;
+        char *point = sweep_point_text(sweep, i % sweep->points);
+        const char *capture = sweep->captures.items[i / sweep->points];
+        if (failed) command_note(&cmd_sweep, "%s: %s: %s", capture, point, failed);
+        else command_note(&cmd_sweep, "%s: %s: NaN or infinite in %.0f pixels", capture, point, invalid);
+        free(point);
+        status = STATUS_CHECK;
+    }
+    return status;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {.sweep = {.rounds = 3, .pictures = true}, .seed = 1};
+    struct glint_error err = {0};
+    struct progress progress;
+    command_parse(&cmd_sweep, argc, argv, &a);
+    struct sweep *sweep = &a.sweep;
+    progress_begin(&progress);
+    sweep->progress = &progress;
+    bool ok = begin(&a, &err) && sweep_run(sweep, &err) && sweep_sum_up(sweep, &err) && write_tables(sweep, &err) &&
+              sweep_draw_fronts(sweep, &err) && sweep_write_page(sweep, &err);
+    progress_end(&progress);
+    enum status status = ok ? STATUS_DONE : command_fail(&cmd_sweep, &err);
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED)
+        command_note(&cmd_sweep, "%s keeps what was found; the same command goes on from there", sweep->out);
+    if (ok && a.json) status = print_json(sweep_json(sweep));
+    else if (ok) sweep_print(sweep);
+    if (ok && status == STATUS_DONE) status = report_failures(sweep);
+    sweep_finish(sweep);
+    if (sweep->device) glint_device_destroy(&sweep->device);
+    pipeline_args_finish(&a.pipeline);
+    list_free(&a.axes);
+    return status;
+}
+
+const struct command cmd_sweep = {
+    .name = "sweep",
+    .arguments = "F... -o FOLDER --vary NAMES=VALUES",
+    .summary = "accuracy against time over ranges of parameters and variants",
+    .description = "Replays captures with every combination of the values that --vary names, and finds the points that "
+                   "no other beats: "
+                   "less error for as much GPU time, and less error for as many texture fetches a pixel, which no "
+                   "device changes. The "
+                   "capture is uploaded once, and points are ordered so that only what changes from one to the next is "
+                   "run. Fog stays as the "
+                   "preset has it. The folder then holds the page index.html, a chart of each front as SVG, "
+                   "points.csv, points.json, pictures, and "
+                   "log.jsonl with a line for each result, written as it is found: the same command goes on after an "
+                   "interruption. Captures are "
+                   "taken each by itself, without the history of a shot. Times are of plain shaders after a warm-up; "
+                   "passes that several "
+                   "points have in common are measured once a round.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .values = values,
+    .run = run,
+};

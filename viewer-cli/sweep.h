@@ -1,0 +1,101 @@
+/* A sweep: every point of a space of pipelines on every capture, what was found so far, and what it says. */
+#ifndef GLINT_VIEWER_SWEEP_H
+#define GLINT_VIEWER_SWEEP_H
+
+#include <jansson.h>
+
+#include "args.h"
+#include "glint/judge.h"
+#include "glint/space.h"
+#include "progress.h"
+
+/* One point on one capture: lines of the log, as they were written. */
+struct sweep_row {
+    json_t *look;    /* NULL: not yet */
+    json_t **rounds; /* one for each timed round, NULL: not yet */
+};
+
+/* What nothing else beats, among the points that have a valid error. */
+struct sweep_front {
+    const char *name; /* "time", "fetches", "time_worst", "fetches_worst" */
+    const char *title;
+    bool time, worst;
+    bool *on;
+    size_t *points, count; /* those on it, from the cheapest */
+};
+enum { SWEEP_FRONTS = 4 };
+
+/* Over the captures. NAN where nothing is known. */
+struct sweep_sum {
+    double mean, worst;
+};
+struct sweep_point {
+    bool valid; /* an error on every capture */
+    struct sweep_sum error, frame_ms, cubemaps_ms, steps_px, fetches_px;
+    double low_ms, high_ms; /* of the rounds, mean over the captures */
+};
+
+struct sweep {
+    const char *out;
+    struct list captures;
+    struct glint_pipeline *base;
+    struct glint_space *space;
+    struct glint_device *device;
+    struct list references; /* run folders, one for each capture, or none */
+    bool truth;             /* which answer the errors of fronts are against */
+    bool whole, all, pictures;
+    uint32_t rounds, rays;
+    enum glint_metric metric;
+    uint32_t metrics;
+    struct progress *progress;
+
+    size_t points;
+    struct sweep_row *rows; /* capture · points + point */
+    int log;                /* file descriptor */
+    json_t *definition;
+    struct sweep_point *sums;
+    struct sweep_front fronts[SWEEP_FRONTS];
+    size_t front_count;
+};
+void sweep_finish(struct sweep *sweep);
+static inline struct sweep_row *sweep_row(const struct sweep *sweep, size_t capture, size_t point) {
+    return &sweep->rows[capture * sweep->points + point];
+}
+/* "screen_trace.steps=16 resolve.fog=true", malloc'd; NULL when memory is short. */
+char *sweep_point_text(const struct sweep *sweep, size_t point);
+/* "OUT/name"; the path is at most 4096 long. */
+bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], struct glint_error *err);
+
+/* sweep_log.c: OUT/sweep.json says what is swept, OUT/log.jsonl has a line for each result. */
+/* Begins the folder, or goes on: a folder that holds another sweep is an error that names the difference. */
+bool sweep_open(struct sweep *sweep, const char *const *axes, const char *sample, const struct list *shaders,
+                struct glint_error *err);
+/* Appends a line; it is there whole or not at all. Keeps the JSON in its row. */
+bool sweep_append(struct sweep *sweep, json_t *line, struct glint_error *err);
+
+/* sweep_run.c */
+/* Does what is missing. Points that fail are noted in the log and do not stop the others. */
+bool sweep_run(struct sweep *sweep, struct glint_error *err);
+/* Pictures of the points on fronts: how far each is off, and what changes from one to the next. */
+bool sweep_draw_fronts(struct sweep *sweep, struct glint_error *err);
+/* Names of pictures in OUT; "" for none. `what`: "picture", "error". */
+void sweep_picture_name(const char *what, size_t capture, size_t point, char name[96]);
+void sweep_change_name(size_t capture, size_t from, size_t to, char name[96]);
+
+/* sweep_sum.c */
+bool sweep_sum_up(struct sweep *sweep, struct glint_error *err);
+/* Figures of one row; NAN when it has none. */
+double sweep_figure(const struct sweep_row *row, const char *key);
+double sweep_error(const struct sweep_row *row, const char *answer, const char *class, enum glint_metric metric);
+/* Median of the rounds, with the lowest and the highest; NAN without any. `key`: "frame_ms", "cubemaps_ms". */
+double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const char *key, double *low, double *high);
+
+/* sweep_table.c */
+void sweep_print(const struct sweep *sweep);
+json_t *sweep_json(const struct sweep *sweep);
+char *sweep_csv(const struct sweep *sweep); /* malloc'd; NULL when memory is short */
+
+/* sweep_page.c: OUT/index.html, OUT/page.json and a chart for each front. */
+bool sweep_write_page(const struct sweep *sweep, struct glint_error *err);
+
+#endif
