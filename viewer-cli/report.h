@@ -32,9 +32,24 @@ bool report_ran(const json_t *pass);
 /* A column for each run; alone it needs no name. */
 void report_columns(json_t *table, const struct report *report, const char *unit);
 
+/* Columns of a table and the members of a run's list that fill them, "a.b" for b of a; numbers are multiplied by `scale`. */
+struct report_column {
+    const char *name, *key, *unit;
+    double scale;
+    bool interval; /* with its confidence interval, row.interval.KEY */
+};
+/* One list for each run, NULL for none; several runs' rows begin with their run's name. Columns end with a NULL name.
+   Nothing at all when the lists are empty. */
+void report_table(const struct report *report, const json_t *const *lists, const struct report_column *columns,
+                  json_t *blocks, const char *title);
+/* [low, high], or NULL. */
+const json_t *report_interval(const json_t *row, const char *key);
+
 bool report_pictures(const struct report *report, const char *const *images, struct glint_error *err);
 /* When runs were compared with something. */
 void report_errors(const struct report *report);
+/* When a run is a reference: its noise, and what it depends on. */
+void report_reference(const struct report *report);
 void report_times(const struct report *report);
 
 #endif

@@ -221,6 +221,7 @@ json_t *report_runs(const char *const *folders, size_t count, const char *const 
         add_facts(&r);
         if (count > 1) add_parameters(&r, true);
         ok = report_pictures(&r, images, err);
+        report_reference(&r);
         report_errors(&r);
         report_times(&r);
         add_plan(&r);

@@ -111,6 +111,30 @@ class Tests:
         glint(*arguments)
         assert not os.path.exists(os.path.join(self.path("c"), "errors.json"))
 
+    def test_a_reference_says_what_noise_is_left_and_what_it_assumed(self):
+        small = self.path("small.exr")
+        glint("sample", "mirror_box", "-o", small, "--size=48x27", "--cube-size=16")
+        glint("reference", small, "-o", self.path("reference"), "--rays=16", "--sensitivity=16")
+        reference = self.run_json("reference")["reference"]
+        self.show("reference")
+        assert "16 rays a pixel" in self.browser.evaluate("document.querySelector('main').textContent")
+        noise = {row[0]: row for row in self.table("Reference")}
+        for n in reference["noise"]:
+            assert abs(float(noise[n["surfaces"]][3]) - n["error"]) <= 0.06 * n["error"], (noise, n)  # two digits at least
+        changes = self.table("Reference", 1)
+        assert [(c[0], c[1]) for c in changes] == [(c["slot"], c["parameter"]) for c in reference["sensitivity"]["rows"]]
+        assert any(c["ran"] for c in reference["sensitivity"]["rows"])
+        for told, c in zip(changes, reference["sensitivity"]["rows"]):
+            assert (told[7] == "–") == (not c["ran"]), (told, c)
+        self.browser.quiet()
+
+    def test_classes_of_pixels_have_names_of_their_own(self):
+        self.show("a")
+        names = [row[0] for row in self.table("Error", 2)]
+        assert len(set(names)) == len(names) and "hit: farther" in names and "distance: farther" in names, names
+        intervals = self.browser.evaluate("document.querySelectorAll('td.interval').length")
+        assert intervals > len(names), intervals
+
     def test_what_cannot_be_reported_is_named(self):
         assert "nowhere" in glint("report", self.path("nowhere"), "-o", self.path("x.html"), status=1)
         assert "x.txt" in glint("report", self.path("a"), "-o", self.path("x.txt"), status=2)

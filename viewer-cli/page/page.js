@@ -179,6 +179,9 @@
         const order = points.map((_, k) => k).sort((a, b) => points[a].p.x - points[b].p.x || points[a].p.y - points[b].p.y);
         const state = {drawn: null, kept: -1, before: -1, at: -1};
 
+        /* what a point is of comes first */
+        const keys = read.y.scale === 'category' ? ['y', 'x'] : ['x', 'y'];
+
         function coordinate(key, p) {
             const axis = read[key];
             if (axis.scale === 'category') return [axis.name || 'category', list(axis.categories)[p[key]]];
@@ -196,7 +199,7 @@
             /* the point that was kept before is what this one is compared with */
             const {p, s} = points[k], before = points[state.kept === k ? state.before : state.kept]?.p;
             aside.replaceChildren(element('h4', null, p.name || s.name),
-                terms([coordinate('x', p), coordinate('y', p)], null), ...figures(p.pictures, list(before?.pictures)),
+                terms(keys.map(key => coordinate(key, p)), null), ...figures(p.pictures, list(before?.pictures)),
                 terms(list(p.values), before && list(before.values)));
         }
 
@@ -238,7 +241,7 @@
         function tip(index, d) {
             const q = points.find(q => places[q.series] === index && q.i === d?.point);
             if (!q) return null;
-            return element('div', null, element('b', null, q.p.name || q.s.name), terms([coordinate('x', q.p), coordinate('y', q.p)], null));
+            return element('div', null, element('b', null, q.p.name || q.s.name), terms(keys.map(key => coordinate(key, q.p)), null));
         }
 
         plot.addEventListener('keydown', e => {
@@ -252,7 +255,7 @@
             e.preventDefault();
         });
 
-        const table = points.length ? pointTable(read, points, coordinate, keep) : null;
+        const table = points.length ? pointTable(read, points, keys, coordinate, keep) : null;
         show(-1);
         charts.push({
             draw() {
@@ -271,14 +274,14 @@
             table ? element('details', null, element('summary', null, `Its ${points.length} points as a table`), table) : null);
     }
 
-    function pointTable(read, points, coordinate, keep) {
+    function pointTable(read, points, keys, coordinate, keep) {
         const names = [];
         for (const {p} of points) for (const [name, , unit] of list(p.values)) if (!names.some(n => n.name === name)) names.push({name, unit});
         const several = read.series.length > 1, named = points.some(({p}) => p.name);
         const columns = [...(several ? [{name: 'series'}] : []), ...(named ? [{name: 'point'}] : []),
-            ...['x', 'y'].map(key => ({name: coordinate(key, points[0].p)[0], unit: read[key].unit})), ...names];
+            ...keys.map(key => ({name: coordinate(key, points[0].p)[0], unit: read[key].unit})), ...names];
         const rows = points.map(({p, s}) => [...(several ? [s.name] : []), ...(named ? [p.name] : []),
-            coordinate('x', p)[1], coordinate('y', p)[1],
+            ...keys.map(key => coordinate(key, p)[1]),
             ...names.map(n => (list(p.values).find(v => v[0] === n.name) || [])[1])]);
         return tableElement({columns, rows}, keep);
     }
