@@ -8,6 +8,8 @@
 };
 #include "shared/facet_at.glsl"
 
+const float NO_SURFACE = -1.0; // nothing is behind it
+
 void store_facet(ivec2 at) {
     if (any(greaterThanEqual(at, imageSize(depth_slopes)))) return;
     float depth_m = texelFetch(depth_half, at, 0).x;
@@ -15,7 +17,9 @@ void store_facet(ivec2 at) {
     imageStore(depth_slopes, at, vec4(slopes, 0.0, 0.0));
     // The slopes are rounded to half, which moves the rise by less than a thousandth of it.
     float rise = 1.001 * facet_rise(slopes), fall = 2.0 * rise;
-    imageStore(hiz, at, vec4(depth_m / (1.0 + rise), fall < 1.0 ? depth_m / (1.0 - fall) : INFINITE, 0.0, 0.0));
+    float inverse = depth_m < LARGEST ? 1.0 / depth_m : 0.0;
+    vec2 range = inverse > 0.0 ? inverse * vec2(1.000001 + rise, max(1.0 - fall, 0.0)) : vec2(NO_SURFACE, 0.0);
+    imageStore(hiz, at, vec4(range, 0.0, 0.0));
 }
 
 // Two cells of the finer level along each axis, and a third where the finer level is odd and ends.
@@ -30,11 +34,11 @@ void main() {
     int level = int(dispatch_level) - 1;
     ivec2 last = textureSize(finer, level) - 1, first = 2 * at;
     ivec2 end = min(first + 1 + ivec2(equal(at, size - 1)), last);
-    vec2 range = vec2(INFINITE, 0.0);
+    vec2 range = vec2(NO_SURFACE, LARGEST);
     for (int y = first.y; y <= end.y; ++y)
         for (int x = first.x; x <= end.x; ++x) {
             vec2 cell = texelFetch(finer, ivec2(x, y), level).xy;
-            range = vec2(min(range.x, cell.x), max(range.y, cell.y));
+            range = vec2(max(range.x, cell.x), min(range.y, cell.y));
         }
     imageStore(hiz, at, vec4(range, 0.0, 0.0));
 }

@@ -7,7 +7,14 @@ struct CellRay {
     vec2 forward;                   // 1 for a component that grows, else 0
     float inverse, inverse_rate;    // 1/z = inverse + s · inverse_rate
     float end, texel;               // texel: one of them, along the axis that the ray goes along
+    uint limit;                     // what lies at the end, as an end reason
 };
+
+// Cells are whole numbers in floats, which hold them exactly: conversions cost as much as a division.
+// Where the ray leaves a cell of so many texels, one value an axis, by its far edges.
+vec2 cell_exits(CellRay ray, vec2 cell, float width) {
+    return ((cell + ray.forward) * width - ray.start) * ray.per_across;
+}
 
 // The sample of a texel lies in its middle: other texels of a reduced picture may hold another pixel of their block.
 CellRay cell_ray(ScreenRay ray, ivec2 texel) {
@@ -18,20 +25,19 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
     cells.forward = vec2(greaterThan(cells.per_across, vec2(0.0)));
     cells.inverse = ray.inverse;
     cells.inverse_rate = ray.inverse_rate;
-    cells.end = ray.end;
+    // Half a texel may lie between where the two leave the picture: a ray starts in its texel's middle here.
+    vec2 border = (cells.forward * vec2(frame.size.zw) - cells.start) * cells.per_across;
+    float leaves = min(border.x, border.y);
+    cells.end = min(ray.end, leaves);
+    cells.limit = leaves < ray.end ? END_left_screen : ray.limit;
     cells.texel = 1.0 / max(abs(cells.across.x), abs(cells.across.y));
     return cells;
 }
 
-precise float inverse_at(CellRay ray, float s) { return ray.inverse + s * ray.inverse_rate; }
+float inverse_at(CellRay ray, float s) { return fma(s, ray.inverse_rate, ray.inverse); }
 
-// Cells are whole numbers in floats, which hold them exactly: conversions cost as much as a division.
-// Where the ray leaves a cell of so many texels, one value an axis, by its far edges.
-precise vec2 cell_exits(CellRay ray, vec2 cell, float width) {
-    return ((cell + ray.forward) * width - ray.start) * ray.per_across;
-}
 // Where it came in, by the near edges.
-precise float cell_entry(CellRay ray, vec2 cell) {
+float cell_entry(CellRay ray, vec2 cell) {
     vec2 entries = (cell + 1.0 - ray.forward - ray.start) * ray.per_across;
     return max(max(entries.x, entries.y), 0.0);
 }
@@ -46,7 +52,7 @@ struct Crossing {
 // The ray's inverse depth less the facet's is linear within the texel: positive in front, negative behind. A surface that
 // a viewer sees is crossed from front to behind. A ray that is behind where it comes in and goes deeper met the surface's
 // plane before: within the last texel or so, where two surfaces meet, or by less than the thickness; or it passed a rim.
-precise Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float inverse, vec2 slopes) {
+Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float inverse, vec2 slopes) {
     vec2 rate = inverse * slopes * ray.across, from = (ray.start - cell - 0.5) * inverse * slopes;
     float at_start = ray.inverse - inverse - from.x - from.y, rise = ray.inverse_rate - rate.x - rate.y;
     float gap_in = at_start + s_in * rise, gap_out = at_start + s_out * rise;
@@ -66,12 +72,12 @@ vec2 cell_before(CellRay ray, vec2 cell) {
     return cell - (2.0 * ray.forward - 1.0) * (entries.x > entries.y ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
 }
 
-precise float facet_inverse(CellRay ray, vec2 cell, float s, float inverse, vec2 slopes) {
+float facet_inverse(CellRay ray, vec2 cell, float s, float inverse, vec2 slopes) {
     return (1.0 + dot(slopes, ray.start + s * ray.across - cell - 0.5)) * inverse;
 }
 
 // Whether two texels' surfaces meet at the border that a ray crosses at s: both are near the ray there.
-precise bool joined(CellRay ray, float s, vec2 cell, float inverse, vec2 slopes, vec2 before, float before_inverse,
+bool joined(CellRay ray, float s, vec2 cell, float inverse, vec2 slopes, vec2 before, float before_inverse,
                     vec2 before_slopes) {
     float here = inverse_at(ray, s);
     float apart = abs(facet_inverse(ray, cell, s, inverse, slopes) - here) +
@@ -94,7 +100,7 @@ void hide(inout Hidden hidden, CellRay ray, float s_in, float s_out) {
 // Behind a surface an object is taken to be `solid` times as deep as the way that a ray has gone hidden by it: one that
 // lies less far behind has met a side that the picture does not show. With t = s P.w/(1 - s D.w) the way is
 // (s_last - s_first) (1/P.w)/(u_first u_last) for inverse depths u, so that z - depth < solid · way needs no division.
-precise bool blocked(Hidden hidden, CellRay ray, float inverse) {
+bool blocked(Hidden hidden, CellRay ray, float inverse) {
     float behind = (inverse - inverse_at(ray, hidden.s_last)) * inverse_at(ray, hidden.s_first);
     return behind < solid * (hidden.s_last - hidden.s_first) * ray.inverse * inverse;
 }

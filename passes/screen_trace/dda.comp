@@ -12,7 +12,6 @@
 Result march(ScreenRay ray, ivec2 texel) {
     CellRay path = cell_ray(ray, texel);
     Result result = Result(0.0, false, END_steps_exhausted, 0u, 0u);
-    ivec2 last = ivec2(frame.size.zw) - 1;
     vec2 cell = vec2(texel), stride = 2.0 * path.forward - 1.0;
     precise float s_front = 0.0, s_in = 0.0;
     Hidden hidden = Hidden(0.0, 0.0);
@@ -53,16 +52,12 @@ Result march(ScreenRay ray, ivec2 texel) {
             s_front = s_out;
         }
         if (s_out >= path.end) {
-            result.end = ray.limit;
+            result.end = path.limit;
             break;
         }
         if (exits.x <= exits.y) cell.x += stride.x;
         else cell.y += stride.y;
         s_in = s_out;
-        if (any(lessThan(cell, vec2(0.0))) || any(greaterThan(cell, vec2(last)))) {
-            result.end = END_left_screen;
-            break;
-        }
     }
     result.travelled_m = travelled_at(ray, min(s_front, ray.end));
     return result;
