@@ -18,11 +18,11 @@
      {"title": T, "x": AXIS, "y": AXIS, "series": [SERIES, …], "marks": [MARK, …], "width": PX, "height": PX}
    AXIS: {"name": T, "unit": T, "scale": "linear" (default), "log" or "category", "min": A, "max": B, "ticks": [number, …],
           "categories": [T, …]}                a category axis in y makes bars lie
-   SERIES: {"name": T, "kind": "scatter", "line", "bar" or "front" (points joined by the staircase of what they beat, when
-            less is better on both axes), "stack": T (bars of one name stand on each other), "muted": BOOL (greyed: others
+   SERIES: {"name": T, "kind": "scatter", "line", "bar" or "front" (points joined by the staircase of what they offer
+            at a cost x), "stack": T (bars of one name stand on each other), "muted": BOOL (greyed: others
             matter more), "points": [POINT, …]}
    POINT: [x, y], or {"x": X, "y": Y, "x_low", "x_high", "low", "high": intervals, "name": T,
-          "values": [[NAME, CELL, UNIT], …], "pictures": [PICTURE, …]}
+          "values": [[NAME, CELL, UNIT], …], "pictures": [PICTURE, …]}; kept together with those of its name in other charts
                                              what the page shows of a point that is pointed at, clicked or reached by keys
           x (y of lying bars) of a category axis: the category's place from 0.
    MARK: {"x": X} or {"y": Y}: a line across; {"x": X, "y": Y}: a point; with "label": T.
@@ -45,7 +45,7 @@ enum { PAGE_PICTURE_BYTES = 14000000 };
 /* The document as HTML. Pictures' files are looked for below `folder`, never outside of it; NULL: there are none. One that
    cannot be read is an error. */
 bool page_write(const char *path, const json_t *document, const char *folder, struct glint_error *err);
-/* A CHART as SVG, about a second's half for the first of a process, a few hundredths for the next. */
+/* A CHART as SVG; takes some 0.4 s, whatever it shows. */
 bool page_chart_write(const char *path, const json_t *chart, struct glint_error *err);
 /* FOLDER/page.json, which `glint report FOLDER` renders again. */
 bool page_store(const char *folder, const json_t *document, struct glint_error *err);

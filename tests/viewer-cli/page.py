@@ -108,6 +108,20 @@ class Tests:
         assert "picture of many" in self.browser.evaluate(caption)
         self.browser.quiet()
 
+    def test_a_point_is_kept_in_every_chart_that_has_it(self):
+        few, many = point(1, 0.1, "few", 8, "red.png"), point(4, 0.02, "many", 64, "blue.png")
+        self.browser.show(report(self.folder, page(chart([few, many]), chart([{**many, "x": 2}, {**few, "x": 9}]), chart([[1, 1], [2, 1]]))))
+        self.browser.evaluate("document.querySelector('.plot').focus()")
+        for key in ("ArrowRight", "ArrowRight", "Enter"):
+            self.browser.key(key)
+        told = self.browser.evaluate("[...document.querySelectorAll('aside h4')].map(e => e.textContent)")
+        assert told == ["many", "many"], told
+        lines = self.browser.evaluate("[...document.querySelectorAll('tr.chosen')].map(e => e.cells[0].textContent)")
+        assert lines == ["many", "many"], lines
+        self.browser.key("Escape")
+        assert self.browser.evaluate("document.querySelectorAll('aside h4, tr.chosen').length") == 0
+        self.browser.quiet()
+
     def test_keys_reach_every_point(self):
         self.scatter()
         self.browser.evaluate("document.querySelector('.plot').focus()")

@@ -218,6 +218,13 @@
             go(k);
         }
 
+        /* The point of this name is kept in the other charts too. */
+        function choose(k) {
+            keep(k);
+            const name = points[k]?.p.name;
+            for (const c of charts) if (c.keep !== keep && (name || k < 0)) c.keep(k < 0 ? -1 : c.placeOf(name));
+        }
+
         function draw() {
             const look = glintChart[document.documentElement.dataset.look];
             if (state.drawn) state.drawn.dispose();
@@ -234,7 +241,7 @@
             const place = e => points.findIndex(q => places[q.series] === e.seriesIndex && q.i === e.data?.point);
             state.drawn.on('mouseover', e => { const k = place(e); if (k >= 0) go(k); });
             state.drawn.on('mouseout', () => go(state.kept));
-            state.drawn.on('click', e => { const k = place(e); if (k >= 0) keep(k); });
+            state.drawn.on('click', e => { const k = place(e); if (k >= 0) choose(k); });
             ring();
         }
 
@@ -249,15 +256,17 @@
             if (step && order.length) {
                 const at = order.indexOf(state.at);
                 go(order[at < 0 ? (step > 0 ? 0 : order.length - 1) : (at + step + order.length) % order.length]);
-            } else if (e.key === 'Enter' && state.at >= 0) keep(state.at);
-            else if (e.key === 'Escape') keep(-1);
+            } else if (e.key === 'Enter' && state.at >= 0) choose(state.at);
+            else if (e.key === 'Escape') choose(-1);
             else return;
             e.preventDefault();
         });
 
-        const table = points.length ? pointTable(read, points, keys, coordinate, keep) : null;
+        const table = points.length ? pointTable(read, points, keys, coordinate, choose) : null;
         show(-1);
         charts.push({
+            keep,
+            placeOf: name => points.findIndex(q => q.p.name === name),
             draw() {
                 try {
                     draw();
