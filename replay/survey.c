@@ -122,6 +122,11 @@ bool survey_fact(const struct glint_survey *survey, const char *fact, char *reas
         snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels reflect", survey->reflecting, survey->pixels);
         return survey->reflecting > 0;
     }
+    if (strcmp(fact, "reflections") == 0) { /* of whatever surface */
+        snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels reflect%s", survey->reflecting, survey->pixels,
+                 survey->has_transparent ? ", and a transparent surface" : "");
+        return survey->reflecting > 0 || survey->has_transparent;
+    }
     const bool smooth = strcmp(fact, "smooth") == 0;
     if (smooth || strcmp(fact, "rough") == 0) {
         const uint64_t count = smooth ? survey->smooth : survey->reflecting - survey->smooth;

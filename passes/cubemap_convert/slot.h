@@ -3,5 +3,5 @@
 SLOT("The active cube maps in another projection")
 READ(textureCubeArray, cubemap_color)
 WRITE(image2DArray, paraboloids, RGBA16F, "radiance", PARABOLOIDS_MIPS, "R G B A", 0, "two hemispheres for each cube map, about frame.up, upper one first (shared/paraboloid.glsl); rgb is weighted by a, the share that is not sky")
-NEEDS(reflecting)
+NEEDS(reflections)
 NEEDS(cubemaps)

@@ -10,5 +10,5 @@ WRITE(image2D, normal_half, RGBA16F, "1", HALF, "X Y Z roughness", 0, "unit norm
 WRITE(image2D, cone_half, R16F, "rad", HALF, "angle", 0, "half-angle of the cone that the ray stands for: what the cut left of the lobe; 0: a ray")
 WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was taken: x + 2y; 4: the block's centre")
 DISPATCH(depth_half)
-NEEDS(reflecting)
+NEEDS(reflections)
 PER_RAY

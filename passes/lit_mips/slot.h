@@ -3,4 +3,4 @@
 SLOT("MIP chain of the picture that screen hits look up")
 READ(texture2D, lit)
 WRITE(image2D, lit_mips, RGBA16F, "radiance", FULL_MIPS, "R G B A", 0, "lit at level 0; coarser ones stand for a cone")
-NEEDS(reflecting)
+NEEDS(reflections)

@@ -3,4 +3,4 @@
 SLOT("MIP chain of the sky")
 READ(texture2DArray, sky)
 WRITE(image2DArray, sky_mips, RGBA16F, "radiance", SKY_MIPS, "R G B A", 0, "sky at level 0; coarser ones stand for a cone")
-NEEDS(reflecting)
+NEEDS(reflections)

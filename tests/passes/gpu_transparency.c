@@ -98,6 +98,10 @@ static void at_wall(uint32_t number, const double direction[3], float out[5]) {
 
 /* Looks towards the viewer, at 3 m, in the left half; the water is at 4 m, and in the upper third at 2 m. */
 static float pane_roughness;
+static void matte(const struct plain *plain, float *values) {
+    memset(values + (size_t)PLAIN_SPECULAR * plain->width * plain->height, 0,
+           sizeof *values * plain->width * plain->height);
+}
 static void pane_at(uint32_t x, uint32_t y, float out[9]) {
     const float values[9] = {0.25f, 0.5f, 0.75f, 0.5f, 0, 0, 1, x < SIDE / 2 ? 3 : INFINITY, pane_roughness};
     (void)y;
@@ -109,7 +113,7 @@ static void water_at(uint32_t x, uint32_t y, float out[9]) {
     memcpy(out, values, sizeof values);
 }
 
-static void load_plain(struct gpu *gpu, bool water, float roughness) {
+static void load_plain(struct gpu *gpu, bool water, float roughness, void (*spoil)(const struct plain *, float *)) {
     char path[256];
     pane_roughness = roughness;
     plain_capture(gpu_path(gpu, "panes", path), &(struct plain){.width = SIDE,
@@ -119,6 +123,7 @@ static void load_plain(struct gpu *gpu, bool water, float roughness) {
                                                                 .cube_count = 1,
                                                                 .cube = at_wall,
                                                                 .pane = pane_at,
+                                                                .spoil = spoil,
                                                                 .water = water ? water_at : NULL});
     gpu_load(gpu, "panes");
     gpu_reset(gpu);
@@ -129,7 +134,7 @@ static void load_plain(struct gpu *gpu, bool water, float roughness) {
 /* One pipeline: panes lie over the water, unless the water is before them. */
 static void panes_lie_over_water(void **state) {
     struct gpu *gpu = *state;
-    load_plain(gpu, true, 0);
+    load_plain(gpu, true, 0, NULL);
     gpu_use(gpu, "water=combine");
     gpu_set(gpu, "transparency.intensity=0");
     gpu_run(gpu);
@@ -149,7 +154,7 @@ static void panes_lie_over_water(void **state) {
     assert_true(over > 0 && wet == SIDE * SIDE);
     free(water), free(all), free(composed);
     /* Without water the same pipeline lays them over the opaque picture. */
-    load_plain(gpu, false, 0);
+    load_plain(gpu, false, 0, NULL);
     gpu_use(gpu, "water=combine");
     gpu_set(gpu, "transparency.intensity=0");
     gpu_run(gpu);
@@ -161,11 +166,25 @@ static void panes_lie_over_water(void **state) {
     free(all), free(composed);
 }
 
+/* A pane reflects where nothing else does: what its rays are traced through is made all the same. */
+static void panes_reflect_in_a_matte_scene(void **state) {
+    struct gpu *gpu = *state;
+    float *color[2];
+    for (int i = 0; i < 2; ++i) {
+        load_plain(gpu, false, 0, i ? matte : NULL);
+        gpu_run(gpu);
+        color[i] = gpu_floats(gpu, "transparent_reflection", NULL, NULL);
+    }
+    assert_memory_equal(color[0], color[1], SIDE * SIDE / 4 * 4 * sizeof *color[0]);
+    assert_true(color[0][4 * (SIDE / 4 * SIDE / 2 + SIDE / 8) + 2] > 0.5f); /* behind the viewer */
+    for (int i = 0; i < 2; ++i) free(color[i]);
+}
+
 /* A smooth pane has its mirror ray to the bit. Rays of a rough one are drawn from its lobe, and several a pixel are averaged. */
 static void panes_have_their_roughness(void **state) {
     struct gpu *gpu = *state;
     double variance[2];
-    load_plain(gpu, false, 0);
+    load_plain(gpu, false, 0, NULL);
     gpu_run(gpu);
     float *normal = gpu_floats(gpu, "transparent_normal_jittered", NULL, NULL);
     for (uint32_t i = 0; i < SIDE * SIDE / 4; ++i) {
@@ -174,7 +193,7 @@ static void panes_have_their_roughness(void **state) {
     }
     free(normal);
     for (int many = 0; many < 2; ++many) {
-        load_plain(gpu, false, 0.4f);
+        load_plain(gpu, false, 0.4f, NULL);
         gpu_set(gpu, "transparent_screen_trace.length_m=0");
         gpu_set(gpu, many ? "pipeline.rays=16" : "pipeline.rays=1");
         gpu_run(gpu);
@@ -199,6 +218,7 @@ int main(void) {
         cmocka_unit_test(every_part_of_it_brings_the_picture_nearer),
         cmocka_unit_test(a_frame_without_glass_leaves_it_out),
         cmocka_unit_test(panes_lie_over_water),
+        cmocka_unit_test(panes_reflect_in_a_matte_scene),
         cmocka_unit_test(panes_have_their_roughness),
     };
     return cmocka_run_group_tests_name("gpu_transparency", tests, gpu_set_up, gpu_tear_down);
