@@ -49,6 +49,7 @@ LINEAR = ["use screen_trace=linear", "use hiz=none"]
 CUBES = MIRROR + ["set screen_trace.length_m=0"]
 HISTORY = ["use temporal=rough", "use temporal_sharp=clamped"]
 CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
+COCOON_ALONE = CUBES + ["set cubemap_trace.depth=captured", "set cubemap_trace.cocoon_start=surface"]
 LQ_AS_HQ = "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
 
 # (step, mechanism, scene, what both have, what turns it off, what is looked at[, what is traded for it])
@@ -119,8 +120,11 @@ ROWS = [
     ("cube-map trace", "HQ/LQ split", "full:street", [], LQ_AS_HQ, TIME),
     ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", SMOOTH, "fetches for error"),
     ("cube-map trace", "cocoon caps the sky", "street", CAPPED, "set cubemap_trace.depth=captured", COST),
-    ("cocoon", "weighted maximum", "room", [*CUBES, "set cubemap_trace.depth=captured"], "set cocoon.reach=0", FALLEN),
-    ("cocoon", "maximum of pairs", "street", [*CUBES, "set cubemap_trace.depth=captured"], "set cocoon.maximum=samples", FALLEN),
+    ("cocoon", "weighted maximum", "room", COCOON_ALONE, "set cocoon.reach=0", FALLEN),
+    ("cocoon", "from where the ray stopped", "room", MIRROR, "set cubemap_trace.cocoon_start=surface", FALLEN),
+    ("cocoon", "ends inside of things", "room", MIRROR, "set cubemap_trace.solid=0", FALLEN),
+    ("cocoon", "ends inside of things", "hotel", MIRROR, "set cubemap_trace.solid=0", FALLEN),
+    ("cocoon", "maximum of pairs", "street", COCOON_ALONE, "set cocoon.maximum=samples", FALLEN),
     ("cocoon", "sky capped in finer levels", "street", CAPPED, "set cocoon.cap_sky=false", COST),
     ("classification", "lists of pixels with a ray", "full:street", ["use classify=tiles"], "use classify=none", TIME,
      "the pass that makes the list"),
@@ -187,6 +191,8 @@ REASONS = {
     ("HQ/LQ split", "ms of all passes"): "it saves 3 % of the fetches",
     ("lists of pixels with a ray", None): "nearly every pixel of the scenes reflects: making the list costs more than the rays that it leaves out",
     ("lists of unfinished pixels", None): "a wave without a ray ends at once: making the list costs more than that",
+    ("ends inside of things", None): "the things of hotel are slender for the size of its rooms: of the rays that stop inside the cocoon 57 % truly "
+    "go on beyond, of room's 41 %",
     ("bilinear colour", None): "a mirror shows texels as they are: what is smoothed between them is as often wrong as right",
     ("depth in the match", None): "where depth parts two surfaces, their normals or roughness nearly always differ too; rails, steps and "
     "leaves of the scenes do",

@@ -99,25 +99,38 @@ void end_on_cap(inout Result result, float roughness) {
     if (roughness <= hq_roughness) end_in_sky(result);
 }
 
+// A place in a shadow lies between two surfaces that the cube map knows: the one that hides it and the cocoon. Objects are
+// taken to be `solid` times as deep as the way from the one to the other: a place that is less far behind lies inside of
+// one, and so does one outside of the cocoon, d - seen < solid (hull - seen) with hull = d / gauge.
+bool in_something(vec3 from_center, uint place, inout Result result) {
+    float gauge = cocoon_gauge(cocoon, from_center, place), distance_m = length(from_center);
+    float seen_m = seen_in(cubemap_distance, from_center, place, 0), behind_m = distance_m - seen_m;
+    result.fetches += 2u;
+    if (!(gauge > 0.0)) return false; // all sky
+    return gauge > 1.0 || (behind_m > 0.0 && behind_m * gauge < solid * (distance_m - seen_m * gauge));
+}
+
 // Where a ray ends that no cube map could follow. What has no end in the cocoon is looked up by its direction; what ends
 // where it caps the sky, in the sky.
-void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, float roughness, uint reason) {
-    bool from_surface = fallback_start == fallback_start_surface;
+void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, float roughness) {
     if (fallback == fallback_black) {
         result.place = NO_PLACE;
-    } else if (fallback == fallback_cocoon) {
-        float start_m = from_surface ? 0.0 : result.travelled_m;
-        vec3 start = origin + start_m * direction - center_of(best);
-        float end_m = leaves_cocoon(cocoon, start, direction, best, COCOON_STEPS, COCOON_REFINEMENTS);
-        result.fetches += uint(COCOON_STEPS + 1 + COCOON_REFINEMENTS);
-        result.place = best;
-        result.travelled_m = end_m < 0.0 ? INFINITE : start_m + end_m;
-        if (end_m >= 0.0 && sees_sky(start + end_m * direction, result)) end_on_cap(result, roughness);
-    } else if (from_surface) {
-        result.place = best;
-        result.travelled_m = INFINITE;
+        return;
     }
-    result.end = reason;
+    result.place = best;
+    if (fallback == fallback_lookup) {
+        if (lookup == lookup_direction) result.travelled_m = INFINITE;
+        return;
+    }
+    bool stopped = cocoon_start == cocoon_start_stopped;
+    float start_m = stopped ? result.travelled_m : 0.0, end_m = 0.0;
+    vec3 start = origin + start_m * direction - center_of(best);
+    if (!(stopped && in_something(start, best, result))) {
+        end_m = leaves_cocoon(cocoon, start, direction, best, COCOON_STEPS, COCOON_REFINEMENTS);
+        result.fetches += uint(COCOON_STEPS + 1 + COCOON_REFINEMENTS);
+    }
+    result.travelled_m = end_m < 0.0 ? INFINITE : start_m + end_m;
+    if (end_m >= 0.0 && sees_sky(start + end_m * direction, result)) end_on_cap(result, roughness);
 }
 
 // A sample of the ray: its parameter and how far it lies behind the surface that is seen in its direction, < 0 in front.
@@ -189,7 +202,8 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         }
         if (++used >= longest) {
             result.travelled_m = now.t;
-            fall_back(result, origin, direction, best, quality.roughness, END_shadow_region);
+            fall_back(result, origin, direction, best, quality.roughness);
+            result.end = END_shadow_region;
             return result;
         }
         result.place = texelFetch(active_chain, ivec2(used, best), 0).x;
@@ -212,7 +226,8 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     } else if (now.cap) {
         end_on_cap(result, quality.roughness);
     } else if (exhausted == exhausted_fallback) {
-        fall_back(result, origin, direction, best, quality.roughness, END_steps_exhausted);
+        fall_back(result, origin, direction, best, quality.roughness);
+        result.end = END_steps_exhausted;
     } else if (exhausted == exhausted_direction) {
         result.travelled_m = INFINITE;
     }

@@ -1,4 +1,4 @@
-/* The cocoon against maxima made here, level by level, and the fallback trace through it against a sphere. */
+/* The cocoon against maxima made here, level by level. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "cocoon_walk.h"
 #include "gpu.h"
 #include "plain_capture.h"
 
@@ -61,22 +62,6 @@ static double nearest_texel(const float *cube, uint32_t size, const double d[3])
     return (double)cube[at];
 }
 
-/* Place on a face, in [0, 1]², by the two directions that span it. */
-static uint32_t place_on_face(const double d[3], double place[2]) {
-    uint32_t axis = fabs(d[0]) >= fabs(d[1]) && fabs(d[0]) >= fabs(d[2]) ? 0 : fabs(d[1]) >= fabs(d[2]) ? 1 : 2;
-    uint32_t face = 2 * axis + (d[axis] < 0);
-    double origin[3], right[3], down[3];
-    plain_direction(face, 0, 0, 1, origin);
-    plain_direction(face, 0.5, 0, 1, right);
-    plain_direction(face, 0, 0.5, 1, down);
-    place[0] = place[1] = 0.5;
-    for (uint32_t k = 0; k < 3; ++k) {
-        place[0] += 0.5 * d[k] / fabs(d[axis]) * (right[k] * sqrt(2) - origin[k]);
-        place[1] += 0.5 * d[k] / fabs(d[axis]) * (down[k] * sqrt(2) - origin[k]);
-    }
-    return face;
-}
-
 static struct bounds lookup(const float *cube, uint32_t size, const double d[3]) {
     double place[2];
     uint32_t face = place_on_face(d, place);
@@ -127,13 +112,7 @@ static struct bounds weighted_max(const float *coarser, uint32_t size, const dou
     return out;
 }
 
-enum {
-    WALK = 4096,
-    SIZE = 32,
-    COCOON = 2 /* the level that is 8 wide */,
-    COARSEST = 5,
-    WIDTH = 32 /* of the cocoon alone */
-};
+enum { SIZE = 32, COCOON = 2 /* the level that is 8 wide */, COARSEST = 5, WIDTH = COCOON_WIDTH };
 
 /* Top-down by its definition: a texel is the farthest of all base texels under it that are not sky. */
 static double farthest(const float *base, uint32_t level, uint32_t face, uint32_t x, uint32_t y) {
@@ -257,163 +236,10 @@ static void all_sky_stays_sky_and_one_texel_works(void **state) {
     }
 }
 
-static const double radius = 3.2;
-static void sphere(uint32_t number, const double d[3], float out[5]) {
-    (void)number;
-    (void)d;
-    out[0] = out[1] = out[2] = out[3] = 1;
-    out[4] = (float)radius;
-}
-
-/* A room with a pillar's worth of poles, and a window to the sky. The centre is not in its middle. */
-static const double low_corner[3] = {-4, -1.5, -3.2}, high_corner[3] = {3, 2, 5};
-static void box(uint32_t number, const double d[3], float out[5]) {
-    double distance = INFINITY;
-    (void)number;
-    for (int k = 0; k < 3; ++k) distance = fmin(distance, (d[k] < 0 ? low_corner[k] : high_corner[k]) / d[k]);
-    bool window = distance * d[0] > 2.99 && fabs(distance * d[1]) < 1 && distance * d[2] > 0 && distance * d[2] < 2;
-    out[0] = out[1] = out[2] = out[3] = window ? 0 : 1;
-    out[4] = window ? INFINITY : (float)distance;
-}
-
-/* |v| / distance, between four samples. */
-static double gauge(const float *cocoon, const double v[3]) {
-    double place[2], major = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (major == 0) return 0;
-    uint32_t face = place_on_face(v, place), x = (uint32_t)fmin(fmax(place[0], 0) * (WIDTH - 1), WIDTH - 2),
-             y = (uint32_t)fmin(fmax(place[1], 0) * (WIDTH - 1), WIDTH - 2);
-    double a = place[0] * (WIDTH - 1) - x, b = place[1] * (WIDTH - 1) - y;
-    const float *s = cocoon + (face * WIDTH + y) * WIDTH + x;
-    return major * ((1 - b) * ((1 - a) * (double)s[0] + a * (double)s[1]) +
-                    b * ((1 - a) * (double)s[WIDTH] + a * (double)s[WIDTH + 1]));
-}
-
-/* The first way out, by small even steps of the angle; < 0: the ray is never inside. `stays`: by how many of them the
-   ray was inside, at most. */
-static double walk(const float *cocoon, const double start[3], const double d[3], int *stays) {
-    double reach = sqrt(start[0] * start[0] + start[1] * start[1] + start[2] * start[2]), before = 0;
-    *stays = 0;
-    for (int i = 0; i < WALK; ++i) {
-        double w = (double)i / WALK, v[3];
-        for (int k = 0; k < 3; ++k) v[k] = (1 - w) * start[k] + w * reach * d[k];
-        double gap = gauge(cocoon, v) - (1 - w);
-        if (gap <= 0) ++*stays;
-        else if (*stays) {
-            w -= gap / (gap - before) / WALK;
-            return reach * w / (1 - w);
-        }
-        before = gap;
-    }
-    return -1;
-}
-
-struct ends {
-    size_t inside, enters, missed, known, right; /* known: to the closed form; right: within 15 % of it */
-    size_t near;                                 /* near: within 1 % of the walk, of where its end is from the centre */
-    double low, high;                            /* least and greatest of found / closed form - 1 */
-};
-
-/* No crossing counts as a hit, so that every ray that ends falls back; mirror rays off the wall z = -5 m, which are also
-   followed through the same cocoon by small steps. */
-static void fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, const double *, float *),
-                      double center_z, double (*closed_form)(const double *, const double *), struct ends *ends) {
-    char path[256];
-    struct plain plain = {.width = 96,
-                          .height = 54,
-                          .fov_y_degrees = 60,
-                          .cube_size = 64,
-                          .cube_count = 1,
-                          .cube = cube,
-                          .roughness = 0.2F};
-    plain.cubes[0].center[2] = center_z;
-    plain_capture(gpu_path(gpu, name, path), &plain);
-    gpu_load(gpu, name);
-    gpu_reset(gpu);
-    gpu->float_precision = true;
-    gpu_use(gpu, "cocoon=max");
-    const char *const settings[] = {"downsample.jitter=false",          "screen_trace.length_m=0",
-                                    "cubemap_trace.depth=captured",     "cubemap_trace.fallback=cocoon",
-                                    "cubemap_trace.exhausted=fallback", "cubemap_trace.mass_m=0",
-                                    "cubemap_trace.mass_step=0"};
-    for (size_t k = 0; k < sizeof settings / sizeof settings[0]; ++k) gpu_set(gpu, settings[k]);
-    gpu_run(gpu);
-    uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
-    float *travelled = gpu_floats(gpu, "travelled", NULL, NULL), *cocoon = gpu_floats(gpu, "cocoon", NULL, NULL);
-    for (uint32_t i = 0; i < width * height; ++i) {
-        /* The point on the wall and its ray, from the camera at the origin. */
-        double scale = 5 * tan(3.14159265358979323846 / 6) / 27;
-        double px = scale * (2 * (i % width) + (pick[i] & 1) + 0.5 - 48),
-               py = -scale * (2 * (i / width) + (pick[i] >> 1) + 0.5 - 27);
-        double length = sqrt(px * px + py * py + 25), d[3] = {px / length, py / length, 5 / length};
-        double start[3] = {px, py, -5 - center_z}, exact = closed_form(start, d);
-        int stays;
-        double expected = walk(cocoon, start, d, &stays);
-        if (isinf(travelled[i])) {
-            /* What is inside for less than a step of an eighth of the angle may be missed. */
-            if (stays >= WALK / 8)
-                fail_msg("%s, pixel %u: inside for %d of %d steps, but not found", name, i, stays, WALK);
-            ++ends->missed;
-            continue;
-        }
-        if (expected < 0) fail_msg("%s, pixel %u: %g, but never inside", name, i, (double)travelled[i]);
-        gauge(cocoon, start) <= 1 ? ++ends->inside : ++ends->enters;
-        const double reach = sqrt(start[0] * start[0] + start[1] * start[1] + start[2] * start[2]);
-        ends->near += fabs((double)travelled[i] - expected) < 0.01 * (expected + reach);
-        if (exact < 0) continue; /* starts outside of the closed form */
-        ++ends->known;
-        ends->right += fabs((double)travelled[i] / exact - 1) < 0.15;
-        ends->low = fmin(ends->low, (double)travelled[i] / exact - 1);
-        ends->high = fmax(ends->high, (double)travelled[i] / exact - 1);
-    }
-    print_message(
-        "# %s: start inside %zu, come in %zu, not found %zu; %zu within 1 %% of a walk; against the closed form "
-        "%.2f to %.2f %%, %zu of %zu within 15 %%\n",
-        name, ends->inside, ends->enters, ends->missed, ends->near, 100 * ends->low, 100 * ends->high, ends->right,
-        ends->known);
-    free(cocoon);
-    free(travelled);
-    free(pick);
-}
-
-static double out_of_sphere(const double start[3], const double d[3]) {
-    double half_b = 0, c = -radius * radius;
-    for (int k = 0; k < 3; ++k) half_b += start[k] * d[k], c += start[k] * start[k];
-    double root = half_b * half_b - c;
-    return root < 0 ? -1 : sqrt(root) - half_b;
-}
-
-static double out_of_box(const double start[3], const double d[3]) {
-    double first = -INFINITY, last = INFINITY;
-    for (int k = 0; k < 3; ++k) {
-        double a = (low_corner[k] - start[k]) / d[k], b = (high_corner[k] - start[k]) / d[k];
-        first = fmax(first, fmin(a, b));
-        last = fmin(last, fmax(a, b));
-    }
-    return first > 0 || first > last ? -1 : last;
-}
-
-static void the_fallback_ends_where_the_ray_leaves_the_cocoon(void **state) {
-    struct ends in_sphere = {0}, in_box = {0};
-    fall_back(*state, "sphere", sphere, -2, out_of_sphere, &in_sphere);
-    assert_true(in_sphere.inside > 50 && in_sphere.enters > 200 && in_sphere.missed > 200);
-    assert_true((double)in_sphere.near >= 0.95 * (double)(in_sphere.inside + in_sphere.enters));
-    /* Bilinear samples, 2/31 apart, stand up to (2/31)²/4 = 0.1 % inside a sphere, and a ray that grazes it ends ten
-       times as far off. */
-    assert_true(in_sphere.low > -0.015 && in_sphere.high < 0.001);
-    fall_back(*state, "box", box, -2, out_of_box, &in_box);
-    assert_true(in_box.inside > 500);
-    assert_true((double)in_box.near >= 0.95 * (double)(in_box.inside + in_box.enters));
-    /* A texel of the level below holds the farthest of what it covers, 2/16 of a face's half; between two of them the
-       corner of two walls is cut by half of that, 3 % where a ray meets a wall as steeply as these. */
-    assert_true(in_box.low > -0.03);
-    assert_true(2 * in_box.right > in_box.known); /* the same texel moves walls away by up to 12 % */
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_level_is_the_slides_maximum),
         cmocka_unit_test(all_sky_stays_sky_and_one_texel_works),
-        cmocka_unit_test(the_fallback_ends_where_the_ray_leaves_the_cocoon),
     };
     return cmocka_run_group_tests_name("gpu_cocoon", tests, gpu_set_up, gpu_tear_down);
 }

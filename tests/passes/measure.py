@@ -20,7 +20,7 @@ CUBEMAP = [
     'defaults', 'mass_step=0', 'mass_step=1', 'mass_step=2', 'mass_step=5', 'mass=radial', 'mass_m=0', 'mass_m=0.3',
     'mass_m=1e6', 'verify=false', 'verify_part=0.005', 'verify_part=0.05', 'bilinear=false', 'clamp_part=0.01',
     'clamp_part=100', 'bias=0', 'bias=0.002', 'bias=0.01', 'secant=false', 'step_back=false', 'random_scale=false',
-    'chain=1', 'chain=2', 'exhausted=direction', 'exhausted=fallback', 'fallback=black', 'fallback_start=stopped',
+    'chain=1', 'chain=2', 'exhausted=direction', 'exhausted=fallback', 'fallback=black', 'fallback=lookup', 'cocoon_start=surface', 'solid=0',
     'steps_hq=48 first_step_m=0.3', 'steps_hq=256 first_step_m=0.05 refinements=8']
 
 
@@ -67,7 +67,7 @@ def main():
         tables = {
             'screen_trace': table(glint, captures, 'screen_trace', 'screen', SCREEN, []),
             'cubemap_trace': table(glint, captures, 'cubemap_trace', 'cube map', CUBEMAP, ['screen_trace.length_m=0']),
-            'together': table(glint, captures, 'cubemap_trace', 'cube map', CUBEMAP[:1] + ['fallback_start=stopped', 'fallback=black', 'exhausted=direction', 'exhausted=fallback'], [])}
+            'together': table(glint, captures, 'cubemap_trace', 'cube map', CUBEMAP[:1] + ['cocoon_start=surface', 'solid=0', 'fallback=lookup', 'fallback=black', 'exhausted=direction', 'exhausted=fallback'], [])}
     if len(sys.argv) < 3:
         print('\n\n'.join(tables.values()))
         return

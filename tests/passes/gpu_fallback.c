@@ -1,0 +1,261 @@
+/* Rays that fall back on the cocoon, against a walk through it by small steps, a sphere and a box. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "cocoon_walk.h"
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum {
+#define REASON(name, ...) END_##name,
+#include "shared/end_reasons.h"
+#undef REASON
+};
+
+static const double radius = 3.2;
+static void sphere(uint32_t number, const double d[3], float out[5]) {
+    (void)number;
+    (void)d;
+    out[0] = out[1] = out[2] = out[3] = 1;
+    out[4] = (float)radius;
+}
+
+/* A room with a pillar's worth of poles, and a window to the sky. The centre is not in its middle. */
+static const double low_corner[3] = {-4, -1.5, -3.2}, high_corner[3] = {3, 2, 5};
+static void box(uint32_t number, const double d[3], float out[5]) {
+    double distance = INFINITY;
+    (void)number;
+    for (int k = 0; k < 3; ++k) distance = fmin(distance, (d[k] < 0 ? low_corner[k] : high_corner[k]) / d[k]);
+    bool window = distance * d[0] > 2.99 && fabs(distance * d[1]) < 1 && distance * d[2] > 0 && distance * d[2] < 2;
+    out[0] = out[1] = out[2] = out[3] = window ? 0 : 1;
+    out[4] = window ? INFINITY : (float)distance;
+}
+
+struct ends {
+    size_t inside, enters, missed, known, right; /* known: to the closed form; right: within 15 % of it */
+    size_t near;                                 /* near: within 1 % of the walk, of where its end is from the centre */
+    double low, high;                            /* least and greatest of found / closed form - 1 */
+};
+
+/* Mirror rays off the wall z = -5 m, from the camera at the origin. No crossing counts as a hit, so that every ray that
+   ends falls back. */
+static void start_to_fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, const double *, float *),
+                               double center_z) {
+    char path[256];
+    struct plain plain = {.width = 96,
+                          .height = 54,
+                          .fov_y_degrees = 60,
+                          .cube_size = 64,
+                          .cube_count = 1,
+                          .cube = cube,
+                          .roughness = 0.2F};
+    plain.cubes[0].center[2] = center_z;
+    plain_capture(gpu_path(gpu, name, path), &plain);
+    gpu_load(gpu, name);
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "cocoon=max");
+    const char *const settings[] = {"downsample.jitter=false",          "screen_trace.length_m=0",
+                                    "cubemap_trace.depth=captured",     "cubemap_trace.fallback=cocoon",
+                                    "cubemap_trace.exhausted=fallback", "cubemap_trace.mass_m=0",
+                                    "cubemap_trace.mass_step=0"};
+    for (size_t k = 0; k < sizeof settings / sizeof settings[0]; ++k) gpu_set(gpu, settings[k]);
+}
+
+/* The point on the wall of texel i, from the cube map's centre, and its ray. */
+static void ray_of(uint32_t i, uint32_t width, uint32_t pick, double center_z, double start[3], double d[3]) {
+    double scale = 5 * tan(3.14159265358979323846 / 6) / 27;
+    double px = scale * (2 * (i % width) + (pick & 1) + 0.5 - 48),
+           py = -scale * (2 * (i / width) + (pick >> 1) + 0.5 - 27);
+    double length = sqrt(px * px + py * py + 25);
+    const double from[3] = {px, py, -5 - center_z}, along[3] = {px / length, py / length, 5 / length};
+    memcpy(start, from, sizeof from);
+    memcpy(d, along, sizeof along);
+}
+
+/* Rays are also followed through the same cocoon by small steps. */
+static void fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, const double *, float *),
+                      double center_z, double (*closed_form)(const double *, const double *), struct ends *ends) {
+    start_to_fall_back(gpu, name, cube, center_z);
+    gpu_set(gpu, "cubemap_trace.cocoon_start=surface");
+    gpu_run(gpu);
+    uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
+    float *travelled = gpu_floats(gpu, "travelled", NULL, NULL), *cocoon = gpu_floats(gpu, "cocoon", NULL, NULL);
+    for (uint32_t i = 0; i < width * height; ++i) {
+        double start[3], d[3];
+        ray_of(i, width, pick[i], center_z, start, d);
+        double exact = closed_form(start, d);
+        int stays;
+        double expected = cocoon_walk(cocoon, start, d, &stays);
+        if (isinf(travelled[i])) {
+            /* What is inside for less than a step of an eighth of the angle may be missed. */
+            if (stays >= COCOON_WALK / 8)
+                fail_msg("%s, pixel %u: inside for %d of %d steps, but not found", name, i, stays, COCOON_WALK);
+            ++ends->missed;
+            continue;
+        }
+        if (expected < 0) fail_msg("%s, pixel %u: %g, but never inside", name, i, (double)travelled[i]);
+        cocoon_gauge(cocoon, start) <= 1 ? ++ends->inside : ++ends->enters;
+        const double reach = sqrt(start[0] * start[0] + start[1] * start[1] + start[2] * start[2]);
+        ends->near += fabs((double)travelled[i] - expected) < 0.01 * (expected + reach);
+        if (exact < 0) continue; /* starts outside of the closed form */
+        ++ends->known;
+        ends->right += fabs((double)travelled[i] / exact - 1) < 0.15;
+        ends->low = fmin(ends->low, (double)travelled[i] / exact - 1);
+        ends->high = fmax(ends->high, (double)travelled[i] / exact - 1);
+    }
+    print_message(
+        "# %s: start inside %zu, come in %zu, not found %zu; %zu within 1 %% of a walk; against the closed form "
+        "%.2f to %.2f %%, %zu of %zu within 15 %%\n",
+        name, ends->inside, ends->enters, ends->missed, ends->near, 100 * ends->low, 100 * ends->high, ends->right,
+        ends->known);
+    free(cocoon);
+    free(travelled);
+    free(pick);
+}
+
+static double out_of_sphere(const double start[3], const double d[3]) {
+    double half_b = 0, c = -radius * radius;
+    for (int k = 0; k < 3; ++k) half_b += start[k] * d[k], c += start[k] * start[k];
+    double root = half_b * half_b - c;
+    return root < 0 ? -1 : sqrt(root) - half_b;
+}
+
+static double out_of_box(const double start[3], const double d[3]) {
+    double first = -INFINITY, last = INFINITY;
+    for (int k = 0; k < 3; ++k) {
+        double a = (low_corner[k] - start[k]) / d[k], b = (high_corner[k] - start[k]) / d[k];
+        first = fmax(first, fmin(a, b));
+        last = fmin(last, fmax(a, b));
+    }
+    return first > 0 || first > last ? -1 : last;
+}
+
+static void the_fallback_ends_where_the_ray_leaves_the_cocoon(void **state) {
+    struct ends in_sphere = {0}, in_box = {0};
+    fall_back(*state, "sphere", sphere, -2, out_of_sphere, &in_sphere);
+    assert_true(in_sphere.inside > 50 && in_sphere.enters > 200 && in_sphere.missed > 200);
+    assert_true((double)in_sphere.near >= 0.95 * (double)(in_sphere.inside + in_sphere.enters));
+    /* Bilinear samples, 2/31 apart, stand up to (2/31)²/4 = 0.1 % inside a sphere, and a ray that grazes it ends ten
+       times as far off. */
+    assert_true(in_sphere.low > -0.015 && in_sphere.high < 0.001);
+    fall_back(*state, "box", box, -2, out_of_box, &in_box);
+    assert_true(in_box.inside > 500);
+    assert_true((double)in_box.near >= 0.95 * (double)(in_box.inside + in_box.enters));
+    /* A texel of the level below holds the farthest of what it covers, 2/16 of a face's half; between two of them the
+       corner of two walls is cut by half of that, 3 % where a ray meets a wall as steeply as these. */
+    assert_true(in_box.low > -0.03);
+    assert_true(2 * in_box.right > in_box.known); /* the same texel moves walls away by up to 12 % */
+}
+
+/* A box of twice the size with screens before its walls, every other one near the centre. */
+static void screens(uint32_t number, const double d[3], float out[5]) {
+    int sector = (int)floor(10 * (d[0] + 1));
+    box(number, d, out);
+    if (sector % 2) out[0] = out[1] = out[2] = out[3] = 1, out[4] = 0;
+    for (int k = 0; k < 3 && sector % 2; ++k) {
+        float wall = (float)((d[k] < 0 ? low_corner[k] : high_corner[k]) / d[k]);
+        if (k == 0 || wall < out[4]) out[4] = wall;
+    }
+    out[4] *= sector % 2 ? sector % 4 == 1 ? 0.5F : 1.6F : 2;
+}
+
+struct bounds {
+    double low, high;
+};
+
+/* What the cube map's texels around a direction have: the least and the greatest. */
+static struct bounds around(const double v[3]) {
+    struct bounds seen = {INFINITY, 0};
+    const double width = 2 / 64.0 * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int i = 0; i < 27; ++i) {
+        double d[3], length2 = 0;
+        float texel[5];
+        for (int k = 0, j = i; k < 3; ++k, j /= 3) d[k] = v[k] + (j % 3 - 1) * width, length2 += d[k] * d[k];
+        for (int k = 0; k < 3; ++k) d[k] /= sqrt(length2);
+        screens(0, d, texel);
+        seen.low = fmin(seen.low, (double)texel[4]);
+        seen.high = fmax(seen.high, (double)texel[4]);
+    }
+    return seen;
+}
+
+/* Whether a place lies outside of the cocoon, or behind what is seen by less than a part of the way from there to the
+   cocoon: 1 yes, 0 no, -1 too close to say. */
+static int in_something(const double v[3], double inverse_hull, double solid) {
+    const double distance = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), hull = distance / inverse_hull;
+    struct bounds seen = around(v);
+    if (fabs(inverse_hull - 1) < 1e-4 || isinf(seen.high)) return -1;
+    if (inverse_hull > 1) return 1;
+    if (distance < 0.999 * seen.low) return 0;
+    if (distance < 1.001 * seen.high) return -1;
+    const double at_low = seen.low + solid * (hull - seen.low), at_high = seen.high + solid * (hull - seen.high);
+    return distance < at_low - 1e-3 * hull ? 1 : distance > at_high + 1e-3 * hull ? 0 : -1;
+}
+
+static void a_ray_that_stopped_inside_of_something_ends_there(void **state) {
+    struct gpu *gpu = *state;
+    static const char *const solids[] = {"cubemap_trace.solid=0", "cubemap_trace.solid=0.5", "cubemap_trace.solid=1"};
+    start_to_fall_back(gpu, "screens", screens, -2);
+    gpu_set(gpu, "cubemap_trace.fallback=lookup");
+    gpu_set(gpu, "cubemap_trace.lookup=stopped");
+    gpu_set(gpu, "cubemap_trace.length_lq_m=24"); /* short steps, so that rays stop inside of the box too */
+    gpu_run(gpu);
+    uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height),
+                            *end = gpu_uints(gpu, "cubemap_end", NULL, NULL);
+    float *stopped = gpu_floats(gpu, "travelled", NULL, NULL), *cocoon = gpu_floats(gpu, "cocoon", NULL, NULL);
+    gpu_set(gpu, "cubemap_trace.fallback=cocoon");
+    for (size_t n = 0; n < 3; ++n) {
+        gpu_set(gpu, solids[n]);
+        gpu_run(gpu);
+        float *travelled = gpu_floats(gpu, "travelled", NULL, NULL);
+        size_t outside = 0, inside = 0, on = 0, near = 0, unsure = 0;
+        for (uint32_t i = 0; i < width * height; ++i) {
+            double start[3], d[3], v[3];
+            ray_of(i, width, pick[i], -2, start, d);
+            for (int k = 0; k < 3; ++k) v[k] = start[k] + (double)stopped[i] * d[k];
+            const double inverse_hull = cocoon_gauge(cocoon, v);
+            const int stays = in_something(v, inverse_hull, 0.5 * (double)n);
+            if (end[i] != END_shadow_region || stays < 0) {
+                ++unsure;
+                continue;
+            }
+            if (stays) {
+                if (travelled[i] != stopped[i] && !isinf(travelled[i]))
+                    fail_msg("texel %u: %g m, stopped inside at %g m", i, (double)travelled[i], (double)stopped[i]);
+                ++*(inverse_hull > 1 ? &outside : &inside);
+                continue;
+            }
+            int steps;
+            const double rest = cocoon_walk(cocoon, v, d, &steps),
+                         reach = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+            near += isinf(travelled[i]) || fabs((double)(travelled[i] - stopped[i]) - rest) < 0.01 * (rest + reach);
+            ++on;
+        }
+        print_message("# %s: outside of the cocoon %zu, inside of something %zu, on to the cocoon %zu, %zu within 1 %% "
+                      "of a walk; %zu not asked\n",
+                      solids[n], outside, inside, on, near, unsure);
+        assert_true(outside > 100 && (n == 0 ? inside == 0 : inside > 30) && (n == 2 ? on == 0 : on > 30));
+        assert_true((double)near >= 0.95 * (double)on); /* bulges of the cocoon may lie between two samples */
+        free(travelled);
+    }
+    free(cocoon);
+    free(stopped);
+    free(end);
+    free(pick);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_fallback_ends_where_the_ray_leaves_the_cocoon),
+        cmocka_unit_test(a_ray_that_stopped_inside_of_something_ends_there),
+    };
+    return cmocka_run_group_tests_name("gpu_fallback", tests, gpu_set_up, gpu_tear_down);
+}
