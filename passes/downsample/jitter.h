@@ -3,7 +3,7 @@
 SPEC(bool,  jitter,     true, 0, 1, "1", "000, G-buffer down-sampling", "draw the normal from the NDF; off: mirror rays")
 CHOICE2(ndf, ggx, blinn_phong, ggx, "000, Modified NDF; GGX is its future work", "distribution that jitters the normal: blinn_phong by half-vector density, ggx by visible normals")
 CHOICE2(lobe, half_vector, half_vector, reflection, "001, Stochastic Sampling", "what is drawn: the normal, so that the lobe is the surface's, or the ray itself, by the lobe of a view along the normal, turned around the mirror direction")
-CHOICE3(pattern, plus, plus, white, blue, "000, Modified NDF; blue noise is an idea of theirs", "order of the random numbers: plus gives each of five neighbours a fifth of the azimuth, blue spreads both numbers over neighbours and frames, white is independent")
+CHOICE4(pattern, plus, plus, white, blue, sobol, "000, Modified NDF; blue noise is an idea of theirs", "order of the random numbers: plus gives each of five neighbours a fifth of the azimuth, blue spreads both numbers over neighbours and frames, white is independent, sobol spreads those of a pixel's rays")
 SPEC(bool,  shuffle,    true, 0, 1, "1", "000, Modified NDF", "the pattern changes in each frame; off: a pixel keeps its fifth of the azimuth")
 SPEC(bool,  horizon,    true, 0, 1, "1", "glint", "a cone is no wider than its ray is above the surface; off: it may look through the surface")
 SPEC(int,   tries,      16,   1, 64, "draws", "chosen by measuring", "normals drawn until the ray leaves the surface; then the normal itself is taken")

@@ -9,6 +9,7 @@
 // what it lacks below the horizon is repeated in the right proportions.
 vec2 first_numbers(uvec2 pixel) {
     uint number = shuffle ? frame.counts.y : 0u;
+    if (pattern == pattern_sobol) return ray_points2(pixel, number, frame.flags.w);
     if (pattern == pattern_blue) return blue_noise2(pixel, number, frame.flags.w);
     vec2 u = random4(pixel, random_frame(), RANDOM_NDF).xy;
     // φ = 2π (0.2 · rnd + class / 5), the class another one in each frame and for each ray.

@@ -54,6 +54,16 @@ uvec2 sobol2(uint index) {
     return uvec2(bitfieldReverse(index), second);
 }
 
+// The points of a pixel's rays: the same sequence, scrambled anew for each pixel, frame and RAYS_SPREAD rays, so that what many
+// rays find converges faster than by independent ones while pixels, and stretches of that many rays, stay independent.
+const uint RAYS_SPREAD = 1u << 20u;
+vec2 ray_points2(uvec2 pixel, uint frame_number, uint ray) {
+    uvec4 seed = hash4(uvec4(pixel, frame_number, 0x50B0u + ray / RAYS_SPREAD));
+    uvec2 point = sobol2(ray % RAYS_SPREAD);
+    point = uvec2(owen_scramble(point.x, seed.x), owen_scramble(point.y, seed.y));
+    return (vec2(point >> 9u) + 0.5) * 1.1920928955078125e-7;
+}
+
 // Two numbers in (0, 1); pixels up to 65,536.
 vec2 blue_noise2(uvec2 pixel, uint frame_number, uint ray) {
     const uint FRAMES = 16u; // a shift's digits above it; those below are hashed

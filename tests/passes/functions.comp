@@ -8,6 +8,7 @@
 #include "shared/push_begin.glsl"
 #include "pick.pass.h"
 };
+#include "shared/blue_noise.glsl"
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
@@ -85,6 +86,10 @@ vec4 evaluate(int row, int i) {
         vec3 g = sample_ggx_visible(u.xy, unit_vector(i), 0.0, 1.0);
         vec3 c = sample_ggx_visible(u.xy, unit_vector(i), 0.0, ggx_kept(0.0, u.z, THRESHOLD));
         return vec4(h == vec3(0.0, 0.0, 1.0), g == vec3(0.0, 0.0, 1.0), c == vec3(0.0, 0.0, 1.0), 0.0);
+    }
+    if (row == ROW_POINTS) {
+        uvec2 pixel = uvec2(5u, 9u);
+        return vec4(ray_points2(pixel, 3u, uint(i)), ray_points2(pixel, 3u, RAYS_SPREAD + uint(i)));
     }
     if (row == ROW_GRAZING) {
         vec3 f0 = reflectance_at_normal(vec3(0.5), 0.0, float(i) / 255.0);

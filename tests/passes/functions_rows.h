@@ -21,7 +21,9 @@
 #define ROW_CONE_SCREEN 19
 #define ROW_CONE_POWER 20
 #define ROW_VISIBLE 21 /* and the 31 after it */
-#define ROWS 53
+#define ROW_POINTS                                                                                                     \
+    53 /* of the same pixel's rays: x and y of the first ones, z and w of the stretch after RAYS_SPREAD */
+#define ROWS 54
 #define COLUMNS 256
 #define VISIBLE_ANGLE 1.2
 #define VISIBLE_ALPHA 0.35

@@ -115,8 +115,8 @@ static int bin_of(double cut, double x, double y, double z) {
 }
 
 static void draws_follow_the_cut_density(void **state) {
-    static const char *const patterns[] = {"plus", "white", "blue"};
-    for (int run = 0; run < 6; ++run) {
+    static const char *const patterns[] = {"plus", "white", "blue", "sobol"};
+    for (int run = 0; run < 8; ++run) {
         bool ggx = run % 2;
         uint32_t size = run < 2 ? WIDE : SIZE;
         /* GGX's cap is tilted: its rim stays below this angle. */

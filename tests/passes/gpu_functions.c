@@ -286,6 +286,28 @@ static void without_specular_nothing_reflects(void **state) {
     for (int i = 1; i < COLUMNS; ++i) assert_true(texel(ROW_GRAZING, i)[2] > texel(ROW_GRAZING, i - 1)[2]);
 }
 
+/* Sobol's first two dimensions make a (0, 2)-sequence, and scrambling keeps it one: of the first 2^m points each box of the
+   area 2^-m, however long, holds exactly one. */
+static void points_of_a_pixels_rays_are_a_net(void **state) {
+    (void)state;
+    for (int first = 0; first < 4; first += 2)
+        for (int m = 1; m <= 8; ++m)
+            for (int a = 0; a <= m; ++a) {
+                bool taken[256] = {false};
+                for (int i = 0; i < 1 << m; ++i) {
+                    const float *p = texel(ROW_POINTS, i) + first;
+                    assert_true(p[0] > 0 && p[0] < 1 && p[1] > 0 && p[1] < 1);
+                    const int box = (int)(p[0] * (float)(1 << a)) << (m - a) | (int)(p[1] * (float)(1 << (m - a)));
+                    assert_false(taken[box]);
+                    taken[box] = true;
+                }
+            }
+    /* Both stretches are scrambled by themselves: of independent numbers as many pairs fall together. */
+    int same = 0;
+    for (int i = 0; i < 256; ++i) same += (int)(texel(ROW_POINTS, i)[0] * 16) == (int)(texel(ROW_POINTS, i)[2] * 16);
+    assert_true(same < 64); /* 16 ± 4, and 256 where they are one sequence */
+}
+
 /* Density of visible GGX normals: G1(v) max(v·h, 0) D(h) / cos v. */
 static double visible_density(double x, double y, double z) {
     double a2 = VISIBLE_ALPHA * VISIBLE_ALPHA, vx = sin(VISIBLE_ANGLE), vz = cos(VISIBLE_ANGLE);
@@ -393,6 +415,7 @@ int main(void) {
         cmocka_unit_test(tangent_frames_are_orthonormal_and_right_handed),
         cmocka_unit_test(roughness_zero_is_an_exact_mirror),
         cmocka_unit_test(without_specular_nothing_reflects),
+        cmocka_unit_test(points_of_a_pixels_rays_are_a_net),
         cmocka_unit_test(visible_normals_follow_their_density),
         cmocka_unit_test(random_numbers_are_uniform_and_inside),
     };

@@ -13,6 +13,7 @@
 
 #include "fixture.h"
 #include "glint/reference.h"
+#include "plain_capture.h"
 
 static struct glint_reference *open_reference(struct fixture *fixture, const char *folder, const char *set, bool anew,
                                               struct glint_error *err) {
@@ -51,15 +52,15 @@ static double noise_of(const struct glint_reference *reference) {
 }
 
 /* Catches: halves that share random numbers, batches that repeat them, means that weigh batches unequally. */
-static void noise_falls_with_the_root_of_the_rays_and_is_what_is_missing_to_many(void **state) {
+static void noise_falls_with_the_root_of_independent_rays(void **state) {
     struct fixture *fixture = fixture_need_device(state);
-    struct glint_reference *reference = need_reference(fixture, NULL, NULL);
+    struct glint_reference *reference = need_reference(fixture, NULL, "downsample.pattern=white");
     struct glint_image_errors errors;
     struct glint_error err = {0};
-    trace(reference, 32, 0);
+    trace(reference, 16, 0);
     const double few = noise_of(reference);
     struct glint_pixels early = pixels_of(reference, NULL);
-    trace(reference, 512, 0);
+    trace(reference, 144, 0);
     const double many = noise_of(reference);
     float *error = NULL;
     struct glint_pixels late = pixels_of(reference, &error);
@@ -67,8 +68,8 @@ static void noise_falls_with_the_root_of_the_rays_and_is_what_is_missing_to_many
     assert_non_null(surfaces);
     /* A variance from 800 pixels of three channels, of which a few bright edges hold most, errs by some 10 %. */
     assert_true(few > 1e-4);
-    assert_true(fabs(few / many / 4 - 1) < 0.2);
-    /* Of 512 rays the first 32 are a part: their means differ by σ² (1/32 - 1/512). */
+    assert_true(fabs(few / many / 3 - 1) < 0.2);
+    /* Of 144 rays the first 16 are a part: their means differ by σ² (1/16 - 1/144). */
     assert_true(glint_study_image(&early, &late, 3, surfaces, error, &errors, &err));
     assert_true(fabs(errors.of[0].rmse / sqrt(few * few - many * many) - 1) < 0.2);
     /* The pixels' errors add up to the whole's, but for rounding to float. */
@@ -79,8 +80,17 @@ static void noise_falls_with_the_root_of_the_rays_and_is_what_is_missing_to_many
     assert_int_equal(noise[GLINT_SURFACE_MIRROR].pixels + noise[GLINT_SURFACE_GLOSSY].pixels +
                          noise[GLINT_SURFACE_ROUGH].pixels,
                      noise[0].pixels);
+    /* Rays that are spread well have less noise, and what they find differs from the others by both noises alone. */
+    struct glint_reference *spread = need_reference(fixture, NULL, NULL);
+    trace(spread, 144, 0);
+    struct glint_pixels other = pixels_of(spread, NULL);
+    assert_true(noise_of(spread) < 0.9 * many);
+    assert_true(glint_study_image(&other, &late, 3, surfaces, NULL, &errors, &err));
+    assert_true(fabs(errors.of[0].rmse / sqrt(many * many + noise_of(spread) * noise_of(spread)) - 1) < 0.2);
+    glint_reference_destroy(&spread);
     free(surfaces);
     free(error);
+    glint_pixels_finish(&other);
     glint_pixels_finish(&early);
     glint_pixels_finish(&late);
     glint_reference_destroy(&reference);
@@ -138,8 +148,8 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     int rounds = 0, interrupted = 0;
     snprintf(folder, sizeof folder, "%s/resumed", fixture->folder);
     struct glint_reference *whole = need_reference(fixture, NULL, NULL);
-    trace(whole, 96, 0);
-    for (uint32_t rays = 0; rays < 96; rounds++) {
+    trace(whole, 64, 0);
+    for (uint32_t rays = 0; rays < 64; rounds++) {
         struct glint_reference *part = need_reference(fixture, folder, NULL);
         assert_int_equal(glint_reference_state(part)->rays, rays);
         int left = rounds % 3 == 2 ? 1000000 : 150; /* in the midst of a round, or not */
@@ -154,7 +164,7 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     }
     assert_true(interrupted > 0);
     struct glint_reference *again = need_reference(fixture, folder, NULL);
-    trace(again, 96, 0);
+    trace(again, 64, 0);
     float *errors[2];
     struct glint_pixels a = pixels_of(whole, &errors[0]), b = pixels_of(again, &errors[1]);
     check_same(&a, &b);
@@ -186,7 +196,7 @@ static void it_stops_at_the_noise_that_is_asked_for(void **state) {
     trace(reference, 1024, first / 2);
     const struct glint_reference_state *now = glint_reference_state(reference);
     assert_true(now->noise[0].relative <= first / 2);
-    assert_true(now->rays >= 48 && now->rays <= 160); /* 64, as the noise of 16 rays is known to some 30 % */
+    assert_true(now->rays >= 32 && now->rays <= 160); /* 64, or fewer as they are spread well */
     const uint32_t rays = now->rays;
     trace(reference, 1024, first / 2); /* reached: nothing more */
     trace(reference, rays - 20, 0);
@@ -259,14 +269,132 @@ static void captures_that_lack_something(void **state) {
     fixture_check_messages(fixture);
 }
 
+/* ---- A board before a wall, over a floor that mirrors both ---- */
+
+enum { BOARD_WIDTH = 8, BOARD_HEIGHT = 480 };
+static const double board_m = 3, wall_m = 5, light_of_board = 3, light_of_wall = 1;
+
+/* Height over the horizon in a metre of depth, of a row's upper edge; the picture spans -1 to 1. */
+static double edge_of(double row) {
+    return 1 - 2 * row / BOARD_HEIGHT;
+}
+/* The board's rows, and how many more on either side are as bright: a ray that comes over an edge may end on it. */
+enum { BOARD_TOP = 216, BOARD_END = 264, GLOW = 2 };
+
+static void put_up_board(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < pixels; i++) {
+        const size_t row = i / plain->width;
+        const bool floor = values[PLAIN_NORMAL_Y * pixels + i] > 0;
+        const bool glows = row + GLOW >= BOARD_TOP && row < BOARD_END + GLOW;
+        if (row >= BOARD_TOP && row < BOARD_END) values[PLAIN_DEPTH * pixels + i] = (float)board_m;
+        if (!floor) values[PLAIN_SPECULAR * pixels + i] = 0;
+        for (int k = PLAIN_LIT_R; k <= PLAIN_LIT_B; k++)
+            values[(size_t)k * pixels + i] = (float)(glows ? light_of_board : light_of_wall);
+    }
+}
+
+static double light_at(double height) {
+    const double row = (1 - height) / 2 * BOARD_HEIGHT;
+    return row >= BOARD_TOP - GLOW && row < BOARD_END + GLOW ? light_of_board : light_of_wall;
+}
+
+/* What the floor mirrors that is seen `down` metres below the horizon in a metre of depth. Its ray keeps its column and, at
+   the depth z, is down - 2/z over the horizon. A surface of the depth d stops it as far as d · thickness behind itself. */
+static double mirrored(double down, double thickness) {
+    const double top = edge_of(BOARD_TOP), bottom = edge_of(BOARD_END);
+    const double at_board = down - 2 / board_m, at_wall = down - 2 / wall_m;
+    if (at_board > bottom && at_board < top) return light_of_board;
+    if (at_wall < bottom || at_board > top) return light_at(at_wall);
+    if (2 / (down - bottom) <= board_m * (1 + thickness)) return light_of_board; /* comes in behind its lower edge */
+    if (at_wall > top) return light_at(at_wall);
+    const bool comes_out = down > top && 2 / (down - top) <= wall_m * (1 + thickness);
+    return comes_out ? light_at(top) : 0;
+}
+
+struct change {
+    double mean, rmse;
+};
+static struct change expected(double thickness, double other) {
+    double sum = 0, squares = 0, count = 0;
+    for (int row = BOARD_HEIGHT / 2; row < BOARD_HEIGHT; row++) {
+        const double down = -edge_of(row + 0.5);
+        if (down * wall_m <= 1) continue; /* the wall is before the floor */
+        const double change = mirrored(down, other) - mirrored(down, thickness);
+        sum += change, squares += change * change, count++;
+    }
+    return (struct change){sum / count, sqrt(squares / count)};
+}
+
+static void check_change(const struct glint_reference_assumption *row, double tried) {
+    const struct change truth = expected(0.1, tried);
+    const struct glint_reference_change *found = &row->of[GLINT_SURFACE_MIRROR];
+    assert_true(row->ran && fabs(row->value - 0.1) < 1e-6 && fabs(row->tried - tried) < 1e-6);
+    print_message("# thickness %g: mean change %+.5f, expected %+.5f; RMSE %.5f, expected %.5f\n", tried, found->mean,
+                  truth.mean, found->rmse, truth.rmse);
+    assert_true(truth.rmse > 0.1);
+    /* The same rows change by whole lights: nothing but rounding is left. */
+    assert_true(fabs(found->mean - truth.mean) < 1e-4 && fabs(found->rmse - truth.rmse) < 1e-4);
+    assert_true(found->noise < 1e-6); /* mirror rays */
+    assert_true(row->of[0].rmse == found->rmse);
+}
+
+static void what_thickness_decides_is_told(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    char path[256], folder[256];
+    snprintf(path, sizeof path, "%s/board.exr", fixture->folder);
+    snprintf(folder, sizeof folder, "%s/board", fixture->folder);
+    plain_capture(
+        path,
+        &(struct plain){
+            .width = BOARD_WIDTH, .height = BOARD_HEIGHT, .fov_y_degrees = 90, .floor = true, .spoil = put_up_board});
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    assert_true(glint_replay_load(fixture->replay, capture, &err));
+    struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
+    /* Objects that take no room, and edges without a seam: the thickness alone decides. */
+    static const char *const settings[] = {"screen_trace.thickness=0.1", "screen_trace.solid=0", "screen_trace.seam=0",
+                                           "resolve.filter_color=false"};
+    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++)
+        if (!glint_pipeline_set(pipeline, settings[i], &err)) fail_msg("%s", err.message);
+    struct glint_reference *reference = glint_reference_create(
+        fixture->replay, capture, pipeline, &(struct glint_reference_options){.folder = folder}, &err);
+    struct glint_reference_sensitivity found;
+    trace(reference, 16, 0);
+    if (!glint_reference_sensitivity(reference, 1, NULL, NULL, &found, &err)) fail_msg("%s", err.message);
+    assert_int_equal(found.rays, GLINT_REFERENCE_ROUND);
+    size_t checked = 0, idle = 0;
+    for (size_t i = 0; i < found.count; i++) {
+        const struct glint_reference_assumption *row = &found.rows[i];
+        if (!strcmp(row->row->name, "thickness")) check_change(row, checked++ ? 0.2 : 0.05);
+        else if (row->ran) assert_true(row->of[0].rmse < 1e-6); /* no cube maps; nothing to join */
+        else idle += strcmp(row->reason, "it is 0") == 0;
+    }
+    assert_int_equal(checked, 2);
+    assert_int_equal(idle, 2); /* solid, thickness_m */
+    /* It stays in the folder while rays are added. */
+    trace(reference, 32, 0);
+    glint_reference_destroy(&reference);
+    struct glint_run *run = glint_run_open(folder, &err);
+    assert_non_null(run);
+    assert_non_null(strstr(glint_run_json(run), "\"sensitivity\""));
+    glint_run_close(&run);
+    glint_pipeline_destroy(&pipeline);
+    assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_falls_with_the_root_of_the_rays_and_is_what_is_missing_to_many),
+        cmocka_unit_test(noise_falls_with_the_root_of_independent_rays),
         cmocka_unit_test(a_half_is_one_run_of_its_rays),
         cmocka_unit_test(an_interrupted_reference_goes_on_to_the_same_bits),
         cmocka_unit_test(it_stops_at_the_noise_that_is_asked_for),
         cmocka_unit_test(a_folder_of_something_else_is_refused),
         cmocka_unit_test(captures_that_lack_something),
+        cmocka_unit_test(what_thickness_decides_is_told),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
 }
