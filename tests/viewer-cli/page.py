@@ -184,6 +184,16 @@ class Tests:
         assert ends == 1, ends
         self.browser.quiet()
 
+    def test_numbers_keep_the_digits_that_tell_them_apart(self):
+        columns = [([8, 32, 1000], ["8", "32", "1\u202f000"]), ([0.5, 1, 1.5], ["0.5", "1.0", "1.5"]),
+                   ([1234.5678, 0.00321, 0], ["1\u202f235", "0.0032", "0"]), ([0.123456, 0.2, -0.05], ["0.1235", "0.2000", "\u22120.0500"]),
+                   ([1e-7, 3e-7, 2e-7], ["1e\u22127", "3e\u22127", "2e\u22127"]), ([True, "a", None], ["yes", "a", "\u2013"])]
+        table = {"columns": [{"name": str(i)} for i in range(len(columns))], "rows": [list(row) for row in zip(*(c[0] for c in columns))]}
+        self.browser.show(report(self.folder, page({"table": table})))
+        for i, (_, wanted) in enumerate(columns):
+            told = self.browser.evaluate(f"[...document.querySelectorAll('tbody tr')].map(r => r.cells[{i}].textContent)")
+            assert told == wanted, (told, wanted)
+
     def test_a_chart_as_svg_is_xml(self):
         points = [point(1, 0.1, HOSTILE, 8, "red.png"), point(4, 0.02, "many", 64, "blue.png"), [0, 0.5], [2, None]]
         odd = HOSTILE + "\u0001\U0001f600\u00e9]]>"

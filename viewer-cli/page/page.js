@@ -25,18 +25,23 @@
         return cell === undefined ? null : cell;
     }
 
-    /* Decimals at which a column's largest number has four digits, so that points stand below each other. */
+    /* Decimals at which a column's largest number has four digits, so that points stand below each other; fewer when
+       none of them needs as many. */
     function decimalsOf(numbers) {
-        if (!numbers.length || numbers.every(Number.isInteger)) return 0;
-        const largest = Math.max(...numbers.map(Math.abs));
-        return largest > 0 ? Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(largest)))) : 0;
+        const largest = Math.max(0, ...numbers.map(Math.abs));
+        if (largest === 0) return 0;
+        const needed = Math.max(...numbers.map(v => {
+            const text = String(+v.toPrecision(7));
+            return text.includes('e-') ? 6 : (text.split('.')[1] || '').length;
+        }));
+        return Math.min(6, needed, Math.max(0, 3 - Math.floor(Math.log10(largest))));
     }
 
     function numberText(v, decimals) {
         if (!Number.isFinite(v)) return '\u2013';
         if (decimals === undefined || decimals === null) return glintChart.number(v);
         const size = Math.abs(v);
-        if (size !== 0 && (size < 5 * 10 ** -decimals && decimals >= 2 || size >= 1e9)) return glintChart.number(+v.toPrecision(2));
+        if (size !== 0 && size < 5 * 10 ** -decimals && !Number.isInteger(v) || size >= 1e9) return glintChart.number(+v.toPrecision(2));
         return v.toFixed(decimals).replace('-', '\u2212').replace(/\B(?=(\d{3})+(?!\d))/g, decimals ? '' : '\u202f');
     }
 
@@ -199,7 +204,8 @@
             /* the point that was kept before is what this one is compared with */
             const {p, s} = points[k], before = points[state.kept === k ? state.before : state.kept]?.p;
             aside.replaceChildren(element('h4', null, p.name || s.name),
-                terms(keys.map(key => coordinate(key, p)), null), ...figures(p.pictures, list(before?.pictures)),
+                terms(keys.map(key => coordinate(key, p)), null),
+                element('div', {class: list(p.pictures).length > 1 ? 'shots several' : 'shots'}, ...figures(p.pictures, list(before?.pictures))),
                 terms(list(p.values), before && list(before.values)));
         }
 
