@@ -5,6 +5,6 @@ PASS("Pyramid of the nearest depth", "002, HZB Optimization; Uludag, GPU Pro 5")
 #line 302
 READ(texture2D, hiz)
 READ(texture2D, depth_slopes)
-SPEC(int,   cells,       192,   1,   65536, "cells", "002, HZB Optimization", "cells looked at, at most")
-SPEC(int,   cells_lq,    192,   1,   65536, "cells", "000, Screen-space tracing", "the same on rougher surfaces")
+SPEC(int,   cells,       256,   1,   65536, "cells", "002, HZB Optimization", "cells looked at, at most")
+SPEC(int,   cells_lq,    256,   1,   65536, "cells", "000, Screen-space tracing", "the same on rougher surfaces")
 PUSH(float, hq_roughness, 0.1,  0.0, 1.0,   "1", "000, Screen-space tracing", "largest roughness of a smooth surface")
