@@ -271,7 +271,7 @@ static void captures_that_lack_something(void **state) {
 
 /* ---- A board before a wall, over a floor that mirrors both ---- */
 
-enum { BOARD_WIDTH = 8, BOARD_HEIGHT = 480 };
+enum { BOARD_WIDTH = 8, BOARD_HEIGHT = 240 };
 static const double board_m = 3, wall_m = 5, light_of_board = 3, light_of_wall = 1;
 
 /* Height over the horizon in a metre of depth, of a row's upper edge; the picture spans -1 to 1. */
@@ -279,7 +279,7 @@ static double edge_of(double row) {
     return 1 - 2 * row / BOARD_HEIGHT;
 }
 /* The board's rows, and how many more on either side are as bright: a ray that comes over an edge may end on it. */
-enum { BOARD_TOP = 216, BOARD_END = 264, GLOW = 2 };
+enum { BOARD_TOP = 108, BOARD_END = 132, GLOW = 2 };
 
 static void put_up_board(const struct plain *plain, float *values) {
     const size_t pixels = (size_t)plain->width * plain->height;
