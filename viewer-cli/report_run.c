@@ -112,7 +112,8 @@ static json_t *fact_json(const json_t *run, const struct fact *fact) {
             if (json_is_integer(item))
                 snprintf(text + used, sizeof text - used, "%s%lld", i ? " \u00d7 " : "",
                          (long long)json_integer_value(item));
-            else snprintf(text + used, sizeof text - used, "%s%.200s", i ? "; " : "", json_string_value(item));
+            else if (json_is_string(item))
+                snprintf(text + used, sizeof text - used, "%s%.200s", i ? "; " : "", json_string_value(item));
         }
         return text[0] ? json_string(text) : NULL;
     }

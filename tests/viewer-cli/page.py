@@ -1,6 +1,7 @@
 """Pages of glint report in headless Chromium: page.py GLINT CHROMIUM. Speaks TAP."""
 import json
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -223,6 +224,25 @@ class Tests:
         heights = [float(p.split()[1]) for p in curve[1:].split("L")]
         mark = float(line[1:].split("L")[0].split()[1])
         assert abs(mark - sum(heights) / 2) <= 1, (mark, heights)  # 1: lines are moved onto whole pixels
+
+    def test_intervals_stand_on_their_bars(self):
+        values = [[3, 2, 4], [1, 5, 2]]
+        series = [{"name": str(k), "kind": "bar", "points": [{"x": i, "y": y, "low": y - 0.5, "high": y + 0.5} for i, y in enumerate(v)]}
+                  for k, v in enumerate(values)]
+        block = {"chart": {"x": {"scale": "category", "categories": ["a", "b", "c"]}, "y": {"name": "y"}, "series": series}}
+        report(self.folder, page(block))
+        out = os.path.join(self.folder, "bars.svg")
+        assert glint("report", self.folder, "-o", out).returncode == 0
+        paths = [(e.getAttribute("d"), e.getAttribute("fill")) for e in xml.dom.minidom.parse(out).getElementsByTagName("path")]
+        # a bar: from a lower corner, across, up by its height; an interval: three strokes, the first from end to end
+        corners = [[float(c) for c in re.findall(r"[-0-9.]+", d)] for d, fill in paths
+                   if re.fullmatch(r"M[-0-9. ]+l[-0-9. ]+l0 [-0-9. ]+l[-0-9. ]+Z", d) and fill in ("#0072b2", "#d55e00")]
+        strokes = [[float(c) for c in re.findall(r"[-0-9.]+", d)] for d, fill in paths if d.count("M") == 3]
+        bars = sorted((x + across / 2, y + up) for x, y, across, _, _, up, *_ in corners)
+        ends = sorted((c[0], (c[1] + c[3]) / 2) for c in strokes)
+        assert len(bars) == len(ends) == 6, (bars, ends)
+        for bar, end in zip(bars, ends):
+            assert abs(bar[0] - end[0]) < 1 and abs(bar[1] - end[1]) < 1, (bars, ends)  # 1: whole pixels
 
     def test_points_that_a_logarithm_lacks_are_counted(self):
         self.browser.show(report(self.folder, page(chart([[1, 0.1], [0, 0.2], [-1, 0.2], [3, 0.05]]))))

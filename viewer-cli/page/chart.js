@@ -2,10 +2,10 @@
 var glintChart = (function () {
     'use strict';
 
-    /* Okabe and Ito's colours, told apart by every kind of eye; shapes tell series apart without them. */
-    var LIGHT = {colors: ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00'],
+    /* Okabe and Ito's colours and two of Tol's, told apart by every kind of eye; shapes tell series apart without them. */
+    var LIGHT = {colors: ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#882255', '#999933'],
                  text: '#1f2328', faint: '#59636e', line: '#d8dee4', muted: '#8c959f', ground: '#ffffff'};
-    var DARK = {colors: ['#56b4e9', '#e69f00', '#2fc79a', '#e39ac4', '#f0e442', '#7f9cff'],
+    var DARK = {colors: ['#56b4e9', '#e69f00', '#2fc79a', '#e39ac4', '#f0e442', '#7f9cff', '#c66a8e', '#a8ab52'],
                 text: '#e6e8eb', faint: '#9da7b3', line: '#30363d', muted: '#6e7681', ground: '#16181d'};
     var SYMBOLS = ['circle', 'diamond', 'triangle', 'rect', 'pin', 'arrow'];
     var FONT = 'system-ui, Segoe UI, DejaVu Sans, sans-serif'; /* without quotes: the renderer escapes no attributes */
@@ -17,6 +17,9 @@ var glintChart = (function () {
             .replace(/[\ud800-\udbff](?![\udc00-\udfff])/g, '\u00b7')
             .replace(/(^|[^\ud800-\udbff])[\udc00-\udfff]/g, '$1\u00b7');
     }
+
+    /* Of bars, and of what is drawn over them. */
+    var BARS = {barMaxWidth: 26, barGap: '10%', barCategoryGap: '25%'};
 
     function isNumber(v) { return typeof v === 'number' && isFinite(v); }
 
@@ -151,7 +154,8 @@ var glintChart = (function () {
             renderItem: function (params, api) {
                 var a = api.coord([api.value(2), api.value(3)]), b = api.coord([api.value(4), api.value(5)]);
                 var upright = Math.abs(a[0] - b[0]) < Math.abs(a[1] - b[1]), cap = group ? 5 : 3.5;
-                var across = group ? api.barLayout({count: group[1]})[group[0]].offsetCenter : 0;
+                var across = group ? api.barLayout({count: group[1], barMaxWidth: BARS.barMaxWidth, barGap: BARS.barGap,
+                                                        barCategoryGap: BARS.barCategoryGap})[group[0]].offsetCenter : 0;
                 if (upright) { a[0] += across; b[0] += across; } else { a[1] += across; b[1] += across; }
                 var dx = upright ? cap : 0, dy = upright ? 0 : cap;
                 return {type: 'path', shape: {pathData:
@@ -163,13 +167,14 @@ var glintChart = (function () {
         };
     }
 
-    function seriesOption(s, color, symbol) {
+    function seriesOption(s, color, symbol, look) {
         var front = s.kind === 'front', option = {
             name: s.name, type: front ? 'line' : s.kind, color: color, animation: false, z: s.muted ? 2 : 4,
             data: s.points.map(function (p, i) { return {value: [p.x, p.y], point: i}; })
         };
         if (s.kind === 'bar') {
-            option.barMaxWidth = 26;
+            for (var key in BARS) option[key] = BARS[key];
+            option.emphasis = {itemStyle: {borderColor: look.text, borderWidth: 1.5}};
             option.data.forEach(function (d, i) { d.name = text(s.points[i].name); });
             if (s.stack) option.stack = text(s.stack);
             if (s.stack) option.itemStyle = {borderColor: 'transparent', borderWidth: 0.5};
@@ -217,7 +222,7 @@ var glintChart = (function () {
             var color = s.muted ? look.muted : look.colors[next % look.colors.length];
             var symbol = s.muted ? 'circle' : SYMBOLS[next % SYMBOLS.length], lines = intervals(s);
             if (!s.muted) next++;
-            series.push(seriesOption(s, color, symbol));
+            series.push(seriesOption(s, color, symbol, look));
             if (lines.length)
                 series.push(intervalSeries(s, lines, s.kind === 'bar' ? look.text : color, s.kind !== 'bar' ? null :
                     [bars.indexOf(s.stack ? 'stack ' + s.stack : s.name), bars.length]));

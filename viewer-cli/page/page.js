@@ -209,9 +209,12 @@
                 terms(list(p.values), before && list(before.values)));
         }
 
+        /* A ring around a mark; bars may stand on others and are highlighted themselves. */
         function ring() {
-            const shown = state.at >= 0 ? points[state.at].p : null;
-            state.drawn?.setOption({series: [{id: 'chosen', data: shown ? [[shown.x, shown.y]] : []}]});
+            const shown = points[state.at], bar = shown?.s.kind === 'bar';
+            state.drawn?.setOption({series: [{id: 'chosen', data: shown && !bar ? [[shown.p.x, shown.p.y]] : []}]});
+            state.drawn?.dispatchAction({type: 'downplay'});
+            if (bar) state.drawn?.dispatchAction({type: 'highlight', seriesIndex: places[shown.series], dataIndex: shown.i});
         }
 
         function go(k) { show(k); ring(); }
