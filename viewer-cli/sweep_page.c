@@ -99,8 +99,8 @@ static json_t *chart_of(const struct sweep *sweep, const struct sweep_front *fro
                      title, "x", "name", front->time ? "GPU time" : "texture fetches", "unit",
                      front->time ? "ms" : "per pixel", "scale", highest > 20 * lowest && lowest > 0 ? "log" : "linear",
                      "y", "name", glint_metric(sweep->metric)->title, "unit", "", "series", "name", "all points",
-                     "kind", "scatter", "muted", true, "points", others, "name", "beaten by none", "kind",
-                     glint_metric(sweep->metric)->higher_is_better ? "scatter" : "front", "points", best);
+                     "kind", "scatter", "muted", true, "points", others, "name", "beaten by none", "kind", "front",
+                     "points", best);
 }
 
 static void add_table(const struct sweep *sweep, const struct sweep_front *front, json_t *blocks) {

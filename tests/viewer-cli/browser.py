@@ -112,11 +112,18 @@ class Browser:
         button = "none" if kind == "mouseMoved" else "left"
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, clickCount=0 if button == "none" else 1)
 
+    def settle(self):
+        """Until what the page changed is drawn: a pointer finds what is on the screen."""
+        self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
     def point_at(self, x, y):
+        self.settle()
         self.mouse("mouseMoved", x, y)
 
     def click(self, x, y):
-        for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
+        self.point_at(x, y)
+        self.settle()
+        for kind in ("mousePressed", "mouseReleased"):
             self.mouse(kind, x, y)
 
     def key(self, name):

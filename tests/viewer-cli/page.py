@@ -123,6 +123,15 @@ class Tests:
         assert self.browser.evaluate("document.querySelectorAll('aside h4, tr.chosen').length") == 0
         self.browser.quiet()
 
+    def test_a_point_under_the_line_of_a_front_can_be_reached(self):
+        block = chart([point(1, 0.1, "few", 8, "red.png"), point(4, 0.02, "many", 64, "blue.png")])
+        block["chart"]["series"].insert(0, {"name": "beaten", "kind": "scatter", "muted": True, "points": [point(2, 0.1, "same", 9, "red.png")]})
+        self.browser.show(report(self.folder, page(block)))
+        x, y = self.browser.evaluate(MARKS.replace("r.width - 9", "r.width - 6"))[0]
+        self.browser.click(x, y)
+        assert "same" in self.shown(), self.shown()
+        self.browser.quiet()
+
     def test_keys_reach_every_point(self):
         self.scatter()
         self.browser.evaluate("document.querySelector('.plot').focus()")

@@ -135,6 +135,41 @@ class Tests:
         intervals = self.browser.evaluate("document.querySelectorAll('td.interval').length")
         assert intervals > len(names), intervals
 
+    def test_a_point_of_a_sweep_shows_its_parameters_and_its_picture(self):
+        swept = self.path("swept")
+        glint("sweep", self.capture, "-o", swept, "--vary=cubemap_trace.steps_hq=8,24", "--vary=resolve.fog=false,true",
+              "--reference=truth", "--repeat=1")
+        with open(os.path.join(swept, "points.json"), encoding="utf-8") as file:
+            points = {f"point {p['point']}": p for p in json.load(file)["points"]}
+        assert len(points) == 4
+        self.browser.show(os.path.join(swept, "index.html"))
+        ring = """(() => { const r = [...document.querySelectorAll('.plot path[stroke][fill=none]')].map(e => e.getBoundingClientRect())
+            .find(r => Math.abs(r.width - 18) < 2 && Math.abs(r.height - 18) < 2); return [r.x + r.width / 2, r.y + r.height / 2]; })()"""
+        terms = """Object.fromEntries([...document.querySelector('aside').querySelectorAll('dt')].map(e => [e.textContent,
+            e.nextSibling.textContent]))"""
+        image = "document.querySelector('aside img').decode().then(() => document.querySelector('aside img').naturalWidth)"
+        name = "document.querySelector('aside h4').textContent"
+        self.browser.evaluate("document.querySelector('.plot').focus()")
+        places = {}
+        for _ in points:
+            self.browser.key("ArrowRight")
+            told, shown = self.browser.evaluate(name), self.browser.evaluate(terms)
+            places[told] = self.browser.evaluate(ring)
+            assert points[told]["values"].items() <= shown.items(), (points[told]["values"], shown)
+            assert self.browser.evaluate(image) >= 96
+        assert set(places) == set(points), places
+        for x, y in places.values():
+            self.browser.key("Escape")
+            self.browser.click(x, y)
+            # points may lie on each other
+            at = places[self.browser.evaluate("document.querySelector('aside').firstChild.textContent")]
+            assert max(abs(at[0] - x), abs(at[1] - y)) < 8, (at, x, y)
+        self.browser.quiet()
+        # the same page again, from the folder
+        glint("report", swept, "-o", self.path("again.html"))
+        with open(os.path.join(swept, "index.html"), "rb") as first, open(self.path("again.html"), "rb") as again:
+            assert first.read() == again.read()
+
     def test_what_cannot_be_reported_is_named(self):
         assert "nowhere" in glint("report", self.path("nowhere"), "-o", self.path("x.html"), status=1)
         assert "x.txt" in glint("report", self.path("a"), "-o", self.path("x.txt"), status=2)

@@ -167,15 +167,15 @@ var glintChart = (function () {
         };
     }
 
-    function seriesOption(s, color, symbol, look) {
-        var front = s.kind === 'front', option = {
-            name: s.name, type: front ? 'line' : s.kind, color: color, animation: false, z: s.muted ? 2 : 4,
-            data: s.points.map(function (p, i) { return {value: [p.x, p.y], point: i}; })
+    /* What carries a series' points: bars, or marks. */
+    function markedOption(s, color, symbol, look) {
+        var option = {
+            name: s.name, type: s.kind === 'bar' ? 'bar' : 'scatter', color: color, animation: false, z: s.muted ? 2 : 4,
+            data: s.points.map(function (p, i) { return {value: [p.x, p.y], point: i, name: text(p.name)}; })
         };
         if (s.kind === 'bar') {
             for (var key in BARS) option[key] = BARS[key];
             option.emphasis = {itemStyle: {borderColor: look.text, borderWidth: 1.5}};
-            option.data.forEach(function (d, i) { d.name = text(s.points[i].name); });
             if (s.stack) option.stack = text(s.stack);
             if (s.stack) option.itemStyle = {borderColor: 'transparent', borderWidth: 0.5};
             return option;
@@ -183,15 +183,21 @@ var glintChart = (function () {
         option.symbol = symbol;
         option.symbolSize = s.muted ? 6 : symbol === 'circle' ? 8 : 10;
         option.itemStyle = {color: color, opacity: s.muted ? 0.55 : 1};
-        if (option.type !== 'line') return option;
-        option.showAllSymbol = true;
-        option.lineStyle = {width: front ? 1.5 : 2, color: color};
-        if (front) {
-            option.step = 'end';
-            option.data.sort(function (a, b) { return a.value[0] - b.value[0]; });
-        }
         return option;
     }
+
+    /* The line through the marks, which it must not keep from the pointer. */
+    function lineOption(s, color, symbol) {
+        var front = s.kind === 'front', data = s.points.map(function (p) { return [p.x, p.y]; });
+        if (front) data.sort(function (a, b) { return a[0] - b[0]; });
+        return {
+            name: s.name, type: 'line', color: color, animation: false, silent: true, z: s.muted ? 1 : 3, data: data,
+            symbol: symbol, showSymbol: false, step: front ? 'end' : false, tooltip: {show: false},
+            lineStyle: {width: front ? 1.5 : 2, color: color}
+        };
+    }
+
+    function hasLine(s) { return s.kind === 'front' || s.kind === 'line'; }
 
     /* Lines across and single points, on a series of their own. */
     function markSeries(marks, look) {
@@ -222,7 +228,8 @@ var glintChart = (function () {
             var color = s.muted ? look.muted : look.colors[next % look.colors.length];
             var symbol = s.muted ? 'circle' : SYMBOLS[next % SYMBOLS.length], lines = intervals(s);
             if (!s.muted) next++;
-            series.push(seriesOption(s, color, symbol, look));
+            if (hasLine(s)) series.push(lineOption(s, color, symbol));
+            series.push(markedOption(s, color, symbol, look));
             if (lines.length)
                 series.push(intervalSeries(s, lines, s.kind === 'bar' ? look.text : color, s.kind !== 'bar' ? null :
                     [bars.indexOf(s.stack ? 'stack ' + s.stack : s.name), bars.length]));
@@ -242,12 +249,13 @@ var glintChart = (function () {
         };
     }
 
-    /* For each series, its place among those of the option, where intervals are series of their own. */
+    /* For each series, the place of what carries its points among the option's, where lines and intervals are series of
+       their own. */
     function places(chart) {
         var next = 0;
         return read(chart).series.map(function (s) {
-            var place = next;
-            next += intervals(s).length ? 2 : 1;
+            var place = next + (hasLine(s) ? 1 : 0);
+            next = place + (intervals(s).length ? 2 : 1);
             return place;
         });
     }

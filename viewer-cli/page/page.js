@@ -52,7 +52,7 @@
     }
 
     function intervalText(cell, decimals) {
-        if (cell === null || typeof cell !== 'object' || !Number.isFinite(cell.low) || !Number.isFinite(cell.high)) return '';
+        if (cell === null || typeof cell !== 'object' || !Number.isFinite(cell.low) || !Number.isFinite(cell.high) || cell.low === cell.high) return '';
         return `${numberText(cell.low, decimals)} to ${numberText(cell.high, decimals)}`;
     }
 
