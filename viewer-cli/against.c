@@ -44,8 +44,19 @@ static void answer_finish(struct answer *answer) {
     free(answer->error);
 }
 
-static bool run_answer(const char *folder, struct answer *answer, struct glint_error *err) {
+static bool is_of_another(const struct glint_run *run, struct glint_capture *capture) {
+    char hash[33];
+    json_t *json = json_loads(glint_run_json(run), 0, NULL);
+    const char *theirs = json_string_value(json_object_get(json_object_get(json, "capture"), "xxh3_128"));
+    const bool other = !theirs || (glint_capture_hash(capture, hash, NULL) && strcmp(theirs, hash) != 0);
+    json_decref(json);
+    return other;
+}
+
+static bool run_answer(const char *folder, struct glint_capture *capture, struct answer *answer, bool *other,
+                       struct glint_error *err) {
     struct glint_run *run = glint_run_open(folder, err);
+    *other = run && is_of_another(run, capture);
     bool ok =
         run && glint_study_run_reflection(run, &answer->pixels, err) && glint_study_run_error(run, &answer->error, err);
     glint_run_close(&run);
@@ -53,10 +64,10 @@ static bool run_answer(const char *folder, struct answer *answer, struct glint_e
 }
 
 /* The reference's reflection of this capture. */
-static bool reference_answer(struct against *against, struct glint_capture *capture, struct answer *answer,
+static bool reference_answer(struct against *against, struct glint_capture *capture, struct answer *answer, bool *other,
                              struct glint_error *err) {
     const struct glint_reference_options options = {.all = against->all};
-    if (against->run) return run_answer(against->run, answer, err);
+    if (against->run) return run_answer(against->run, capture, answer, other, err);
     struct glint_reference *reference =
         load(against, capture, err) ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
                                     : NULL;
@@ -128,7 +139,7 @@ static bool compare_images(struct against *against, struct glint_replay *replay,
         ok = glint_study_truth(capture, pipeline, &truth.pixels, &truth.error, err) &&
              compare(against, capture, &sets, &found, &truth, &c->to_truth, err);
     if (ok && c->reference)
-        ok = reference_answer(against, capture, &reference, err) &&
+        ok = reference_answer(against, capture, &reference, &c->other_capture, err) &&
              compare(against, capture, &sets, &found, &reference, &c->to_reference, err) &&
              cross_sources(against, capture, surfaces, c, err);
     if (ok && c->truth && c->reference)

@@ -36,6 +36,7 @@ struct comparison {
     struct glint_trace_table rays;
     struct glint_metric_table to_truth, to_reference;
     struct glint_image_errors missing;
+    bool other_capture;  /* the run that holds the reference was made from another one, as a frame of its shot */
     char no_image[1024]; /* why, when there is none */
     /* Where both have mirror-like reflections from, after a run with diagnostics: glint_classes_cross. */
     struct glint_classes found_source, reference_source;

@@ -127,6 +127,7 @@ void against_print(const struct comparison *c) {
     }
     if (c->truth) print_image(&c->to_truth, "truth");
     if (c->reference) print_image(&c->to_reference, "reference");
+    if (c->other_capture) puts("the reference was made from another capture");
     if (c->sources) {
         puts("\nmirror-like reflections, where they are from here (rows) and in the reference:");
         cross_print(&c->found_source, &c->reference_source, c->sources);
@@ -195,7 +196,7 @@ static json_t *truth_json(const struct comparison *c) {
 }
 
 static json_t *reference_json(const struct comparison *c) {
-    json_t *json = json_pack("{s:o}", "image", metrics_json(&c->to_reference));
+    json_t *json = json_pack("{s:o, s:b}", "image", metrics_json(&c->to_reference), "other_capture", c->other_capture);
     if (c->sources)
         json_object_set_new(json, "sources", cross_json(&c->found_source, &c->reference_source, c->sources));
     return json;

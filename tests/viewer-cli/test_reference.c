@@ -84,6 +84,25 @@ static void runs_are_compared_with_it(void **state) {
     free(both);
 }
 
+static void another_captures_reference_is_told(void **state) {
+    (void)state;
+    json_t *whole;
+    char *option = reference_option("reference", "kept");
+    char *text = glint_ok("replay", in_folder("room.exr"), option);
+    assert_null(strstr(text, "another capture"));
+    free(text);
+    free(glint_ok("sample", "room", "-o", in_folder("next.exr"), "--size=32x18", "--cube-size=16", "--first-frame=2"));
+    text = glint_ok("replay", in_folder("next.exr"), option);
+    assert_contains(text, "another capture");
+    free(text);
+    text = glint_ok("replay", in_folder("next.exr"), option, "--json");
+    const json_t *run = first_run(text, &whole);
+    assert_true(json_is_true(json_object_get(json_object_get(run, "against_reference"), "other_capture")));
+    json_decref(whole);
+    free(text);
+    free(option);
+}
+
 static void what_cannot_be_is_said(void **state) {
     (void)state;
     free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16"));
@@ -105,6 +124,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_kept_and_goes_on),
         cmocka_unit_test(runs_are_compared_with_it),
+        cmocka_unit_test(another_captures_reference_is_told),
         cmocka_unit_test(what_cannot_be_is_said),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
