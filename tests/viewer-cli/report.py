@@ -28,6 +28,10 @@ class Tests:
         self.capture = self.path(NAME)
         glint("sample", "room", "-o", self.capture, "--size=96x54", "--cube-size=16", "--truth=1")
         glint("replay", self.capture, "-o", self.path("a"), "--against=truth", "--set=downsample.jitter=false")
+        # what an older run was compared with must not stay
+        os.makedirs(self.path("b"))
+        with open(self.path("b/errors.json"), "w", encoding="utf-8") as file:
+            file.write("{}")
         glint("replay", self.capture, "-o", self.path("b"), "--set=downsample.jitter=false",
               "--set=cubemap_trace.steps_hq=8", "--use=blur=none", "--skip=temporal", "--repeat=3")
 
@@ -39,8 +43,9 @@ class Tests:
             return json.load(file)
 
     def show(self, *runs):
-        out = self.path("report.html")
-        glint("report", *(self.path(r) for r in runs), "-o", out)
+        out = self.path(f"{'-'.join(runs)}.html")
+        if not os.path.exists(out):
+            glint("report", *(self.path(r) for r in runs), "-o", out)
         self.browser.show(out)
 
     def table(self, title, which=0):
@@ -103,13 +108,6 @@ class Tests:
         assert int(told[1].replace("\u202f", "")) == everything["pixels"]
         assert abs(float(told[4]) - everything["rmse"]) < 1e-3, (told, everything)
         assert not os.path.exists(os.path.join(self.path("b"), "errors.json"))
-
-    def test_errors_of_an_older_run_do_not_stay(self):
-        arguments = ("replay", self.capture, "-o", self.path("c"), "--set=downsample.jitter=false")
-        glint(*arguments, "--against=truth")
-        assert os.path.exists(os.path.join(self.path("c"), "errors.json"))
-        glint(*arguments)
-        assert not os.path.exists(os.path.join(self.path("c"), "errors.json"))
 
     def test_a_reference_says_what_noise_is_left_and_what_it_assumed(self):
         small = self.path("small.exr")
