@@ -5,8 +5,8 @@
 #include <jansson.h>
 
 #include "args.h"
-#include "glint/judge.h"
 #include "glint/space.h"
+#include "journal.h"
 #include "progress.h"
 
 /* One point on one capture: lines of the log, as they were written. */
@@ -51,7 +51,7 @@ struct sweep {
 
     size_t points;
     struct sweep_row *rows; /* capture · points + point */
-    int log;                /* file descriptor */
+    struct journal journal;
     json_t *definition;
     struct sweep_point *sums;
     struct sweep_front fronts[SWEEP_FRONTS];
@@ -70,8 +70,6 @@ bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], st
 /* Begins the folder, or goes on: a folder that holds another sweep is an error that names the difference. */
 bool sweep_open(struct sweep *sweep, const char *const *axes, const char *sample, const struct list *shaders,
                 struct glint_error *err);
-/* Appends a line; it is there whole or not at all. Keeps the JSON in its row. */
-bool sweep_append(struct sweep *sweep, json_t *line, struct glint_error *err);
 
 /* sweep_run.c */
 /* Does what is missing. Points that fail are noted in the log and do not stop the others. */

@@ -66,18 +66,6 @@ static bool draw_point(const struct work *work, size_t point, struct glint_error
     return ok;
 }
 
-static json_t *errors_json(const struct glint_metric_table *table, uint32_t metrics) {
-    json_t *classes = json_object();
-    for (size_t i = 0; i < table->count; i++) {
-        const struct glint_metric_row *row = &table->rows[i];
-        json_t *figures = json_pack("{s:I}", "pixels", (json_int_t)row->pixels);
-        for (size_t m = 0; m < GLINT_METRIC_COUNT && row->pixels; m++)
-            if (metrics >> m & 1) json_object_set_new(figures, glint_metric(m)->name, json_number(row->of[m].value));
-        json_object_set_new(classes, row->name, figures);
-    }
-    return classes;
-}
-
 static json_t *look_json(const struct sweep *sweep, const struct glint_verdict *v, double picture_seconds) {
     json_t *errors = json_object(), *executed = json_array();
     uint64_t invalid = 0;
@@ -100,7 +88,7 @@ static bool place_line(const struct work *work, size_t point, json_t *line, stru
     if (!line) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     json_object_set_new(line, "capture", json_integer((json_int_t)work->capture));
     json_object_set_new(line, "point", json_integer((json_int_t)point));
-    return sweep_append(work->sweep, line, err);
+    return journal_append(&work->sweep->journal, line, err);
 }
 
 /* Whether a point's failure ends the sweep; else it is noted in the point's row. */
@@ -135,14 +123,6 @@ static bool look(struct work *work, size_t point, struct glint_error *err) {
     return ok;
 }
 
-static json_t *time_json(const struct glint_cost *cost, uint32_t round) {
-    json_t *passes = json_object();
-    for (size_t i = 0; i < cost->pass_count; i++)
-        json_object_set_new(passes, cost->passes[i].pass->slot, json_real((double)cost->passes[i].ns * 1e-6));
-    return json_pack("{s:I, s:f, s:f, s:o}", "round", (json_int_t)round, "frame_ms", (double)cost->frame_ns * 1e-6,
-                     "cubemaps_ms", (double)cost->cubemaps_ns * 1e-6, "passes", passes);
-}
-
 static bool failed(const struct sweep_row *row) {
     return row->look && json_object_get(row->look, "failed");
 }
@@ -154,7 +134,7 @@ static bool time_point(struct work *work, size_t point, uint32_t round, struct g
     label(work, "times, round", round + 1);
     bool ok = glint_judge_time(work->judge, pipeline, 0, work->sweep->whole, &cost, report, work, err);
     if (ok) {
-        ok = place_line(work, point, time_json(&cost, round), err);
+        ok = place_line(work, point, cost_json(&cost, round), err);
         glint_cost_finish(&cost);
     }
     glint_pipeline_destroy(&pipeline);

@@ -57,12 +57,11 @@ static const struct glint_image *reflection_of(struct glint_replay *replay, cons
     return last;
 }
 
-bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err) {
+const struct glint_image *glint_study_reflection_image(struct glint_replay *replay) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     const struct glint_image *last = NULL;
     const struct glint_pass *compose = NULL;
-    *pixels = (struct glint_pixels){0};
     for (size_t i = 0; i < count; i++)
         if (results[i].ran && !strcmp(results[i].pass->slot, COMPOSE)) compose = results[i].pass;
     for (size_t i = 0; i < count; i++) {
@@ -70,6 +69,12 @@ bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pi
             results[i].ran && results[i].pass != compose ? reflection_of(replay, results[i].pass, compose) : NULL;
         if (image) last = image;
     }
+    return last;
+}
+
+bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err) {
+    const struct glint_image *last = glint_study_reflection_image(replay);
+    *pixels = (struct glint_pixels){0};
     if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection at full resolution to compare");
     return allocate(pixels, last->width, last->height, last->components, err) &&
            glint_replay_read_image(replay, last, GLINT_F32, pixels->values, err);

@@ -37,7 +37,9 @@ bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t he
 /* The reflection of the last run at full resolution, as the passes left it for `compose`. False with an error when
    there is none. */
 bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err);
-/* The same of a run folder. */
+/* The image that these are read from; NULL when there is none. */
+const struct glint_image *glint_study_reflection_image(struct glint_replay *replay);
+/* The reflection of a run folder. */
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err);
 /* truth.reflection.LOBE of the lobe that the pipeline draws from (downsample.ndf), R G B; *error receives its
    standard error in each pixel (channel `error`), malloc'd, NULL when the part has none. */

@@ -1,0 +1,316 @@
+/* The search: profiles of single steps, the best sum of them, polishing, new starts. */
+#include "search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+void glint_search_result_finish(struct glint_search_result *result) {
+    for (size_t i = 0; i < result->count; i++) free(result->points[i].values);
+    free(result->points);
+    free(result->matters);
+    *result = (struct glint_search_result){0};
+}
+
+static bool is_answer(const struct glint_search_figures *figures) {
+    return isfinite(figures->wanted) && isfinite(figures->limited);
+}
+
+bool glint_search_better(const struct glint_search_figures *a, const struct glint_search_figures *b, double limit) {
+    if (!is_answer(a) || !is_answer(b)) return is_answer(a) && !is_answer(b);
+    const bool in = a->limited <= limit, other = b->limited <= limit;
+    if (in != other) return in;
+    if (in) return a->wanted < b->wanted || (a->wanted == b->wanted && a->limited < b->limited);
+    return a->limited < b->limited || (a->limited == b->limited && a->wanted < b->wanted);
+}
+
+bool search_spent(const struct search *search) {
+    return search->result->count >= search->options->tries;
+}
+
+static bool add_point(struct search *search, const double *values, const struct glint_search_figures *figures,
+                      struct glint_error *err) {
+    struct glint_search_result *result = search->result;
+    if (result->count == search->room) {
+        const size_t room = 2 * search->room + 64;
+        struct glint_search_point *larger = realloc(result->points, room * sizeof *larger);
+        if (!larger) return no_memory(err);
+        result->points = larger;
+        search->room = room;
+    }
+    struct glint_search_point point = {malloc((search->count + 1) * sizeof(double)), *figures};
+    if (!point.values) return no_memory(err);
+    memcpy(point.values, values, search->count * sizeof(double));
+    const size_t i = result->count++;
+    result->points[i] = point;
+    const double limit = search->options->limit, least = result->points[result->least].figures.limited;
+    if (glint_search_better(figures, &result->points[result->best].figures, limit)) result->best = i;
+    if (is_answer(figures) && !(figures->limited >= least)) result->least = i;
+    result->within = result->points[result->best].figures.limited <= limit;
+    return true;
+}
+
+const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err) {
+    struct glint_search_result *result = search->result;
+    struct glint_search_figures figures = {NAN, NAN};
+    for (size_t i = 0; i < search->count; i++) search->scratch[i] = axis_value_at(&search->axes[i], steps[i]);
+    for (size_t i = 0; i < result->count; i++)
+        if (!memcmp(result->points[i].values, search->scratch, search->count * sizeof(double)))
+            return &result->points[i];
+    if (search_spent(search) || !search->try_point(search->user, search->scratch, &figures, err) ||
+        !add_point(search, search->scratch, &figures, err))
+        return NULL;
+    return &result->points[result->count - 1];
+}
+
+/* splitmix64, S. Vigna */
+static double next_unit(uint64_t *state) {
+    uint64_t z = *state += 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+/* A step of one axis away from the centre, and what it changes alone. */
+struct move {
+    size_t axis;
+    double to, wanted, limited;
+};
+struct profile {
+    double *centre; /* in steps */
+    struct glint_search_figures at;
+    struct move *moves;
+    size_t count;
+    size_t *chosen; /* one an axis: its move + 1, 0: it stays */
+    bool *skip;     /* axes that are left as they are */
+};
+
+static bool matters(const struct search *search, const struct glint_search_figures *a,
+                    const struct glint_search_figures *b) {
+    if (is_answer(a) != is_answer(b)) return true;
+    return fabs(a->wanted - b->wanted) > 1e-9 * fabs(a->wanted) ||
+           fabs(a->limited - b->limited) > (search->options->noise + 1e-9) * fabs(a->limited);
+}
+
+/* Tries one move; false at an error. *tried: there was a try left for it. */
+static bool look(struct search *search, struct profile *profile, size_t axis, double to, bool *tried,
+                 struct glint_error *err) {
+    const double from = profile->centre[axis];
+    profile->centre[axis] = to;
+    const struct glint_search_point *point = search_at(search, profile->centre, err);
+    profile->centre[axis] = from;
+    *tried = point != NULL;
+    if (!point) return err->code == GLINT_OK;
+    if (matters(search, &profile->at, &point->figures)) search->result->matters[axis] = true;
+    if (is_answer(&point->figures) && is_answer(&profile->at))
+        profile->moves[profile->count++] = (struct move){axis, to, point->figures.wanted - profile->at.wanted,
+                                                         point->figures.limited - profile->at.limited};
+    return true;
+}
+
+/* Every axis alone: each other choice; a step below and above. */
+static bool take_profile(struct search *search, struct profile *profile, double step, struct glint_error *err) {
+    profile->count = 0;
+    for (size_t a = 0; a < search->count; a++) {
+        const struct glint_search_axis *axis = &search->axes[a];
+        bool tried = true;
+        if (profile->skip[a]) continue;
+        for (uint32_t c = 0; c < axis->choices; c++)
+            if (c != profile->centre[a] && !look(search, profile, a, c, &tried, err)) return false;
+        for (int sign = -1; !axis->choices && sign <= 1; sign += 2) {
+            const double to = axis_move(axis, profile->centre[a], sign * step);
+            if (isfinite(to) && !look(search, profile, a, to, &tried, err)) return false;
+        }
+        if (!tried) return true;
+    }
+    return true;
+}
+
+/* For each axis the move that is worth most at this price of what is limited; returns what they all change of it. */
+static double choose(const struct search *search, struct profile *profile, double price) {
+    double sum = 0;
+    memset(profile->chosen, 0, search->count * sizeof *profile->chosen);
+    for (size_t i = 0; i < profile->count; i++) {
+        const struct move *move = &profile->moves[i];
+        const size_t old = profile->chosen[move->axis];
+        const double worth = move->wanted + price * move->limited;
+        const double other = old ? profile->moves[old - 1].wanted + price * profile->moves[old - 1].limited : 0;
+        if (worth < other) profile->chosen[move->axis] = i + 1;
+    }
+    for (size_t a = 0; a < search->count; a++)
+        if (profile->chosen[a]) sum += profile->moves[profile->chosen[a] - 1].limited;
+    return sum;
+}
+
+/* The lowest price at which the sum of moves fits. */
+static double fit(const struct search *search, struct profile *profile, double room) {
+    const double scale = fabs(profile->at.wanted / profile->at.limited) + 1e-30;
+    double low = 1e-6 * scale, high = 1e6 * scale;
+    double sum = choose(search, profile, 0);
+    if (sum <= room) return sum;
+    for (int i = 0; i < 60; i++) {
+        const double middle = sqrt(low * high);
+        if (choose(search, profile, middle) <= room) high = middle;
+        else low = middle;
+    }
+    return choose(search, profile, high);
+}
+
+/* Tries the chosen moves together; *limited receives what they came to. `worth` > 0: only those that change as much alone. */
+static bool try_sum(struct search *search, const struct profile *profile, double worth, double *limited,
+                    struct glint_error *err) {
+    double *steps = malloc((search->count + 1) * sizeof *steps);
+    if (!steps) return no_memory(err);
+    memcpy(steps, profile->centre, search->count * sizeof *steps);
+    for (size_t a = 0; a < search->count; a++) {
+        const struct move *move = profile->chosen[a] ? &profile->moves[profile->chosen[a] - 1] : NULL;
+        if (move && fabs(move->wanted) + fabs(move->limited) * fabs(profile->at.wanted / profile->at.limited) >= worth)
+            steps[a] = move->to;
+    }
+    const struct glint_search_point *point = search_at(search, steps, err);
+    if (point) *limited = point->figures.limited;
+    free(steps);
+    return point || err->code == GLINT_OK;
+}
+
+/* The predicted best, with the prediction corrected by what came of it; then without the moves that change little. */
+static bool try_best_sums(struct search *search, struct profile *profile, struct glint_error *err) {
+    const double room = search->options->limit - profile->at.limited;
+    double correction = 0;
+    for (int i = 0; i < 4; i++) {
+        double limited = NAN;
+        const double sum = fit(search, profile, room - correction);
+        if (!try_sum(search, profile, 0, &limited, err)) return false;
+        if (!isfinite(limited)) break;
+        const double off = limited - profile->at.limited - sum;
+        if (fabs(off - correction) < 0.01 * fabs(search->options->limit)) break;
+        correction = off;
+    }
+    for (double part = 0.003; part < 0.1; part *= 4) {
+        double limited;
+        if (!try_sum(search, profile, part * fabs(profile->at.wanted), &limited, err)) return false;
+    }
+    return true;
+}
+
+static void centre_on(const struct search *search, struct profile *profile, size_t point) {
+    for (size_t a = 0; a < search->count; a++)
+        profile->centre[a] = axis_steps(&search->axes[a], search->result->points[point].values[a]);
+    profile->at = search->result->points[point].figures;
+}
+
+/* Around the best point until no step of `least` or more gains. */
+static bool descend(struct search *search, struct profile *profile, double step, double least,
+                    struct glint_error *err) {
+    while (step >= least && !search_spent(search)) {
+        const size_t before = search->result->best;
+        centre_on(search, profile, before);
+        if (!take_profile(search, profile, step, err) || !try_best_sums(search, profile, err)) return false;
+        if (search->result->best == before) step /= 2;
+    }
+    return true;
+}
+
+/* What moved anything most in the last profile, as far as COBYLA is good for. */
+static size_t pick_numbers(const struct search *search, const struct profile *profile, size_t *axes) {
+    enum { MOST = 16 };
+    size_t count = 0;
+    for (double worth = 0.1; count < MOST && worth > 1e-6; worth /= 2)
+        for (size_t i = 0; i < profile->count && count < MOST; i++) {
+            const struct move *move = &profile->moves[i];
+            bool known = search->axes[move->axis].choices != 0;
+            for (size_t k = 0; k < count; k++) known |= axes[k] == move->axis;
+            if (!known && (fabs(move->wanted) > worth * fabs(profile->at.wanted) ||
+                           fabs(move->limited) > worth * fabs(profile->at.limited)))
+                axes[count++] = move->axis;
+        }
+    return count;
+}
+
+static bool polish(struct search *search, struct profile *profile, struct glint_error *err) {
+    const size_t left = search->options->tries - search->result->count;
+    size_t *axes = calloc(search->count + 1, sizeof *axes);
+    if (!axes) return no_memory(err);
+    const size_t count = pick_numbers(search, profile, axes);
+    centre_on(search, profile, search->result->best);
+    const bool ok = !count || search_polish(search, profile->centre, axes, count, (uint32_t)(left / 2 + 1), err);
+    free(axes);
+    return ok;
+}
+
+/* Off the best point by two steps on a fourth of the axes; the next descent starts from what is better then. */
+static bool throw_off(struct search *search, struct profile *profile, struct glint_error *err) {
+    centre_on(search, profile, search->result->best);
+    for (size_t a = 0; a < search->count; a++) {
+        const struct glint_search_axis *axis = &search->axes[a];
+        const double chance = next_unit(&search->random), way = next_unit(&search->random);
+        if (profile->skip[a] || chance > 0.25) continue;
+        const double to = axis->choices ? floor(way * axis->choices)
+                                        : axis_move(axis, profile->centre[a], way < 0.5 ? -4 * way : 4 * way - 2);
+        if (isfinite(to)) profile->centre[a] = to;
+    }
+    const struct glint_search_point *point = search_at(search, profile->centre, err);
+    if (!point) return err->code == GLINT_OK;
+    profile->at = point->figures;
+    return !is_answer(&profile->at) || (take_profile(search, profile, 1, err) && try_best_sums(search, profile, err));
+}
+
+static bool run(struct search *search, struct profile *profile, struct glint_error *err) {
+    for (size_t a = 0; a < search->count; a++) profile->centre[a] = axis_steps(&search->axes[a], search->axes[a].start);
+    const struct glint_search_point *start = search_at(search, profile->centre, err);
+    if (!start) return err->code == GLINT_OK;
+    profile->at = start->figures;
+    if (!is_answer(&start->figures))
+        return glint_fail(err, GLINT_ERROR_USAGE, "the start has no figures: nothing can be compared with it");
+    if (!take_profile(search, profile, 2, err)) return false;
+    for (size_t a = 0; a < search->count; a++) {
+        if (search_spent(search)) search->result->matters[a] = true;
+        profile->skip[a] = !search->result->matters[a];
+    }
+    if (!try_best_sums(search, profile, err)) return false;
+    double least = 0.5;
+    while (!search_spent(search)) {
+        const size_t before = search->result->count;
+        if (!descend(search, profile, 2, least, err) || !polish(search, profile, err) ||
+            !throw_off(search, profile, err))
+            return false;
+        least = fmax(least / 2, 0.03);
+        if (search->result->count == before && least == 0.03) return true; /* every point around it is known */
+    }
+    return true;
+}
+
+bool glint_search(const struct glint_search_axis *axes, size_t count, const struct glint_search_options *options,
+                  glint_search_try try_point, void *user, struct glint_search_result *result, struct glint_error *err) {
+    struct glint_error own = {0};
+    struct search search = {.axes = axes,
+                            .count = count,
+                            .options = options,
+                            .try_point = try_point,
+                            .user = user,
+                            .result = result,
+                            .random = options->seed,
+                            .scratch = calloc(count + 1, sizeof(double))};
+    size_t moves = 2;
+    for (size_t a = 0; a < count; a++) moves += axes[a].choices > 2 ? axes[a].choices : 2;
+    struct profile profile = {.centre = calloc(count + 1, sizeof(double)),
+                              .moves = calloc(moves, sizeof *profile.moves),
+                              .chosen = calloc(count + 1, sizeof *profile.chosen),
+                              .skip = calloc(count + 1, sizeof *profile.skip)};
+    *result = (struct glint_search_result){.axes = count, .matters = calloc(count + 1, sizeof *result->matters)};
+    bool ok =
+        (search.scratch && profile.centre && profile.moves && profile.chosen && profile.skip && result->matters) ||
+        no_memory(&own);
+    ok = ok && run(&search, &profile, &own);
+    if (!ok) glint_fail(err, own.code, "%s", own.message);
+    free(profile.skip);
+    free(profile.chosen);
+    free(profile.moves);
+    free(profile.centre);
+    free(search.scratch);
+    return ok;
+}

@@ -1,0 +1,191 @@
+/* The search on functions whose best points are known. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "glint/search.h"
+
+/* A march: errors fall with the inverse of two counts, time grows with them; one number has its best value inside, a switch
+   costs, one of three choices is better, one number matters to nothing. */
+enum { STEPS, CELLS, WIDTH, EXTRA, KIND, IDLE, AXES };
+static const struct glint_search_axis axes[AXES] = {
+    [STEPS] = {.lowest = 1, .highest = 1024, .start = 24, .whole = true, .scale = GLINT_SEARCH_DOUBLING},
+    [CELLS] = {.lowest = 1, .highest = 65536, .start = 96, .whole = true, .scale = GLINT_SEARCH_DOUBLING},
+    [WIDTH] = {.lowest = 0, .highest = 100, .start = 0.001, .scale = GLINT_SEARCH_DOUBLING},
+    [EXTRA] = {.choices = 2, .start = 1},
+    [KIND] = {.choices = 3, .start = 0},
+    [IDLE] = {.lowest = -1, .highest = 1, .start = 0.5},
+};
+static const double kinds[] = {3, 1, 2};
+
+struct calls {
+    size_t count;
+    uint64_t hash;
+    size_t stop_after; /* 0: never */
+    double noise;
+};
+
+static double error_at(const double *v) {
+    const double width = log2(v[WIDTH] + 1e-4) - log2(0.02);
+    return 40 / v[STEPS] + 60 / v[CELLS] + 0.1 * width * width + (v[EXTRA] > 0 ? 0 : 0.05) + 0.2 * kinds[(int)v[KIND]];
+}
+static double cost_at(const double *v) {
+    return 2 * v[STEPS] + v[CELLS] + 8 * v[EXTRA];
+}
+
+static bool try_march(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
+    struct calls *calls = user;
+    for (int a = 0; a < AXES; a++) {
+        const struct glint_search_axis *axis = &axes[a];
+        if (axis->choices) assert_true(v[a] >= 0 && v[a] < axis->choices && v[a] == floor(v[a]));
+        else assert_true(v[a] >= axis->lowest && v[a] <= axis->highest && (!axis->whole || v[a] == floor(v[a])));
+        uint64_t bits;
+        memcpy(&bits, &v[a], sizeof bits);
+        calls->hash = (calls->hash ^ bits) * 0x100000001b3U;
+    }
+    calls->count++;
+    if (calls->stop_after && calls->count > calls->stop_after)
+        return glint_fail(err, GLINT_ERROR_INTERRUPTED, "stopped");
+    *figures = (struct glint_search_figures){error_at(v), cost_at(v) * (1 + calls->noise * sin((double)calls->count))};
+    return true;
+}
+
+/* The least error within the limit, by looking at everything. */
+static double truly_least(double limit) {
+    double least = INFINITY;
+    for (int extra = 0; extra < 2; extra++)
+        for (double steps = 1; steps <= 1024; steps++) {
+            const double cells = floor(fmin(65536, limit - 2 * steps - 8 * extra));
+            if (cells >= 1) least = fmin(least, error_at((const double[AXES]){steps, cells, 0.0199, extra, 1, 0}));
+        }
+    return least;
+}
+
+static struct glint_search_result search(double limit, uint32_t tries, uint64_t seed, struct calls *calls) {
+    struct glint_search_result result;
+    struct glint_error err = {0};
+    const struct glint_search_options options = {
+        .limit = limit, .tries = tries, .seed = seed, .noise = 3 * calls->noise};
+    if (!glint_search(axes, AXES, &options, try_march, calls, &result, &err)) fail_msg("%s", err.message);
+    assert_int_equal(result.count, calls->count);
+    assert_true(result.count <= tries);
+    return result;
+}
+
+/* Catches: a limit that is broken, fractions of steps, choices that are not tried, a search that stays where it begins. */
+static void the_best_point_within_a_limit_is_found(void **state) {
+    (void)state;
+    static const double limits[] = {160, 76, 38, 12}; /* all of the start, a half, a fourth, nearly nothing */
+    for (int i = 0; i < 4; i++) {
+        struct calls calls = {0};
+        struct glint_search_result result = search(limits[i], 250, 1, &calls);
+        const struct glint_search_point *best = &result.points[result.best];
+        const double least = truly_least(limits[i]);
+        assert_true(result.within && best->figures.limited <= limits[i]);
+        assert_true(best->figures.wanted == error_at(best->values) && best->figures.limited == cost_at(best->values));
+        print_message("limit %g: found %g, least %g\n", limits[i], best->figures.wanted, least);
+        assert_true(best->figures.wanted >= least - 1e-3); /* the width's own best lies between two grid values */
+        assert_true(best->figures.wanted < 1.02 * least);
+        assert_int_equal((int)best->values[KIND], 1);
+        assert_true(result.matters[STEPS] && result.matters[WIDTH] && result.matters[KIND] && !result.matters[IDLE]);
+        assert_true(best->values[IDLE] == 0.5); /* left alone */
+        glint_search_result_finish(&result);
+    }
+}
+
+static void a_seed_gives_the_same_points_again(void **state) {
+    (void)state;
+    struct calls calls[3] = {{0}, {0}, {0}};
+    for (int i = 0; i < 3; i++) {
+        struct glint_search_result result = search(76, 300, i < 2 ? 7 : 8, &calls[i]);
+        glint_search_result_finish(&result);
+    }
+    assert_int_equal(calls[0].hash, calls[1].hash);
+    assert_int_not_equal(calls[0].hash, calls[2].hash);
+}
+
+static void what_was_found_before_an_error_is_kept(void **state) {
+    (void)state;
+    struct calls calls = {.stop_after = 40};
+    struct glint_search_result result;
+    struct glint_error err = {0};
+    const struct glint_search_options options = {.limit = 76, .tries = 200, .seed = 1};
+    assert_false(glint_search(axes, AXES, &options, try_march, &calls, &result, &err));
+    assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
+    assert_int_equal(result.count, 40);
+    for (size_t i = 0; i < result.count; i++)
+        assert_false(glint_search_better(&result.points[i].figures, &result.points[result.best].figures, 76));
+    glint_search_result_finish(&result);
+}
+
+/* Catches: an impossible limit that ends in something else than the least there is. */
+static void what_no_point_reaches_is_said(void **state) {
+    (void)state;
+    struct calls calls = {0};
+    struct glint_search_result result = search(1, 300, 1, &calls);
+    assert_false(result.within);
+    assert_true(result.points[result.best].figures.limited == 3 &&
+                result.points[result.least].figures.limited == 3); /* one step, one cell, no extra */
+    glint_search_result_finish(&result);
+}
+
+static void noise_moves_the_answer_little(void **state) {
+    (void)state;
+    struct calls calls = {.noise = 0.02};
+    struct glint_search_result result = search(76, 300, 1, &calls);
+    const struct glint_search_point *best = &result.points[result.best];
+    assert_true(cost_at(best->values) < 76 * 1.03);
+    assert_true(error_at(best->values) < 1.05 * truly_least(76));
+    assert_false(result.matters[IDLE]);
+    glint_search_result_finish(&result);
+}
+
+static void better_is_within_then_less(void **state) {
+    (void)state;
+    const struct glint_search_figures in = {2, 9}, less = {1, 9.5}, out = {0.1, 11}, far = {0.05, 20}, none = {NAN, 1};
+    assert_true(glint_search_better(&less, &in, 10) && !glint_search_better(&in, &less, 10));
+    assert_true(glint_search_better(&in, &out, 10) && glint_search_better(&out, &far, 10));
+    assert_true(glint_search_better(&far, &none, 10) && !glint_search_better(&none, &far, 10));
+    assert_false(glint_search_better(&in, &in, 10));
+}
+
+/* A start without figures, no tries left, no axes. */
+static bool no_figures(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
+    (void)user, (void)v, (void)figures, (void)err;
+    return true;
+}
+static void odd_searches_end(void **state) {
+    (void)state;
+    struct glint_search_result result;
+    struct glint_error err = {0};
+    struct glint_search_options options = {.limit = 76, .tries = 50};
+    assert_false(glint_search(axes, AXES, &options, no_figures, NULL, &result, &err));
+    assert_int_equal(err.code, GLINT_ERROR_USAGE);
+    glint_search_result_finish(&result);
+    struct calls calls = {0};
+    result = search(76, 1, 1, &calls);
+    assert_true(result.count == 1 && !result.within && result.matters[IDLE]); /* not known */
+    glint_search_result_finish(&result);
+    err = (struct glint_error){0};
+    assert_true(glint_search(axes, 0, &options, no_figures, NULL, &result, &err) || err.code == GLINT_ERROR_USAGE);
+    glint_search_result_finish(&result);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_best_point_within_a_limit_is_found),
+        cmocka_unit_test(a_seed_gives_the_same_points_again),
+        cmocka_unit_test(what_was_found_before_an_error_is_kept),
+        cmocka_unit_test(what_no_point_reaches_is_said),
+        cmocka_unit_test(noise_moves_the_answer_little),
+        cmocka_unit_test(better_is_within_then_less),
+        cmocka_unit_test(odd_searches_end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
