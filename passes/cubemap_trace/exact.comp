@@ -157,14 +157,16 @@ void take_finer_view(inout Walk walk, vec3 origin, vec3 direction, inout uint fe
     if (gap_at(view, direction, walk.t, fetches) <= 0.0) walk.view = view;
 }
 
-// The interval in which the ray goes behind, halved. True when it meets a surface there, on either side of an edge.
-bool closes_in(View view, vec3 direction, inout float low, inout float high, inout uint fetches) {
+// The interval in which the ray goes farther behind than allowed, halved. True when it meets a surface there, on either side
+// of an edge.
+bool closes_in(View view, vec3 direction, float allowed, inout float low, inout float high, inout uint fetches) {
     for (int i = 0; i < refinements; ++i) {
         float middle = 0.5 * (low + high);
-        if (gap_at(view, direction, middle, fetches) <= 0.0) low = middle;
+        if (gap_at(view, direction, middle, fetches) <= allowed) low = middle;
         else high = middle;
     }
-    return gap_at(view, direction, low, fetches) >= -tolerance || gap_at(view, direction, high, fetches) <= tolerance;
+    return gap_at(view, direction, low, fetches) >= allowed - tolerance ||
+           gap_at(view, direction, high, fetches) <= allowed + tolerance;
 }
 
 void end_at(inout Result result, float travelled_m, uint place, uint end) {
@@ -222,17 +224,15 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
             walk.t = next;
             walk.front = true;
             take_finer_view(walk, origin, direction, result.fetches);
-        } else if (walk.front) {
+        } else if (!walk.front && gap <= tolerance) { // still on the surface where it started
+            walk.t = next;
+        } else { // from there it may go straight behind another one, as beside a corner
             float low = walk.t, high = next;
-            if (closes_in(walk.view, direction, low, high, result.fetches)) {
+            if (closes_in(walk.view, direction, walk.front ? 0.0 : tolerance, low, high, result.fetches)) {
                 end_at(result, 0.5 * (low + high), walk.view.place, END_hit);
                 return result;
             }
             change_view(walk, origin, direction, low, high, result.fetches);
-        } else if (gap <= tolerance) { // still on the surface where it started
-            walk.t = next;
-        } else {
-            change_view(walk, origin, direction, next, next, result.fetches);
         }
     }
     if (walk.seen) end_at(result, walk.t, walk.view.place, END_steps_exhausted);
