@@ -20,7 +20,7 @@ enum { KEY_PRESETS = 256, KEY_SET, KEY_REPEAT };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",  'o',         "FOLDER",     0, "Keep the table as table.json and table.csv, and a sheet of pictures, sheet.png", 0},
+    {"output",  'o',         "FOLDER",     0, "Keep the table as table.json and table.csv, a sheet of pictures, sheet.png, and a page of it all, index.html", 0},
     {"presets", KEY_PRESETS, "NAME|FILE,...", 0, "The presets (default: all but reference); there are ", 0},
     {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one of them; glint passes SLOT lists them", 0},
     {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds, in turns: each preset once a round (default 3)", 0},
@@ -103,8 +103,8 @@ static bool write_all(const char *folder, const struct contest_table *table, con
     char path[4096];
     if (snprintf(path, sizeof path, "%s/sheet.png", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    bool ok =
-        write_table(folder, table, err) && sheet_lay_out(&picture, sheet, err) && png_file_write(path, &picture, err);
+    bool ok = write_table(folder, table, err) && sheet_lay_out(&picture, sheet, err) &&
+              png_file_write(path, &picture, err) && contest_write_page(folder, table, sheet, err);
     picture_finish(&picture);
     return ok;
 }

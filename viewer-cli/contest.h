@@ -87,5 +87,8 @@ void contest_print(const struct contest_table *table);
 json_t *contest_json(const struct contest_table *table);
 /* Lines of text, malloc'd; NULL when memory is short. */
 char *contest_csv(const struct contest_table *table);
+/* FOLDER/index.html, from page.json and pictures of the sheet's cells, which are kept beside it. */
+bool contest_write_page(const char *folder, const struct contest_table *table, const struct sheet *sheet,
+                        struct glint_error *err);
 
 #endif

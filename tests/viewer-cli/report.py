@@ -168,6 +168,23 @@ class Tests:
         with open(os.path.join(swept, "index.html"), "rb") as first, open(self.path("again.html"), "rb") as again:
             assert first.read() == again.read()
 
+    def test_presets_beside_each_other_have_a_page(self):
+        compared = self.path("compared")
+        glint("compare", self.capture, "--presets=mafia3,kf2", "--repeat=1", "-o", compared)
+        with open(os.path.join(compared, "table.json"), encoding="utf-8") as file:
+            presets = json.load(file)["captures"][0]["presets"]
+        self.browser.show(os.path.join(compared, "index.html"))
+        assert self.browser.evaluate("[...document.querySelectorAll('h2')].map(e => e.textContent)") == [NAME]
+        assert self.browser.evaluate("[...document.querySelectorAll('h3')].map(e => e.textContent)") == \
+            ["Error against time", "Error by surface", "Why rays ended"]
+        (rows,) = [t for t in self.browser.evaluate(f"{TABLE}({json.dumps(NAME)})") if t[0][-1] == "notes"]
+        for row, preset in zip(rows[1:], presets, strict=True):
+            (everything,) = [s for s in preset["surfaces"] if s["surfaces"] == "all"]
+            assert row[0] == preset["preset"] and abs(float(row[5]) - everything["symmetric"]) < 1e-4, (row, everything)
+        # the truth has no error of its own
+        assert self.browser.evaluate("document.querySelectorAll('.pictures img').length") == 3 * 3 - 1
+        self.browser.quiet()
+
     def test_what_cannot_be_reported_is_named(self):
         assert "nowhere" in glint("report", self.path("nowhere"), "-o", self.path("x.html"), status=1)
         assert "x.txt" in glint("report", self.path("a"), "-o", self.path("x.txt"), status=2)

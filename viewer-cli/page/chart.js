@@ -7,7 +7,9 @@ var glintChart = (function () {
                  text: '#1f2328', faint: '#59636e', line: '#d8dee4', muted: '#8c959f', ground: '#ffffff'};
     var DARK = {colors: ['#56b4e9', '#e69f00', '#2fc79a', '#e39ac4', '#f0e442', '#7f9cff', '#c66a8e', '#a8ab52'],
                 text: '#e6e8eb', faint: '#9da7b3', line: '#30363d', muted: '#6e7681', ground: '#16181d'};
-    var SYMBOLS = ['circle', 'diamond', 'triangle', 'rect', 'pin', 'arrow'];
+    /* Each with its middle on the point. */
+    var SYMBOLS = ['circle', 'diamond', 'triangle', 'rect', 'path://M0 0L10 0L5 10Z',
+                   'path://M3 0L7 0L7 3L10 3L10 7L7 7L7 10L3 10L3 7L0 7L0 3L3 3Z'];
     var FONT = 'system-ui, Segoe UI, DejaVu Sans, sans-serif'; /* without quotes: the renderer escapes no attributes */
 
     /* Texts hold what XML has no way to say: control characters, halves of surrogate pairs. */
@@ -167,8 +169,8 @@ var glintChart = (function () {
         };
     }
 
-    /* What carries a series' points: bars, or marks. */
-    function markedOption(s, color, symbol, look) {
+    /* What carries a series' points: bars, or marks. `faded`: its colour is another series' too. */
+    function markedOption(s, color, symbol, look, faded) {
         var option = {
             name: s.name, type: s.kind === 'bar' ? 'bar' : 'scatter', color: color, animation: false, z: s.muted ? 2 : 4,
             data: s.points.map(function (p, i) { return {value: [p.x, p.y], point: i, name: text(p.name)}; })
@@ -177,12 +179,12 @@ var glintChart = (function () {
             for (var key in BARS) option[key] = BARS[key];
             option.emphasis = {itemStyle: {borderColor: look.text, borderWidth: 1.5}};
             if (s.stack) option.stack = text(s.stack);
-            if (s.stack) option.itemStyle = {borderColor: 'transparent', borderWidth: 0.5};
+            option.itemStyle = {borderColor: 'transparent', borderWidth: s.stack ? 0.5 : 0, opacity: faded ? 0.5 : 1};
             return option;
         }
         option.symbol = symbol;
         option.symbolSize = s.muted ? 6 : symbol === 'circle' ? 8 : 10;
-        option.itemStyle = {color: color, opacity: s.muted ? 0.55 : 1};
+        option.itemStyle = {color: color, opacity: s.muted || faded ? 0.55 : 1};
         return option;
     }
 
@@ -217,33 +219,44 @@ var glintChart = (function () {
         };
     }
 
+    /* Lines of a legend as wide as its texts most likely are; ECharts leaves the place for it to others. */
+    function legendLines(names, width) {
+        var lines = 1, x = 12;
+        names.forEach(function (name) {
+            var item = 50 + 6.6 * name.length;
+            if (x > 12 && x + item > width - 12) { lines++; x = 12; }
+            x += item;
+        });
+        return names.length > 1 ? lines : 0;
+    }
+
     /* What the page and the file share. `titled`: the title is part of the picture. */
-    function option(chart, look, titled) {
+    function option(chart, look, titled, width) {
         var data = read(chart), bars = [], series = [], next = 0;
         data.series.forEach(function (s) {
             var group = s.stack ? 'stack ' + s.stack : s.name;
             if (s.kind === 'bar' && bars.indexOf(group) < 0) bars.push(group);
         });
         data.series.forEach(function (s) {
-            var color = s.muted ? look.muted : look.colors[next % look.colors.length];
+            var color = s.muted ? look.muted : look.colors[next % look.colors.length], faded = !s.muted && next >= look.colors.length;
             var symbol = s.muted ? 'circle' : SYMBOLS[next % SYMBOLS.length], lines = intervals(s);
             if (!s.muted) next++;
             if (hasLine(s)) series.push(lineOption(s, color, symbol));
-            series.push(markedOption(s, color, symbol, look));
+            series.push(markedOption(s, color, symbol, look, faded));
             if (lines.length)
                 series.push(intervalSeries(s, lines, s.kind === 'bar' ? look.text : color, s.kind !== 'bar' ? null :
                     [bars.indexOf(s.stack ? 'stack ' + s.stack : s.name), bars.length]));
         });
         if (data.marks.length) series.push(markSeries(data.marks, look));
-        var names = data.series.map(function (s) { return s.name; }), legend = names.length > 1;
+        var names = data.series.map(function (s) { return s.name; }), lines = legendLines(names, width);
         var title = titled && chart.title;
         return {
             animation: false, backgroundColor: look.ground, textStyle: {fontFamily: FONT, color: look.text},
             title: {show: !!title, text: text(chart.title), left: 12, top: 8,
                     textStyle: {color: look.text, fontSize: 14, fontWeight: 600}},
-            legend: {show: legend, data: names, left: 12, top: title ? 34 : 4, icon: undefined, itemGap: 16,
+            legend: {show: lines > 0, data: names, left: 12, top: title ? 34 : 4, itemGap: 16,
                      textStyle: {color: look.text, fontSize: 12}, inactiveColor: look.line},
-            grid: {left: 12, right: 24, top: 20 + (title ? 30 : 0) + (legend ? 26 : 0), bottom: 12,
+            grid: {left: 12, right: 24, top: 20 + (title ? 30 : 0) + 26 * lines, bottom: 12,
                    outerBoundsMode: 'same', outerBoundsContain: 'all'},
             xAxis: axisOption(data, 'x', look), yAxis: axisOption(data, 'y', look), series: series
         };
@@ -270,7 +283,7 @@ var glintChart = (function () {
     /* As SVG, in ASCII, whatever the texts hold. */
     function svg(description) {
         var chart = object(description), of = size(chart), drawn = echarts.init(null, null, {renderer: 'svg', ssr: true, width: of[0], height: of[1]});
-        drawn.setOption(option(chart, LIGHT, true));
+        drawn.setOption(option(chart, LIGHT, true, of[0]));
         var result = drawn.renderToSVGString();
         drawn.dispose();
         return result.replace(/[\ud800-\udbff][\udc00-\udfff]|[^\u0000-\u007f]/g, function (c) {

@@ -238,7 +238,7 @@
             const look = glintChart[document.documentElement.dataset.look];
             if (state.drawn) state.drawn.dispose();
             state.drawn = echarts.init(plot, null, {renderer: 'svg'});
-            const option = glintChart.option(chart, look, false);
+            const option = glintChart.option(chart, look, false, plot.clientWidth);
             option.tooltip = {
                 trigger: 'item', confine: true, backgroundColor: look.ground, borderColor: look.line,
                 textStyle: {color: look.text, fontSize: 12},
@@ -283,7 +283,6 @@
                     plot.replaceChildren(element('p', {class: 'note'}, `this chart cannot be drawn: ${error.message}`));
                 }
             },
-            resize() { state.drawn?.resize(); },
         });
         return element('section', null,
             chart.title ? element('h3', null, chart.title) : null,
@@ -343,6 +342,6 @@
     const dark = matchMedia('(prefers-color-scheme: dark)');
     setLook(dark.matches ? 'dark' : 'light');
     dark.addEventListener('change', () => setLook(dark.matches ? 'dark' : 'light'));
-    addEventListener('resize', () => charts.forEach(c => c.resize()));
+    addEventListener('resize', () => charts.forEach(c => c.draw()));
     document.documentElement.dataset.ready = 'yes';
 })();
