@@ -59,11 +59,11 @@ float gap_at(View view, vec3 direction, float t, inout uint fetches) {
     return length(from_center) / seen_distance(from_center, view.place) - 1.0;
 }
 
-// Where the direction from the centre has turned by a part of a texel; +inf when what is left to turn is less. With s along
+// Where the direction from the centre has turned by so many texels; +inf when what is left to turn is less. With s along
 // the ray from its foot, tan(angle) = s/aside; the addition theorem of the tangent.
-float next_t(View view, vec3 direction, float t) {
+float next_t(View view, vec3 direction, float t, float texels) {
     vec3 from_center = at(view, direction, t);
-    float k = texel_part * texel_angle(from_center, float(frame.counts.z)), s = view.from_foot + t;
+    float k = texels * texel_angle(from_center, float(frame.counts.z)), s = view.from_foot + t;
     float turn = view.aside - s * k;
     if (!(turn > 0.0)) return INFINITE;
     return max(t + k * dot(from_center, from_center) / turn, t * (1.0 + 1e-6) + 1e-6);
@@ -177,6 +177,7 @@ void end_at(inout Result result, float travelled_m, uint place, uint end) {
 
 const int FINEST_SKIP = 2; // a cell of which is wider than the texels that it leaves out
 const int PATIENCE = 4;    // steps until it is tried again
+const float UNSEEN = 4.0;  // steps of a ray that no cube map sees, each of which asks all of them, are longer: no fewer are right
 
 Result march(vec3 origin, vec3 direction, float start_m, uint best) {
     Result result = Result(start_m, NO_PLACE, END_steps_exhausted, 0u, 0u);
@@ -204,7 +205,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
             }
             wait = PATIENCE;
         }
-        float next = next_t(walk.view, direction, walk.t);
+        float next = next_t(walk.view, direction, walk.t, walk.seen ? texel_part : UNSEEN * texel_part);
         if (!(next < LARGEST)) { // one texel is left: the sky, or a surface that the ray must be behind at twice its distance
             float last_m = seen_distance(direction, walk.view.place);
             result.fetches++;
