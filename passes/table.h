@@ -10,6 +10,12 @@ const struct glint_pass *glint_pass_find(const char *slot, const char *variant) 
     return NULL;
 }
 
+bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *parameter) {
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (pass->rows[i].kind == GLINT_ROW_ASSUMED && strcmp(pass->rows[i].name, parameter->name) == 0) return true;
+    return false;
+}
+
 const struct glint_row *glint_capture_images(size_t *count) {
     *count = sizeof capture_rows / sizeof capture_rows[0];
     return capture_rows;

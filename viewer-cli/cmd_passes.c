@@ -103,6 +103,7 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
 static void add_parameter(struct table *table, const struct glint_pass *pass, const struct glint_row *row,
                           bool markdown) {
     char *names = row->choices ? join_names("", row->choices) : NULL;
+    const char *assumed = glint_pass_assumes(pass, row) ? " (assumed: the data do not say it)" : "";
     if (markdown) table_cell(table, "%s.%s", pass->slot, row->name);
     else table_cell(table, "%s", row->name);
     if (markdown) table_cell(table, "%s", row_type(row));
@@ -113,8 +114,8 @@ static void add_parameter(struct table *table, const struct glint_pass *pass, co
     table_cell(table, "%s", strcmp(row->unit, "1") ? row->unit : "");
     if (markdown) {
         table_cell(table, "%s", row->source);
-        table_cell(table, "%s", row->help);
-    } else table_cell(table, "%s%s%s [%s]", names ? names : "", names ? ": " : "", row->help, row->source);
+        table_cell(table, "%s%s", row->help, assumed);
+    } else table_cell(table, "%s%s%s%s [%s]", names ? names : "", names ? ": " : "", row->help, assumed, row->source);
     free(names);
 }
 
@@ -163,6 +164,7 @@ static json_t *image_json(const struct glint_row *row, const char *slot) {
 static json_t *parameter_json(const struct glint_pass *pass, const struct glint_row *row) {
     json_t *p = json_pack("{s:s++, s:s, s:s, s:s, s:s}", "name", pass->slot, ".", row->name, "type", row_type(row),
                           "unit", row->unit, "source", row->source, "help", row->help);
+    if (glint_pass_assumes(pass, row)) json_object_set_new(p, "assumed", json_true());
     if (row->kind == GLINT_ROW_CHOICE) {
         json_t *choices = json_array();
         for (size_t i = 0; row->choices[i]; i++) json_array_append_new(choices, json_string(row->choices[i]));

@@ -23,6 +23,7 @@
 // OPTIONAL_READ gives a constant has_NAME: false when no pass makes the image and its "nothing" value is bound.
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when
 // frame.flags.x is 1; otherwise they are stand-ins of one texel with the image's "nothing" value.
+// ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
 #define PASS(title, source)
 #define SLOT(title)

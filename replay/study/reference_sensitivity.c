@@ -6,12 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool assumed(const struct glint_pass *pass, const struct glint_row *row) {
-    if (row->kind != GLINT_ROW_SPEC && row->kind != GLINT_ROW_PUSH) return false;
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (pass->rows[r].kind == GLINT_ROW_ASSUMED && !strcmp(pass->rows[r].name, row->name)) return true;
-    return false;
-}
+#include "pipeline.h"
 
 static void add_row(struct glint_reference_sensitivity *sensitivity, const struct glint_pass *pass,
                     const struct glint_row *row, double value, double factor) {
@@ -30,7 +25,7 @@ static void list_assumptions(const struct glint_pipeline *pipeline, struct glint
     for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
         for (size_t r = 0; r < pass->row_count; r++) {
-            if (!assumed(pass, &pass->rows[r])) continue;
+            if (!row_is_parameter(&pass->rows[r]) || !glint_pass_assumes(pass, &pass->rows[r])) continue;
             const double value = glint_pipeline_value(pipeline, pass, &pass->rows[r]);
             add_row(sensitivity, pass, &pass->rows[r], value, 0.5);
             if (value != 0) add_row(sensitivity, pass, &pass->rows[r], value, 2);

@@ -208,6 +208,18 @@ static void images_are_read_as_what_they_are(void **state) {
     fixture_says(&err, "wrong/v reads sky as texture2D, but it is a cube map");
 }
 
+static void what_is_assumed_is_a_number_of_the_pass(void **state) {
+    DEFINE_PASS(sure, "v", WRITES("w"), {.kind = GLINT_ROW_PUSH, .name = "there"},
+                {.kind = GLINT_ROW_ASSUMED, .name = "there"}, {.kind = GLINT_ROW_ASSUMED, .name = "w"});
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &sure);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    fixture_says(&err, "sure/v: ASSUMED w: expected a number");
+    assert_null(strstr(err.message, "there"));
+}
+
 /* Every pipeline that the table allows has to link: the real declarations agree with one another. */
 static void the_real_passes_link(void **state) {
     const struct fixture *fixture = *state;
@@ -288,6 +300,7 @@ int main(void) {
         cmocka_unit_test(a_cycle_names_its_members_only),
         cmocka_unit_test(all_faults_come_together),
         cmocka_unit_test(images_are_read_as_what_they_are),
+        cmocka_unit_test(what_is_assumed_is_a_number_of_the_pass),
         cmocka_unit_test(the_real_passes_link),
     };
     return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);

@@ -308,7 +308,10 @@ static void passes_describe_what_replay_accepts(void **state) {
     json_t *json = parse_json(text);
     for (size_t i = 0; i < SLOTS; i++) named(json_object_get(json, "passes"), "slot", slots[i]);
     const json_t *trace = named(json_object_get(json, "passes"), "slot", "screen_trace");
+    const json_t *thickness = named(json_object_get(trace, "parameters"), "name", "screen_trace.thickness");
+    assert_true(json_is_true(json_object_get(thickness, "assumed")));
     const json_t *steps = named(json_object_get(trace, "parameters"), "name", "screen_trace.cells");
+    assert_null(json_object_get(steps, "assumed"));
     assert_true(number(steps, "lowest") <= number(steps, "default"));
     named(json_object_get(trace, "reads"), "name", "depth_half");
     named(json_object_get(trace, "writes"), "name", "screen_travelled");

@@ -119,6 +119,8 @@ struct glint_pass {
 /* All passes, ordered by slot and variant name. */
 const struct glint_pass *glint_passes(size_t *count);
 const struct glint_pass *glint_pass_find(const char *slot, const char *variant);
+/* Whether a parameter of the pass stands for what the capture's data do not say. */
+bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *parameter);
 /* The rows of capture images. */
 const struct glint_row *glint_capture_images(size_t *count);
 /* The text of every file under passes/ that shaders include, for compiling a user's shader in-process. NULL: unknown. */
