@@ -386,6 +386,34 @@ static void what_thickness_decides_is_told(void **state) {
     fixture_check_messages(fixture);
 }
 
+static void blind_wall(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < pixels / 2; i++) values[PLAIN_LIT_G * pixels + i] = INFINITY;
+}
+
+static void light_that_is_none_fails(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    char path[256];
+    snprintf(path, sizeof path, "%s/blind.exr", fixture->folder);
+    plain_capture(path,
+                  &(struct plain){.width = 8, .height = 32, .fov_y_degrees = 90, .floor = true, .spoil = blind_wall});
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    assert_true(glint_replay_load(fixture->replay, capture, &err));
+    struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
+    struct glint_reference *reference = glint_reference_create(fixture->replay, capture, pipeline, NULL, &err);
+    assert_non_null(reference);
+    assert_false(glint_reference_trace(reference, 16, 0, NULL, NULL, &err));
+    fixture_says(&err, "NaN or infinite in ");
+    assert_int_equal(glint_reference_state(reference)->rays, 0);
+    glint_reference_destroy(&reference);
+    glint_pipeline_destroy(&pipeline);
+    assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise_falls_with_the_root_of_independent_rays),
@@ -395,6 +423,7 @@ int main(void) {
         cmocka_unit_test(a_folder_of_something_else_is_refused),
         cmocka_unit_test(captures_that_lack_something),
         cmocka_unit_test(what_thickness_decides_is_told),
+        cmocka_unit_test(light_that_is_none_fails),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
 }
