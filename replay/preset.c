@@ -115,9 +115,11 @@ static void apply_preset(struct glint_pipeline *pipeline, json_t *root, struct f
     }
     json_object_foreach(root, key, value) {
         bool text = strcmp(key, "name") == 0 || strcmp(key, "title") == 0 || strcmp(key, "source") == 0;
-        bool object = strcmp(key, "slots") == 0 || strcmp(key, "set") == 0;
+        /* provenance: where a tuned preset comes from; nothing of it is read here */
+        bool object = strcmp(key, "slots") == 0 || strcmp(key, "set") == 0 || strcmp(key, "provenance") == 0;
         if (!text && !object)
-            faults_add(faults, GLINT_ERROR_FORMAT, "unknown key '%s'; known: name, title, source, slots, set", key);
+            faults_add(faults, GLINT_ERROR_FORMAT,
+                       "unknown key '%s'; known: name, title, source, slots, set, provenance", key);
         else if (text ? !json_is_string(value) : !json_is_object(value))
             faults_add(faults, GLINT_ERROR_FORMAT, "%s: expected %s", key, text ? "a string" : "an object");
     }

@@ -156,7 +156,8 @@ static bool compare(struct glint_judge *judge, const struct answer *answer, stru
                                                  .class_sets = 1,
                                                  .truth_error = answer->error,
                                                  .resamples = judge->options.resamples,
-                                                 .seed = judge->options.seed};
+                                                 .seed = judge->options.seed,
+                                                 .keep_resampled = judge->options.keep_resampled};
     return glint_metrics_compare(&verdict->reflection, &answer->pixels, &options, &verdict->errors[answer->kind], err);
 }
 

@@ -89,7 +89,6 @@ static void the_best_point_within_a_limit_is_found(void **state) {
         const double least = truly_least(limits[i]);
         assert_true(result.within && best->figures.limited <= limits[i]);
         assert_true(best->figures.wanted == error_at(best->values) && best->figures.limited == cost_at(best->values));
-        print_message("limit %g: found %g, least %g\n", limits[i], best->figures.wanted, least);
         assert_true(best->figures.wanted >= least - 1e-3); /* the width's own best lies between two grid values */
         assert_true(best->figures.wanted < 1.02 * least);
         assert_int_equal((int)best->values[KIND], 1);

@@ -29,6 +29,7 @@ struct glint_judge_options {
     uint32_t metrics;             /* as in struct glint_metric_options; 0: the cheap ones */
     uint32_t resamples;           /* of the intervals of errors; 0: no intervals */
     uint32_t seed;                /* likewise */
+    bool keep_resampled;          /* for glint_metrics_difference of two verdicts */
     uint64_t
         keep_bytes; /* memory of the device for images beside those of one run; 0: a quarter of it, 4 GiB at most */
 };

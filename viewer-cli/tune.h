@@ -1,0 +1,133 @@
+/* Tuning: the parameters of a pipeline whose error is least within a budget, on one or several captures. */
+#ifndef GLINT_VIEWER_TUNE_H
+#define GLINT_VIEWER_TUNE_H
+
+#include "args.h"
+#include "glint/judge.h"
+#include "glint/search.h"
+#include "journal.h"
+#include "progress.h"
+
+enum { TUNE_TEXT = 48 };
+
+/* What is tuned: a parameter, the pipeline's rays, or the variant of a slot. */
+struct tune_axis {
+    char name[128];              /* "slot.parameter", "pipeline.rays", "slot" */
+    const struct glint_row *row; /* of a parameter */
+    char (*texts)[TUNE_TEXT];    /* its choices, axis.choices of them; NULL for numbers */
+    struct glint_search_axis axis;
+};
+/* What is declared and left alone. */
+struct tune_left {
+    char name[128], why[224];
+};
+struct tune_subject {
+    const char *path;
+    bool unseen; /* looked at in the end alone */
+    struct glint_capture *capture;
+    struct glint_judge *judge;
+    double start_ms; /* what times are relative to; 0: not measured yet */
+};
+/* Of one pipeline over the captures it is tuned on. */
+struct tune_figures {
+    double error, cost;
+};
+
+/* A median with the interval that holds the true one with 95 %. */
+struct tune_median {
+    double value, low, high;
+};
+enum { TUNE_START, TUNE_TUNED, TUNE_SCALED, TUNE_CONTENDERS };
+/* A contender on one capture, measured anew. */
+struct tune_measured {
+    struct glint_metric_table errors;
+    double steps_px, fetches_px;
+    struct tune_median ms; /* NAN: not timed */
+};
+
+struct tune {
+    const char *out, *folder; /* the preset's file; where the rest is kept */
+    struct list captures, unseen, references, vary, slots, shaders;
+    const char *command_line;
+    bool truth, all, fetches, by_error, baseline;
+    double limit; /* of cost, or of error */
+    bool part;    /* the limit is a part of the start's figure */
+    uint32_t tries, seed, rays, rounds, repeat;
+    enum glint_metric metric;
+
+    struct glint_pipeline *base;
+    struct glint_device *device;
+    struct progress *progress;
+    char label[64];
+    double done; /* of all the work, 0 to 1 */
+
+    struct tune_subject *subjects; /* captures, then unseen ones */
+    size_t subject_count;
+    struct tune_axis *axes;
+    size_t axis_count;
+    struct tune_left *left;
+    size_t left_count;
+    struct journal journal;
+    json_t *lines; /* of the journal: figures by values */
+    size_t fresh;  /* pipelines that this call evaluated */
+
+    struct glint_search_result found;
+    struct tune_figures start;
+    double within; /* the limit in the figure's own unit */
+    size_t chosen; /* of found.points */
+    bool confirmed, confirmed_within;
+    double factor; /* that all counts are scaled by, for TUNE_SCALED */
+    struct tune_figures scaled;
+    struct glint_pipeline *contenders[TUNE_CONTENDERS]; /* NULL: none */
+    struct tune_measured *measured;                     /* subject · TUNE_CONTENDERS + contender */
+};
+void tune_finish(struct tune *tune);
+const char *tune_cost_unit(const struct tune *tune);       /* "ms", "fetches/px" */
+extern const char *const tune_contenders[TUNE_CONTENDERS]; /* "start", "tuned", "scaled" */
+
+/* tune_axes.c */
+/* The axes that --vary names, or all that are declared; what is left alone of these, and why. After tune_load. */
+bool tune_make_axes(struct tune *tune, struct glint_error *err);
+void tune_value_text(const struct tune_axis *axis, double value, char text[TUNE_TEXT]);
+/* The start with these values. */
+struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *values, struct glint_error *err);
+/* The start with all its counts of steps, cells, samples, taps and rays times a factor. */
+struct glint_pipeline *tune_scaled(const struct tune *tune, double factor, struct glint_error *err);
+
+/* tune_try.c */
+/* Opens and uploads the captures that are tuned on, and runs the start once on each. */
+bool tune_load(struct tune *tune, struct glint_error *err);
+/* One more capture with a judge of its own. */
+bool tune_load_subject(struct tune *tune, size_t subject, uint32_t resamples, struct glint_error *err);
+void tune_unload_subject(struct tune *tune, size_t subject);
+/* Begins the journal, or goes on with it. After tune_make_axes. */
+bool tune_open(struct tune *tune, struct glint_error *err);
+/* Finds tune->found. What was found until an error stays. */
+bool tune_search(struct tune *tune, struct glint_error *err);
+/* Finds the smallest factor that costs as much as the chosen point. */
+bool tune_find_scale(struct tune *tune, struct glint_error *err);
+/* The part of a frame's cost that counts: of all slots or of those of --slots. */
+double tune_frame_ms(const struct tune *tune, const struct glint_cost *cost);
+bool tune_report(void *user, const char *what, double done); /* a glint_progress; user: the tune */
+
+/* tune_confirm.c */
+/* Chooses the point that keeps the limit when it is measured again. */
+bool tune_choose(struct tune *tune, struct glint_error *err);
+/* Measures start, tuned and scaled on all captures, in turns. */
+bool tune_confirm(struct tune *tune, struct glint_error *err);
+
+/* tune_preset.c: a preset with its provenance. */
+bool tune_write_preset(const struct tune *tune, struct glint_error *err);
+json_t *tune_json(const struct tune *tune);
+
+/* tune_report.c */
+void tune_print(const struct tune *tune);
+/* "less", "more", "equal" with the interval of how much more b errs than a. */
+const char *tune_verdict(const struct glint_figure *difference);
+bool tune_difference(const struct tune *tune, size_t subject, int a, int b, size_t row,
+                     struct glint_figure *difference);
+
+/* tune_page.c: FOLDER/NAME.html, NAME.svg and page.json. */
+bool tune_write_page(const struct tune *tune, struct glint_error *err);
+
+#endif
