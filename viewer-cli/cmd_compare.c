@@ -1,8 +1,6 @@
 /* glint compare: presets beside each other on the same captures. */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "contest.h"
 #include "pipe.h"
@@ -141,8 +139,7 @@ static enum status compare(struct contest *contest, const struct arguments *a, s
     const struct contest_table table = {contest, a->captures.items, showings, a->captures.count};
     bool ok = showings ? !a->out || sheet_init(&sheet, columns, rows, err)
                        : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok && a->out && mkdir(a->out, 0777) != 0 && errno != EEXIST)
-        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", a->out, strerror(errno));
+    if (ok && a->out) ok = glint_make_folder(a->out, err);
     progress_begin(&progress);
     contest->progress = &progress;
     for (size_t i = 0; ok && i < a->captures.count; i++)

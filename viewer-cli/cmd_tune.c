@@ -235,7 +235,7 @@ static bool begin(struct arguments *a, struct glint_error *err) {
     for (size_t i = 0; i < tune->slots.count; i++)
         if (!check_slot(tune->slots.items[i], strlen(tune->slots.items[i]), err)) return false;
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err)) ||
-        !(tune->device = glint_device_create(&device, err)) || !journal_folder(tune->folder, err) ||
+        !(tune->device = glint_device_create(&device, err)) || !glint_make_folder(tune->folder, err) ||
         !tune_load(tune, err) || !tune_make_axes(tune, err))
         return false;
     if (!tune->axis_count) return glint_fail(err, GLINT_ERROR_USAGE, "nothing that may move makes a difference here");

@@ -1,9 +1,7 @@
 /* Presets beside each other as a page: error against time, errors by surface, why rays ended, pictures. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "contest.h"
 #include "page.h"
@@ -194,8 +192,7 @@ bool contest_write_page(const char *folder, const struct contest_table *t, const
     char path[4096], text[400];
     if (snprintf(path, sizeof path, "%s/pictures", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (!glint_make_folder(path, err)) return false;
     json_t *document = page_create("Presets beside each other");
     snprintf(text, sizeof text, "median of %u rounds in turns%s", t->contest->rounds,
              device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "text_file.h"
@@ -85,15 +84,10 @@ static bool agree(const struct journal *journal, const json_t *definition, struc
     return ok;
 }
 
-bool journal_folder(const char *folder, struct glint_error *err) {
-    return mkdir(folder, 0777) == 0 || errno == EEXIST ||
-           glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
-}
-
 bool journal_open(struct journal *journal, const json_t *definition, struct glint_error *err) {
     char path[4096];
     if (!journal->folder) return true;
-    if (!journal_folder(journal->folder, err)) return false;
+    if (!glint_make_folder(journal->folder, err)) return false;
     if (!agree(journal, definition, err) || !journal_path(journal->folder, "log.jsonl", path, err)) return false;
     journal->log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (journal->log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));

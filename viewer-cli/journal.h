@@ -16,8 +16,6 @@ struct journal {
     bool (*keep)(void *user, json_t *line);
     void *user;
 };
-/* Makes the folder where there is none. */
-bool journal_folder(const char *folder, struct glint_error *err);
 /* Begins the folder, or goes on and gives all its lines to `keep`. A folder that holds another study is an error that names
    the difference; one that another process works in is one too. */
 bool journal_open(struct journal *journal, const json_t *definition, struct glint_error *err);

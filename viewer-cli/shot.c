@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "text_file.h"
@@ -63,8 +62,7 @@ static bool write_settings(const char *path, const json_t *settings, struct glin
 
 bool shot_begin(const char *folder, const json_t *settings, char *const *runs, size_t count, struct glint_error *err) {
     char path[4096];
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
+    if (!glint_make_folder(folder, err)) return false;
     if (snprintf(path, sizeof path, "%s/shot.json", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     /* What is compared went through a file once, as the other did. */

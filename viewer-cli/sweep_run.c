@@ -1,10 +1,8 @@
 /* Looks at every point and times it, as far as that is not in the log yet. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "pixels.h"
@@ -213,9 +211,7 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
 bool sweep_run(struct sweep *sweep, struct glint_error *err) {
     struct work work = {.sweep = sweep, .total = count_missing(sweep)};
     char path[4096];
-    if (!sweep_path(sweep, "pictures", path, err)) return false;
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (!sweep_path(sweep, "pictures", path, err) || !glint_make_folder(path, err)) return false;
     for (size_t c = 0; c < sweep->captures.count; c++)
         if (misses(sweep, c) && !on_capture(&work, c, take_turns, err)) return false;
     return true;

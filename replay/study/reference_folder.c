@@ -2,11 +2,9 @@
    its images by their number of rays, so that replacing it is all that ever changes the folder's contents. */
 #include "reference.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "glint/exr.h"
@@ -93,8 +91,7 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
 
 bool reference_resume(struct glint_reference *reference, bool anew, struct glint_error *err) {
     char path[4096];
-    if (mkdir(reference->folder, 0777) != 0 && errno != EEXIST)
-        return glint_fail(err, GLINT_ERROR_IO, "%s: %s", reference->folder, strerror(errno));
+    if (!glint_make_folder(reference->folder, err)) return false;
     if (snprintf(path, sizeof path, "%s/run.json", reference->folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
     if (anew) return run_remove(reference->folder, err);

@@ -205,6 +205,25 @@ static void every_code_comes_back(void **state) {
     }
 }
 
+static void folders_are_made_with_those_around_them(void **state) {
+    (void)state;
+    static const char *const made[] = {"around/within/deepest", "around/within", "around"};
+    struct glint_error err = {0};
+    char path[512];
+    assert_true(glint_make_folder(fixture_path(path, made[0]), &err));
+    assert_true(glint_make_folder(path, &err)); /* it is there already */
+    for (size_t i = 0; i < 3; i++) assert_int_equal(rmdir(fixture_path(path, made[i])), 0);
+    FILE *file = fopen(fixture_path(path, "around"), "w");
+    assert_non_null(file);
+    fclose(file);
+    char below[520];
+    snprintf(below, sizeof below, "%s/within", path);
+    assert_false(glint_make_folder(below, &err));
+    assert_string_equal(strstr(err.message, ": "), ": expected a folder, found something else");
+    assert_int_equal(strncmp(err.message, path, strlen(path)), 0);
+    unlink(path);
+}
+
 static int setup(void **state) {
     (void)state;
     fixture_init(&fixture);
@@ -219,6 +238,7 @@ int main(void) {
         cmocka_unit_test(every_half_keeps_its_bits),
         cmocka_unit_test(floats_round_to_the_nearest_half),
         cmocka_unit_test(every_code_comes_back),
+        cmocka_unit_test(folders_are_made_with_those_around_them),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
