@@ -1,6 +1,7 @@
 """Measures every step of a replay and writes the tables of BENCHMARKS.md.
 
 bench.py record --glint GLINT --as NAME -o RECORD.json [--bench-capture PROGRAM]   measure this machine
+bench.py sweep --glint GLINT -o RECORD.json                                     only the sweep, into a record that is there
 bench.py tables RECORD.json...                                                   rewrite BENCHMARKS.md from records
 
 A record needs nothing but the program, so that it can be made wherever a bundle runs."""
@@ -79,6 +80,33 @@ def time_second_frame(options, folder, run):
     measured([options.glint, "replay", second, "--history", before, "-o", run, "--cache=none", "--repeat", str(options.repeat)])
 
 
+# 200 points over parameters of the last passes.
+SWEPT = ("upscale.depth_weight=50,100", "temporal_sharp.window=0.5..5:0.5", "compose.intensity=0.2..2:0.2")
+SWEPT_POINTS, SWEPT_ROUNDS = 200, 3
+
+
+def time_sweep(options, folder):
+    """A sweep of late parameters, and one replay that writes nothing: reading, upload and all passes."""
+    capture, swept = os.path.join(folder, "swept.exr"), os.path.join(folder, "swept")
+    measured([options.glint, "sample", SCENE, "-o", capture, "--size", SIZE, "--cube-size", CUBE, "--truth", "1"])
+    whole = [measured([options.glint, "replay", capture, "--cache=none"])[0] for _ in range(options.rounds)]
+    sweep, _ = measured([options.glint, "sweep", capture, "-o", swept, "--reference", "truth", "--no-pictures", "--repeat", str(SWEPT_ROUNDS),
+                         *(word for axis in SWEPT for word in ("--vary", axis))])
+    with open(os.path.join(swept, "points.json"), encoding="utf-8") as text:
+        told = json.load(text)
+    if len(told["points"]) != SWEPT_POINTS:
+        sys.exit(f"bench: a sweep of {len(told['points'])} points, expected {SWEPT_POINTS}")
+    metrics = [p["captures"][0]["metric_seconds"] for p in told["points"]]
+    return {"points": SWEPT_POINTS, "rounds": SWEPT_ROUNDS, "sweep_s": sweep - sum(metrics), "replay_s": spread(whole), "metrics_s": spread(metrics)}
+
+
+def record_sweep(options):
+    with open(options.output, encoding="utf-8") as text:
+        known = json.load(text)
+    with tempfile.TemporaryDirectory(dir=options.work) as folder:
+        return {**known, "sweep": time_sweep(options, folder)}
+
+
 def record(options):
     with tempfile.TemporaryDirectory(dir=options.work) as folder:
         capture, run = os.path.join(folder, "capture.exr"), os.path.join(folder, "run")
@@ -113,6 +141,7 @@ def record(options):
             "files_s": {name: spread(v) for name, v in files.items() if v},
             "bandwidth_gbs": options.bandwidth_gbs or copy_gbs(), "least_bytes": least_bytes(options.glint, result),
             "passes_ns": {f"{p['slot']}/{p['variant']}": p["time_ns"] for p in result["passes"] if p["ran"]},
+            "sweep": time_sweep(options, folder),
         }
 
 
@@ -170,6 +199,16 @@ def slides_table(records):
     return table(heads, [*rows, total])
 
 
+def sweeps_table(records):
+    records = [r for r in records if "sweep" in r]
+    swept = [r["sweep"] for r in records]
+    rows = [[f"sweep of {SWEPT_POINTS} points with {SWEPT_ROUNDS} timed rounds each, metrics left out", *(f"{s['sweep_s']:.0f} s" for s in swept)],
+            ["a point's metrics", *(seconds(s["metrics_s"]) for s in swept)],
+            ["one replay that writes nothing", *(seconds(s["replay_s"]) for s in swept)],
+            [f"the sweep, of {SWEPT_POINTS} such replays", *(f"{s['sweep_s'] / s['points'] / s['replay_s']['median']:.1%}" for s in swept)]]
+    return table(["", *(r["as"] for r in records)], rows)
+
+
 def tables(options):
     records = []
     for path in options.records:
@@ -178,10 +217,10 @@ def tables(options):
     with open("BENCHMARKS.md", encoding="utf-8") as text:
         page = text.read()
     for name, made in (("steps", steps_table(records)), ("passes", passes_table(records)),
-                       ("slides", slides_table(records))):
-        begin, end = f"<!-- {name} -->\n", f"\n<!-- end {name} -->"
+                       ("slides", slides_table(records)), ("sweeps", sweeps_table(records))):
+        begin, end = f"<!-- {name} -->\n", f"<!-- end {name} -->"
         head, rest = page.split(begin)
-        page = head + begin + made + end + rest.split(end)[1]
+        page = head + begin + made + "\n" + end + rest.split(end)[1]
     with open("BENCHMARKS.md", "w", encoding="utf-8") as text:
         text.write(page)
     print("BENCHMARKS.md: tables rewritten from " + ", ".join(options.records))
@@ -200,6 +239,12 @@ def main():
     command.add_argument("--work", help="folder for temporary files")
     command.add_argument("-o", "--output", required=True)
     command.set_defaults(run=record)
+    command = commands.add_parser("sweep")
+    command.add_argument("--glint", required=True)
+    command.add_argument("--rounds", type=int, default=5)
+    command.add_argument("--work", help="folder for temporary files")
+    command.add_argument("-o", "--output", required=True, help="a record, which gets the sweep's figures")
+    command.set_defaults(run=record_sweep)
     command = commands.add_parser("tables")
     command.add_argument("records", nargs="+")
     command.set_defaults(run=tables)

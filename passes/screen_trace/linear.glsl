@@ -61,8 +61,9 @@ Result march(ScreenRay ray, Grid grid, float shift) {
     Result result = Result(0.0, false, ray.limit, 0u, 0u);
     precise float s_front = 0.0, gap_front = 0.0, s_before = 0.0, s_clear = 0.0;
     bool been_behind = false;
+    float exponent = first_step > 0.0 && steps > 1 ? -log(first_step) / log(float(steps)) : growth;
     for (int i = 1; i <= steps; ++i) {
-        precise float s = ray.end * pow((float(i) - shift) * (1.0 / float(steps)), growth);
+        precise float s = ray.end * pow((float(i) - shift) * (1.0 / float(steps)), exponent);
         precise float inverse = inverse_depth_at(ray, s);
         precise vec2 texel = texel_at(grid, s);
         precise float seen = seen_inverse(texel, grid);

@@ -11,6 +11,7 @@ SPEC(bool,  back_faces,  true,  0,   1,     "1", "002, Back-face attenuation", "
 SPEC(bool,  pass_behind, false, 0,   1,     "1", "chosen by measuring", "go on behind thin objects; off: stop there")
 PUSH(float, length_m,    1000.0, 0.0, 1e6,  "m", "002, Linear ray march", "no farther than this; 0: no ray is traced")
 PUSH(float, growth,      1.5,   0.5, 8.0,   "1", "chosen by measuring", "sample i of n lies at (i/n)^growth of the way; 1: equal steps")
+PUSH(float, first_step,  0.0,   0.0, 1.0,   "1", "glint", "part of the way that the first step takes; the growth then follows from it and the number of steps; 0: growth")
 PUSH(float, thickness,   0.02,  0.0, 100.0, "1", "chosen by measuring", "a ray farther than this part of its depth behind a surface did not hit it")
 PUSH(float, thickness_m, 0.0,   0.0, 1e6,   "m", "002 has none; chosen by measuring", "the same in metres, added; 1e6: all is solid")
 PUSH(float, bias,        0.001, 0.0, 1.0,   "1", "002, Linear ray march", "part of the depth by which a ray must be behind a surface")
