@@ -1,0 +1,116 @@
+/* A judge on a device under validation: its errors, its counts of rays, its times. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "glint/judge.h"
+
+static struct glint_judge *judge_of(struct fixture *fixture, struct glint_capture *capture, bool all) {
+    struct glint_error err = {0};
+    const struct glint_judge_options options = {.reference = !all, .truth = true, .reference_rays = 16, .all = all};
+    struct glint_judge *judge = glint_judge_create(fixture->device, &options, &err);
+    if (!judge || !glint_judge_load(judge, capture, &err)) fail_msg("%s", err.message);
+    return judge;
+}
+
+/* Catches: another image or another mask compared, and a capture without a truth taken for an error. */
+static void errors_are_those_of_the_reflection(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_judge *judge = judge_of(fixture, fixture->capture, false);
+    struct glint_error err = {0};
+    struct glint_verdict verdict;
+    struct glint_pixels found = {0};
+    struct glint_image_errors errors;
+    const float *noise;
+    if (!glint_judge_look(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    fixture_run(fixture, NULL);
+    assert_true(glint_study_reflection(fixture->replay, &found, &err));
+    const struct glint_pixels *answer =
+        glint_judge_answer(judge, GLINT_ANSWER_REFERENCE, fixture->pipeline, &noise, NULL, NULL, &err);
+    assert_true(glint_study_image(&found, answer, 3, glint_judge_surfaces(judge), noise, &errors, &err));
+    const struct glint_metric_table *table = &verdict.errors[GLINT_ANSWER_REFERENCE];
+    assert_true(errors.of[0].pixels > 100 && table->rows[0].pixels == errors.of[0].pixels);
+    assert_true(errors.of[0].rmse > 0 && table->rows[0].of[GLINT_METRIC_RMSE].value == errors.of[0].rmse);
+    assert_int_equal(verdict.errors[GLINT_ANSWER_TRUTH].count, 0);
+    fixture_says(&verdict.no_truth, "truth.reflection.ggx: missing");
+    assert_true(verdict.ends.rays > 100 && verdict.fetches_px > 0 && verdict.steps_px > 0);
+    glint_pixels_finish(&found);
+    glint_verdict_finish(&verdict);
+    glint_judge_destroy(&judge);
+    fixture_check_messages(fixture);
+}
+
+/* Tracers that run although nothing reflects send rays that nobody asked for. */
+static void rays_of_surfaces_that_reflect_nothing_are_not_counted(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct glint_verdict verdict;
+    char path[128];
+    snprintf(path, sizeof path, "%s/matte.exr", fixture->folder);
+    assert_true(fixture_write_capture(path, &(struct fixture_options){.matte = true}, &err));
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    struct glint_judge *judge = judge_of(fixture, capture, true);
+    if (!glint_judge_look(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    bool traced = false;
+    for (size_t i = 0; i < verdict.pass_count; i++)
+        traced |= verdict.passes[i].executed && !strcmp(verdict.passes[i].pass->slot, "screen_trace");
+    assert_true(traced);
+    assert_int_equal(verdict.ends.rays, 0);
+    assert_true(verdict.fetches_px == 0 && verdict.steps_px == 0);
+    glint_verdict_finish(&verdict);
+    glint_judge_destroy(&judge);
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
+/* Catches: a pass that costs one pipeline something and the other nothing, sums that leave a pass out, and rounds that
+   repeat the figures of the round before. */
+static void pipelines_pay_alike_for_what_they_share(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_judge *judge = judge_of(fixture, fixture->capture, false);
+    struct glint_error err = {0};
+    struct glint_pipeline *other = glint_pipeline_copy(fixture->pipeline, &err);
+    assert_true(glint_pipeline_use(other, "upscale=best_match", &err));
+    uint64_t before[64] = {0};
+    size_t changed = 0;
+    for (int round = 0; round < 3; round++) {
+        struct glint_cost a, b;
+        glint_judge_next_round(judge);
+        assert_true(glint_judge_time(judge, fixture->pipeline, 0, false, &a, NULL, NULL, &err));
+        assert_true(glint_judge_time(judge, other, 0, false, &b, NULL, NULL, &err));
+        assert_true(a.pass_count == b.pass_count && a.pass_count < 64);
+        uint64_t sum = 0;
+        for (size_t i = 0; i < a.pass_count; i++) {
+            const char *slot = a.passes[i].pass->slot;
+            assert_string_equal(slot, b.passes[i].pass->slot);
+            if (!a.passes[i].pass->host && strcmp(slot, "upscale") != 0 && strcmp(slot, "compose") != 0)
+                assert_true(a.passes[i].ns == b.passes[i].ns);
+            sum += a.passes[i].ns;
+            changed += round && a.passes[i].ns != before[i];
+            before[i] = a.passes[i].ns;
+        }
+        assert_true(sum > 0 && a.frame_ns + a.cubemaps_ns == sum);
+        glint_cost_finish(&a);
+        glint_cost_finish(&b);
+    }
+    assert_true(changed > 4);
+    glint_pipeline_destroy(&other);
+    glint_judge_destroy(&judge);
+    fixture_check_messages(fixture);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_are_those_of_the_reflection),
+        cmocka_unit_test(rays_of_surfaces_that_reflect_nothing_are_not_counted),
+        cmocka_unit_test(pipelines_pay_alike_for_what_they_share),
+    };
+    return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
+}
