@@ -222,7 +222,8 @@ static void keep_pass(const struct glint_replay *replay, size_t p, const char *f
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
                         struct glint_error *err) {
     if (!replay->record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
-    if (!glint_make_folder(folder, err) || !check_not_inputs(replay, folder, err) || !run_remove(folder, err)) return false;
+    if (!glint_make_folder(folder, err) || !check_not_inputs(replay, folder, err) || !run_remove(folder, err))
+        return false;
     json_t *root = json_deep_copy(replay->record);
     struct job *jobs = calloc(2, sizeof *jobs);
     bool ok = (root && jobs) || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
