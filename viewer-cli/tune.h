@@ -13,6 +13,7 @@ enum { TUNE_TEXT = 48 };
 /* What is tuned: a parameter, the pipeline's rays, or the variant of a slot. */
 struct tune_axis {
     char name[128];              /* "slot.parameter", "pipeline.rays", "slot" */
+    bool other;                  /* of a variant that is not the start's */
     const struct glint_row *row; /* of a parameter */
     char (*texts)[TUNE_TEXT];    /* its choices, axis.choices of them; NULL for numbers */
     struct glint_search_axis axis;

@@ -319,6 +319,7 @@ static bool read_vary(const struct tune *tune, const char *text, struct tune_axi
     const struct glint_row *row = find_row(pass, axis->name);
     const bool own = row != NULL;
     if (!own) row = find_other_row(tune, axis->name);
+    axis->other = !own;
     if (!row)
         return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s: the pipeline's %s/%s has no such parameter", axis->name,
                           pass ? pass->slot : "slot is empty:", pass ? pass->variant : "");

@@ -276,6 +276,7 @@ bool tune_search(struct tune *tune, struct glint_error *err) {
     bool ok = (axes && start) || no_memory(err);
     for (size_t a = 0; ok && a < tune->axis_count; a++) {
         axes[a] = tune->axes[a].axis;
+        axes[a].hidden = tune->axes[a].other;
         start[a] = axes[a].start;
     }
     ok = ok && try_values(tune, start, &at, err);

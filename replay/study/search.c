@@ -87,6 +87,8 @@ struct profile {
     size_t count;
     size_t *chosen; /* one an axis: its move + 1, 0: it stays */
     bool *skip;     /* axes that are left as they are */
+    double *weight; /* what a step of an axis changed when it was last looked at, a part of both figures */
+    double *before; /* an earlier centre */
 };
 
 static bool matters(const struct search *search, const struct glint_search_figures *a,
@@ -106,19 +108,33 @@ static bool look(struct search *search, struct profile *profile, size_t axis, do
     *tried = point != NULL;
     if (!point) return err->code == GLINT_OK;
     if (matters(search, &profile->at, &point->figures)) search->result->matters[axis] = true;
-    if (is_answer(&point->figures) && is_answer(&profile->at))
-        profile->moves[profile->count++] = (struct move){axis, to, point->figures.wanted - profile->at.wanted,
-                                                         point->figures.limited - profile->at.limited};
+    if (!is_answer(&point->figures) || !is_answer(&profile->at)) return true;
+    const struct move move = {axis, to, point->figures.wanted - profile->at.wanted,
+                              point->figures.limited - profile->at.limited};
+    profile->moves[profile->count++] = move;
+    profile->weight[axis] =
+        fmax(profile->weight[axis], fabs(move.wanted / profile->at.wanted) + fabs(move.limited / profile->at.limited));
     return true;
 }
 
-/* Every axis alone: each other choice; a step below and above. */
-static bool take_profile(struct search *search, struct profile *profile, double step, struct glint_error *err) {
+/* How many axes weigh more. */
+static size_t rank(const struct search *search, const double *weight, size_t axis) {
+    size_t heavier = 0;
+    for (size_t a = 0; a < search->count; a++)
+        heavier += weight[a] > weight[axis] || (weight[a] == weight[axis] && a < axis);
+    return heavier;
+}
+
+/* Axes alone, the `most` heaviest of them: each other choice; a step below and above. */
+static bool take_profile(struct search *search, struct profile *profile, double step, size_t most,
+                         struct glint_error *err) {
     profile->count = 0;
+    memcpy(profile->before, profile->weight, search->count * sizeof *profile->before);
     for (size_t a = 0; a < search->count; a++) {
         const struct glint_search_axis *axis = &search->axes[a];
         bool tried = true;
-        if (profile->skip[a]) continue;
+        if (profile->skip[a] || rank(search, profile->before, a) >= most) continue;
+        profile->weight[a] = 0;
         for (uint32_t c = 0; c < axis->choices; c++)
             if (c != profile->centre[a] && !look(search, profile, a, c, &tried, err)) return false;
         for (int sign = -1; !axis->choices && sign <= 1; sign += 2) {
@@ -203,14 +219,36 @@ static void centre_on(const struct search *search, struct profile *profile, size
     profile->at = search->result->points[point].figures;
 }
 
-/* Around the best point until no step of `least` or more gains. */
+/* On in the direction that led from the centre to the best point, as long as that gains (Hooke and Jeeves). */
+static bool go_on(struct search *search, struct profile *profile, struct glint_error *err) {
+    for (bool gains = true; gains;) {
+        const size_t best = search->result->best;
+        memcpy(profile->before, profile->centre, search->count * sizeof *profile->before);
+        centre_on(search, profile, best);
+        for (size_t a = 0; a < search->count; a++) {
+            const double ahead = 2 * profile->centre[a] - profile->before[a];
+            profile->before[a] =
+                search->axes[a].choices ? profile->centre[a] : fmin(fmax(ahead, 0), axis_length(&search->axes[a]));
+        }
+        if (!search_at(search, profile->before, err) && err->code != GLINT_OK) return false;
+        gains = search->result->best != best;
+    }
+    return true;
+}
+
+/* Around the best point until no step of `least` or more gains: of a few axes first, of all when these gain no more. */
 static bool descend(struct search *search, struct profile *profile, double step, double least,
                     struct glint_error *err) {
+    enum { FEW = 6 };
+    size_t most = FEW;
     while (step >= least && !search_spent(search)) {
         const size_t before = search->result->best;
         centre_on(search, profile, before);
-        if (!take_profile(search, profile, step, err) || !try_best_sums(search, profile, err)) return false;
-        if (search->result->best == before) step /= 2;
+        if (!take_profile(search, profile, step, most, err) || !try_best_sums(search, profile, err)) return false;
+        if (search->result->best != before) {
+            if (!go_on(search, profile, err)) return false;
+        } else if (most < search->count) most = search->count;
+        else step /= 2, most = FEW;
     }
     return true;
 }
@@ -256,7 +294,8 @@ static bool throw_off(struct search *search, struct profile *profile, struct gli
     const struct glint_search_point *point = search_at(search, profile->centre, err);
     if (!point) return err->code == GLINT_OK;
     profile->at = point->figures;
-    return !is_answer(&profile->at) || (take_profile(search, profile, 1, err) && try_best_sums(search, profile, err));
+    return !is_answer(&profile->at) ||
+           (take_profile(search, profile, 1, search->count, err) && try_best_sums(search, profile, err));
 }
 
 static bool run(struct search *search, struct profile *profile, struct glint_error *err) {
@@ -266,10 +305,10 @@ static bool run(struct search *search, struct profile *profile, struct glint_err
     profile->at = start->figures;
     if (!is_answer(&start->figures))
         return glint_fail(err, GLINT_ERROR_USAGE, "the start has no figures: nothing can be compared with it");
-    if (!take_profile(search, profile, 2, err)) return false;
+    if (!take_profile(search, profile, 2, search->count, err)) return false;
     for (size_t a = 0; a < search->count; a++) {
         if (search_spent(search)) search->result->matters[a] = true;
-        profile->skip[a] = !search->result->matters[a];
+        profile->skip[a] = !search->result->matters[a] && !search->axes[a].hidden;
     }
     if (!try_best_sums(search, profile, err)) return false;
     double least = 0.5;
@@ -300,13 +339,17 @@ bool glint_search(const struct glint_search_axis *axes, size_t count, const stru
     struct profile profile = {.centre = calloc(count + 1, sizeof(double)),
                               .moves = calloc(moves, sizeof *profile.moves),
                               .chosen = calloc(count + 1, sizeof *profile.chosen),
-                              .skip = calloc(count + 1, sizeof *profile.skip)};
+                              .skip = calloc(count + 1, sizeof *profile.skip),
+                              .weight = calloc(count + 1, sizeof(double)),
+                              .before = calloc(count + 1, sizeof(double))};
     *result = (struct glint_search_result){.axes = count, .matters = calloc(count + 1, sizeof *result->matters)};
-    bool ok =
-        (search.scratch && profile.centre && profile.moves && profile.chosen && profile.skip && result->matters) ||
-        no_memory(&own);
+    bool ok = (search.scratch && profile.centre && profile.moves && profile.chosen && profile.skip && profile.weight &&
+               profile.before && result->matters) ||
+              no_memory(&own);
     ok = ok && run(&search, &profile, &own);
     if (!ok) glint_fail(err, own.code, "%s", own.message);
+    free(profile.before);
+    free(profile.weight);
     free(profile.skip);
     free(profile.chosen);
     free(profile.moves);

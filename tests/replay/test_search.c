@@ -145,6 +145,62 @@ static void noise_moves_the_answer_little(void **state) {
     glint_search_result_finish(&result);
 }
 
+/* One number counts only under the other choice: it is tuned there although it changes nothing around the start. */
+static bool try_hidden(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
+    (void)user, (void)err;
+    *figures = (struct glint_search_figures){v[0] == 0 ? 10 : 8 + fabs(v[1] - 40) / 10, v[0] == 0 ? 5 : 4};
+    return true;
+}
+static void what_matters_under_another_choice_is_found(void **state) {
+    (void)state;
+    for (int hidden = 0; hidden < 2; hidden++) {
+        const struct glint_search_axis two[] = {
+            {.choices = 2}, {.lowest = 1, .highest = 64, .start = 32, .whole = true, .hidden = hidden}};
+        const struct glint_search_options options = {.limit = 6, .tries = 80, .seed = 1};
+        struct glint_search_result result;
+        struct glint_error err = {0};
+        assert_true(glint_search(two, 2, &options, try_hidden, NULL, &result, &err));
+        const double *best = result.points[result.best].values;
+        assert_true(best[0] == 1 && best[1] == (hidden ? 40 : 32));
+        glint_search_result_finish(&result);
+    }
+}
+
+/* Many counts: errors a/x, costs c·x. By Lagrange the least error at a cost of T is (Σ √(a·c))²/T. */
+enum { MANY = 20 };
+static double weight_of(int i) {
+    return exp2((i * 7) % MANY * 0.25);
+}
+static bool try_many(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
+    (void)user, (void)err;
+    *figures = (struct glint_search_figures){0};
+    for (int i = 0; i < MANY; i++) {
+        figures->wanted += weight_of(i) / v[i];
+        figures->limited += v[i] / weight_of(i / 2);
+    }
+    return true;
+}
+static void twenty_numbers_take_some_hundred_tries(void **state) {
+    (void)state;
+    struct glint_search_axis many[MANY];
+    double start = 0, sum = 0;
+    for (int i = 0; i < MANY; i++) {
+        many[i] = (struct glint_search_axis){
+            .lowest = 1, .highest = 4096, .start = 64, .whole = true, .scale = GLINT_SEARCH_DOUBLING};
+        start += 64 / weight_of(i / 2);
+        sum += sqrt(weight_of(i) / weight_of(i / 2));
+    }
+    struct glint_search_result result;
+    struct glint_error err = {0};
+    const struct glint_search_options options = {.limit = start / 4, .tries = 250, .seed = 1};
+    const double least = sum * sum / options.limit;
+    assert_true(glint_search(many, MANY, &options, try_many, NULL, &result, &err));
+    const struct glint_search_figures *best = &result.points[result.best].figures;
+    print_message("# %g of at least %g\n", best->wanted, least);
+    assert_true(result.within && best->wanted >= least && best->wanted < 1.05 * least);
+    glint_search_result_finish(&result);
+}
+
 static void better_is_within_then_less(void **state) {
     (void)state;
     const struct glint_search_figures in = {2, 9}, less = {1, 9.5}, out = {0.1, 11}, far = {0.05, 20}, none = {NAN, 1};
@@ -183,6 +239,8 @@ int main(void) {
         cmocka_unit_test(what_was_found_before_an_error_is_kept),
         cmocka_unit_test(what_no_point_reaches_is_said),
         cmocka_unit_test(noise_moves_the_answer_little),
+        cmocka_unit_test(what_matters_under_another_choice_is_found),
+        cmocka_unit_test(twenty_numbers_take_some_hundred_tries),
         cmocka_unit_test(better_is_within_then_less),
         cmocka_unit_test(odd_searches_end),
     };

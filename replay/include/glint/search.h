@@ -20,6 +20,8 @@ struct glint_search_axis {
     double lowest, highest, start; /* start lies within the range */
     uint32_t choices; /* not 0: it takes 0 … choices - 1, which have no order; no range and no scale then */
     bool whole;
+    bool
+        hidden; /* it may begin to matter when others change: it is not left alone for changing nothing around the start */
     enum glint_search_scale scale;
 };
 /* The scale that suits a range: doubling where it spans decades, seen from its start. */
@@ -57,7 +59,8 @@ void glint_search_result_finish(struct glint_search_result *result);
 bool glint_search_better(const struct glint_search_figures *a, const struct glint_search_figures *b, double limit);
 
 /* Steps of two, one, half … on every axis around the best point; what they change alone predicts what they change together,
-   and the best sum within the limit is tried (a Lagrangian multiplier finds it). When that gains no more, COBYLA (M. J. D.
+   and the best sum within the limit is tried (a Lagrangian multiplier finds it), and what gains is gone on with (R. Hooke and T. A.
+   Jeeves, "Direct search", 1961). When that gains no more, COBYLA (M. J. D.
    Powell, "A direct search optimization method that models the objective and constraint functions by linear
    interpolation", 1994; from NLopt) goes on over the numbers, and then the search starts again from the best point, thrown off it at
    random. `result` holds what was found until an error, too; finish it in any case. */
