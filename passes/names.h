@@ -31,3 +31,7 @@
 #define NEEDS(fact)
 #define ASSUMED(parameter)
 #define RESOLUTION(size)
+#define REFERENCE
+#define REFERENCE_NONE(why)
+#define REFERENCE_SET(slot, parameter, value)
+#define REFERENCE_WITH(slot, why)

@@ -23,6 +23,10 @@
 #undef NEEDS
 #undef ASSUMED
 #undef RESOLUTION
+#undef REFERENCE
+#undef REFERENCE_NONE
+#undef REFERENCE_SET
+#undef REFERENCE_WITH
 #define ROW_IMAGE(row, glsl_kind, image, fmt, image_unit, image_size, image_channels, none, text)            \
     {.kind = row, .id = __LINE__, .name = #image, .glsl = #glsl_kind, .format = GLINT_FORMAT_##fmt,          \
      .size = GLINT_SIZE_##image_size, .unit = image_unit, .channels = image_channels, .nothing = (double)(none), .help = text},
@@ -75,3 +79,8 @@
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},
 #define ASSUMED(parameter) {.kind = GLINT_ROW_ASSUMED, .id = __LINE__, .name = #parameter},
 #define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},
+#define REFERENCE {.kind = GLINT_ROW_REFERENCE, .id = __LINE__, .name = ""},
+#define REFERENCE_NONE(why) {.kind = GLINT_ROW_REFERENCE_NONE, .id = __LINE__, .name = "", .help = why},
+#define REFERENCE_SET(slot_, parameter, value)                                                                \
+    {.kind = GLINT_ROW_REFERENCE_SET, .id = __LINE__, .name = #parameter, .image = #slot_, .assigned = #value},
+#define REFERENCE_WITH(slot_, why) {.kind = GLINT_ROW_REFERENCE_WITH, .id = __LINE__, .name = #slot_, .help = why},

@@ -136,6 +136,31 @@ static void print_parameters(const struct glint_pass *pass, bool markdown) {
     table_destroy(&table);
 }
 
+/* What `glint blame` exchanges the slot for. */
+static void print_reference(const struct glint_pass *pass) {
+    bool is = false;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind == GLINT_ROW_REFERENCE) fputs("The slot's reference", stdout), is = true;
+        if (row->kind == GLINT_ROW_REFERENCE_NONE)
+            printf("The reference leaves this slot out: %s", row->help), is = true;
+    }
+    for (size_t i = 0, first = 1; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        const bool own = row->kind == GLINT_ROW_REFERENCE_SET && !strcmp(row->image, pass->slot);
+        if (row->kind != GLINT_ROW_REFERENCE_SET) continue;
+        printf("%s%s%s%s=%s", first ? ", with " : ", ", own ? "" : row->image, own ? "" : ".", row->name,
+               row->assigned);
+        first = 0;
+    }
+    if (is) fputs(".\n", stdout);
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (pass->rows[i].kind == GLINT_ROW_REFERENCE_WITH)
+            printf("Exchanged for its reference together with %s: %s.\n", pass->rows[i].name, pass->rows[i].help),
+                is = true;
+    if (is) fputs("\n", stdout);
+}
+
 static void print_pass(const struct glint_pass *pass, const char *previous_slot, bool markdown) {
     if (!previous_slot || strcmp(previous_slot, pass->slot) != 0)
         printf(markdown ? "## `%s`\n\n%s.\n\n" : "%s: %s\n\n", pass->slot, slot_title(pass));
@@ -148,6 +173,7 @@ static void print_pass(const struct glint_pass *pass, const char *previous_slot,
         any = true;
     }
     if (any) fputs(markdown ? ".\n\n" : "\n\n", stdout);
+    print_reference(pass);
     print_inputs(pass, markdown);
     print_outputs(pass, markdown);
     print_parameters(pass, markdown);
@@ -179,6 +205,24 @@ static json_t *parameter_json(const struct glint_pass *pass, const struct glint_
     return p;
 }
 
+static json_t *reference_json(const struct glint_pass *pass) {
+    json_t *json = json_pack("{s:b}", "is", false), *set = json_object(), *with = json_object();
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind == GLINT_ROW_REFERENCE) json_object_set_new(json, "is", json_true());
+        else if (row->kind == GLINT_ROW_REFERENCE_NONE) json_object_set_new(json, "left_out", json_string(row->help));
+        else if (row->kind == GLINT_ROW_REFERENCE_WITH) json_object_set_new(with, row->name, json_string(row->help));
+        else if (row->kind == GLINT_ROW_REFERENCE_SET) {
+            char name[160];
+            snprintf(name, sizeof name, "%.70s.%.70s", row->image, row->name);
+            json_object_set_new(set, name, json_string(row->assigned));
+        }
+    }
+    json_object_set_new(json, "set", set);
+    json_object_set_new(json, "with", with);
+    return json;
+}
+
 static json_t *pass_json(const struct glint_pass *pass) {
     json_t *reads = json_array(), *writes = json_array(), *parameters = json_array(), *needs = json_array();
     for (size_t i = 0; i < pass->row_count; i++) {
@@ -191,9 +235,10 @@ static json_t *pass_json(const struct glint_pass *pass) {
         else if (row_is_parameter(row)) json_array_append_new(parameters, parameter_json(pass, row));
         else if (row->kind == GLINT_ROW_NEEDS) json_array_append_new(needs, json_string(row->name));
     }
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o}", "slot", pass->slot, "variant", pass->variant,
-                     "slot_title", slot_title(pass), "title", pass->title, "source", pass->source, "host",
-                     pass->host != NULL, "needs", needs, "reads", reads, "writes", writes, "parameters", parameters);
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "slot", pass->slot, "variant",
+                     pass->variant, "slot_title", slot_title(pass), "title", pass->title, "source", pass->source,
+                     "host", pass->host != NULL, "needs", needs, "reads", reads, "writes", writes, "parameters",
+                     parameters, "reference", reference_json(pass));
 }
 
 static void print_list(const struct glint_pass *passes, size_t count) {

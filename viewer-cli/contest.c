@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "pass_names.h"
+#include "pipeline_args.h"
 #include "pixels.h"
 
 const char *const contest_over[CONTEST_OVER] = {"water", "transparent"};
@@ -15,20 +16,6 @@ static void label_of(char label[64], const char *preset) {
     size_t length = strlen(name);
     if (length > 5 && !strcmp(name + length - 5, ".json")) length -= 5;
     snprintf(label, 64, "%.*s", (int)(length < 63 ? length : 63), name);
-}
-
-/* The truth has no fog. */
-static bool switch_fog_off(struct glint_pipeline *pipeline, struct glint_error *err) {
-    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        for (size_t r = 0; r < pass->row_count; r++) {
-            char assignment[128];
-            if (!row_is_parameter(&pass->rows[r]) || strcmp(pass->rows[r].name, "fog")) continue;
-            snprintf(assignment, sizeof assignment, "%.64s.fog=false", pass->slot);
-            if (!glint_pipeline_set(pipeline, assignment, err)) return false;
-        }
-    }
-    return true;
 }
 
 static struct contestant *find(const struct contest *contest, const char *label, size_t length) {
@@ -64,7 +51,8 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
         if (find(contest, c->label, strlen(c->label)))
             return glint_fail(err, GLINT_ERROR_USAGE, "preset %s: named twice in --presets", c->label);
         contest->count++;
-        if (!(c->pipeline = glint_pipeline_create(presets[i], err)) || !switch_fog_off(c->pipeline, err)) return false;
+        if (!(c->pipeline = glint_pipeline_create(presets[i], err)) || !pipeline_fog_off(c->pipeline, err))
+            return false;
     }
     for (size_t i = 0; i < settings->count; i++)
         if (!set(contest, settings->items[i], err)) return false;

@@ -47,6 +47,8 @@ void pipeline_args_finish(struct pipeline_args *args);
 struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err);
 /* Its --use, --set and --shader on another pipeline. */
 bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err);
+/* Switches fog off, which the truth lacks. */
+bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err);
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);
 
 #endif

@@ -8,3 +8,4 @@ WRITE(uimageBuffer, cubemap_list, R32UI, "1", LIST, "item", 0xFFFFFFFFu, "pixels
 PUSH(float, hq_roughness, 0.1, 0.0, 1.0, "1", "000, Cube-map tracing", "largest roughness of a smooth surface; order alone depends on it, no result")
 NEEDS(reflecting)
 PER_RAY
+REFERENCE_NONE("order of work alone: no result depends on it")

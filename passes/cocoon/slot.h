@@ -6,3 +6,5 @@ WRITE(image2DArray, cocoon_distance, R32F, "m", CUBEMAPS_MIPS, "Z", INFINITY, "d
 WRITE(image2DArray, cocoon, R16F, "1/m", COCOON, "Z", 0, "the cocoon alone: 1 / distance along the face's axis; samples lie on the borders too (shared/cocoon.glsl); 0: a whole cube map of sky")
 NEEDS(reflections)
 NEEDS(cubemaps)
+REFERENCE_NONE("where no cube map sees a ray, the reference goes on until one does")
+REFERENCE_WITH(cubemap_trace, "cubemap_trace alone asks it")

@@ -6,3 +6,4 @@ SELF(texture2DArray, finer_faces, cubemap_color_mips)
 SELF(texture2DArray, finer_distance, cubemap_distance_mips)
 #include "shared/join_rows.h"
 DISPATCH_LEVELS(cubemap_color_mips, 0, -1, down)
+REFERENCE

@@ -7,3 +7,4 @@ WRITE(image2DArray, cubemap_color_mips, RGBA16F, "radiance", CUBEMAPS_MIPS, "R G
 WRITE(image2DArray, cubemap_distance_mips, R32F, "m", CUBEMAPS_MIPS, "Z", INFINITY, "cubemap_distance at level 0; coarser ones join four texels, sky left out; +inf where all are sky")
 NEEDS(reflections)
 NEEDS(cubemaps)
+REFERENCE_WITH(downsample, "its levels stand for the cones that downsample leaves to them")

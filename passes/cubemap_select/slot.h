@@ -12,3 +12,4 @@ DISPATCH(cubemap_best)
 NEEDS(reflecting)
 NEEDS(cubemaps)
 PER_RAY
+REFERENCE_WITH(cubemap_trace, "the reference asks every cube map, so that none has to be chosen well")

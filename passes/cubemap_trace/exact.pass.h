@@ -13,3 +13,6 @@ PUSH(float, texel_part,  0.5,   0.01, 4.0, "texels", "glint", "how far a step mo
 PUSH(float, length_m,    1e5,   0.001, 1e6, "m", "glint", "no farther than this")
 PUSH(float, tolerance,   0.02,  0.0, 1.0,  "1", "glint", "part of the distance by which a surface may jump between texels; a greater jump is an edge that hides what lies behind")
 ASSUMED(tolerance)
+REFERENCE
+REFERENCE_SET(cubemap_trace, skip, true)
+REFERENCE_SET(cubemap_mips, join, nearest)

@@ -3,3 +3,5 @@ PASS("Full resolution", "000, G-buffer down-sampling (what it saves)")
 RESOLUTION(full)
 #include "slot.h"
 #include "jitter.h"
+REFERENCE
+REFERENCE_SET(downsample, pattern, sobol)

@@ -7,3 +7,4 @@ WRITE(image2D, hiz, RG32F, "1/m", HALF_MIPS, "near far", 0, "inverse depth of th
 WRITE(image2D, depth_slopes, RG16F, "1", HALF, "X Y", 0, "part of its inverse depth by which a texel's surface changes over one texel; 0 for sky")
 NEEDS(reflecting)
 PER_RAY
+REFERENCE_NONE("the reference looks at every texel")

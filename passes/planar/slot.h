@@ -9,3 +9,4 @@ WRITE(image2D, planar_reflection, RGBA16F, "radiance", FULL, "R G B A", 0, "rgb:
 DISPATCH(planar_reflection)
 NEEDS(planar)
 NEEDS(water)
+REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

@@ -4,3 +4,4 @@ PASS("Colour at the hit", "000, Color resolve shaders")
 OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
 #include "ends.h"
 #include "sources.h"
+REFERENCE

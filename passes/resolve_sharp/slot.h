@@ -8,3 +8,5 @@ WRITE(image2D, reflection_sharp, RGBA16F, "radiance", FULL, "R G B A", -1, "refl
 DISPATCH(reflection_sharp)
 NEEDS(reflecting)
 NEEDS(smooth)
+REFERENCE_NONE("every pixel has rays of its own already")
+REFERENCE_WITH(upscale, "it draws anew the pixels that upscale points out")

@@ -59,6 +59,10 @@ layout(constant_id = 0) const bool diagnostics = false;
 #define NEEDS(fact)
 #define ASSUMED(parameter)
 #define RESOLUTION(size)
+#define REFERENCE
+#define REFERENCE_NONE(why)
+#define REFERENCE_SET(slot, parameter, value)
+#define REFERENCE_WITH(slot, why)
 
 // Ids 1 and 2 are the workgroup that the pass declares.
 layout(local_size_x = 8, local_size_y = 8, local_size_x_id = 1, local_size_y_id = 2) in;

@@ -12,3 +12,4 @@ WRITE(image2D, reflection_temporal, RGBA16F, "radiance", HALF, "R G B A", -1, "t
 DISPATCH(reflection_temporal)
 NEEDS(reflecting)
 NEEDS(rough)
+REFERENCE_NONE("a frame has rays enough of its own")

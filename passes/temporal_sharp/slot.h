@@ -11,3 +11,5 @@ WRITE(image2D, reflection_stable, RGBA16F, "radiance", FULL, "R G B A", -1, "ref
 DISPATCH(reflection_stable)
 NEEDS(reflecting)
 NEEDS(smooth)
+REFERENCE_NONE("a frame has rays enough of its own")
+REFERENCE_WITH(resolve_sharp, "it steadies what resolve_sharp draws")

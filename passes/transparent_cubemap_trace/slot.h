@@ -17,3 +17,4 @@ DIAGNOSTIC(uimage2D, transparent_cubemap_fetches, R32UI, "fetches", HALF, "fetch
 DISPATCH(transparent_travelled)
 NEEDS(transparent)
 PER_RAY
+REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

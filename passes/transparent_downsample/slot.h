@@ -11,3 +11,4 @@ WRITE(uimage2D, transparent_pick, R8UI, "1", HALF, "index", 0, "which pixel of t
 DISPATCH(transparent_depth_half)
 NEEDS(transparent)
 PER_RAY
+REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

@@ -13,3 +13,4 @@ DISPATCH(transparent_reflection)
 NEEDS(transparent)
 PER_RAY
 ACCUMULATE(transparent_reflection)
+REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

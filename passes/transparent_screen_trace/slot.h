@@ -13,3 +13,4 @@ DIAGNOSTIC(uimage2D, transparent_screen_fetches, R32UI, "fetches", HALF, "fetche
 DISPATCH(transparent_screen_travelled)
 NEEDS(transparent)
 PER_RAY
+REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

@@ -32,7 +32,13 @@ enum glint_row_kind {
     GLINT_ROW_WORKGROUP,       /* `first` × `last` invocations make a workgroup; 8 × 8 where no row says so */
     GLINT_ROW_ASSUMED,         /* a parameter that stands for what the capture's data do not say: halved and doubled, it
                                   tells how far an answer depends on it */
-    GLINT_ROW_RESOLUTION       /* the pipeline's half resolution becomes "full" while this variant is in its slot */
+    GLINT_ROW_RESOLUTION,      /* the pipeline's half resolution becomes "full" while this variant is in its slot */
+    /* What the preset `reference` has, and what error is traced back to: each slot has one of the first two. */
+    GLINT_ROW_REFERENCE,      /* this variant is its slot's reference */
+    GLINT_ROW_REFERENCE_NONE, /* the slot's reference is to leave it out; help: why */
+    GLINT_ROW_REFERENCE_SET,  /* a value there that is not the default; image: the slot whose parameter it is. Of
+                                 another slot: that parameter matters to this one alone */
+    GLINT_ROW_REFERENCE_WITH  /* neither this slot nor the one named is exchanged alone; help: why */
 };
 
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
@@ -90,6 +96,7 @@ struct glint_row {
     bool required;        /* CAPTURE: false: `nothing` when absent */
     bool optional;        /* READ: format, size and nothing are given here, for when no pass makes the image */
     const char *image;    /* SELF, HISTORY: the image; NULL: `name` */
+    const char *assigned; /* REFERENCE_SET: as glint_pipeline_set takes it */
     /* DISPATCH_LEVELS: the levels from one to the other, both included; negative: from the coarsest, which is -1 */
     int first, last;
     enum glint_level_order order;

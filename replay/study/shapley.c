@@ -1,0 +1,176 @@
+/* Shapley values of a game: exact over all coalitions, or over orders that are drawn. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glint/blame.h"
+
+struct play {
+    const struct glint_game *game;
+    double **known; /* values of each coalition, NULL: not asked for yet */
+    uint32_t asked;
+};
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+static const double *worth(struct play *play, uint32_t coalition, struct glint_error *err) {
+    const struct glint_game *game = play->game;
+    double **known = &play->known[coalition];
+    if (*known) return *known;
+    double *values = calloc(game->values + 1, sizeof *values);
+    if (!values) no_memory(err);
+    else if (!game->play(game->user, coalition, values, err)) {
+        free(values);
+        values = NULL;
+    } else play->asked++;
+    return *known = values;
+}
+
+static uint32_t everyone(const struct glint_game *game) {
+    return (1u << game->players) - 1;
+}
+
+/* Alone, and last of all. */
+static bool find_ends(struct play *play, struct glint_shapley *out, struct glint_error *err) {
+    const struct glint_game *game = play->game;
+    const uint32_t all = everyone(game);
+    const double *none = worth(play, 0, err), *whole = none ? worth(play, all, err) : NULL;
+    if (!whole) return false;
+    memcpy(out->none, none, game->values * sizeof *none);
+    memcpy(out->all, whole, game->values * sizeof *whole);
+    for (size_t i = 0; i < game->players; i++) {
+        const double *alone = worth(play, 1u << i, err), *without = alone ? worth(play, all & ~(1u << i), err) : NULL;
+        if (!without) return false;
+        for (size_t v = 0; v < game->values; v++) {
+            out->first[i * game->values + v] = alone[v] - none[v];
+            out->last[i * game->values + v] = whole[v] - without[v];
+        }
+    }
+    return true;
+}
+
+/* Σ over coalitions S without i of |S|! (n − |S| − 1)! / n! (v(S ∪ i) − v(S)). */
+static bool sum_all(struct play *play, struct glint_shapley *out, struct glint_error *err) {
+    const struct glint_game *game = play->game;
+    const size_t n = game->players;
+    double weight[GLINT_PLAYERS_MAX];
+    for (size_t s = 0; s < n; s++) { /* 1 / (n C(n − 1, s)) */
+        weight[s] = 1.0 / (double)n;
+        for (size_t k = 1; k <= s; k++) weight[s] *= (double)k / (double)(n - k);
+    }
+    for (uint32_t c = 0; c <= everyone(game); c++)
+        if (!worth(play, c, err)) return false;
+    for (uint32_t c = 0; c <= everyone(game); c++)
+        for (size_t i = 0; i < n; i++) {
+            if (c >> i & 1) continue;
+            const double *without = play->known[c], *with = play->known[c | 1u << i];
+            for (size_t v = 0; v < game->values; v++)
+                out->share[i * game->values + v] += weight[(size_t)__builtin_popcount(c)] * (with[v] - without[v]);
+        }
+    out->exact = true;
+    return true;
+}
+
+static uint64_t next_random(uint64_t *state) { /* SplitMix64 */
+    uint64_t z = *state += 0x9E3779B97F4A7C15u;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBu;
+    return z ^ z >> 31;
+}
+
+static void shuffle(size_t *order, size_t n, uint64_t *state) {
+    for (size_t i = 0; i < n; i++) order[i] = i;
+    for (size_t i = n; i-- > 1;) {
+        const size_t j = (size_t)(next_random(state) % (i + 1)), kept = order[i];
+        order[i] = order[j];
+        order[j] = kept;
+    }
+}
+
+/* Adds half of what each player changes when they join in this order, or in the opposite one. */
+static bool walk(struct play *play, const size_t *order, bool back, double *sample, struct glint_error *err) {
+    const struct glint_game *game = play->game;
+    uint32_t coalition = 0;
+    const double *before = worth(play, 0, err);
+    for (size_t k = 0; before && k < game->players; k++) {
+        const size_t i = order[back ? game->players - 1 - k : k];
+        const double *after = worth(play, coalition |= 1u << i, err);
+        for (size_t v = 0; after && v < game->values; v++) sample[i * game->values + v] += 0.5 * (after[v] - before[v]);
+        before = after;
+    }
+    return before != NULL;
+}
+
+/* Welford's mean and sum of squared deviations. */
+static void add_sample(struct glint_shapley *out, const double *sample, double *spread, double n, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const double off = sample[i] - out->share[i];
+        out->share[i] += off / n;
+        spread[i] += off * (sample[i] - out->share[i]);
+        out->half[i] = n > 1 ? 1.96 * sqrt(spread[i] / (n - 1) / n) : INFINITY;
+    }
+}
+
+static bool narrow(const struct glint_game *game, const struct glint_shapley_options *options,
+                   const struct glint_shapley *out) {
+    for (size_t v = 0; v < (options->watched ? options->watched : 1); v++)
+        for (size_t i = 0; i < game->players; i++)
+            if (out->half[i * game->values + v] > options->interval * fabs(out->all[v] - out->none[v])) return false;
+    return true;
+}
+
+/* An order and its opposite are one sample: a player that comes early in one comes late in the other. */
+static bool sum_drawn(struct play *play, const struct glint_shapley_options *options, struct glint_shapley *out,
+                      struct glint_error *err) {
+    enum { PAIRS_MIN = 8 }; /* fewer say little of their spread */
+    const struct glint_game *game = play->game;
+    const size_t count = game->players * game->values;
+    uint64_t state = options->seed;
+    size_t order[GLINT_PLAYERS_MAX];
+    double *sample = calloc(2 * count + 1, sizeof *sample), *spread = sample ? sample + count : NULL;
+    bool ok = sample || no_memory(err);
+    for (uint32_t pair = 1; ok; pair++) {
+        memset(sample, 0, count * sizeof *sample);
+        shuffle(order, game->players, &state);
+        ok = walk(play, order, false, sample, err) && walk(play, order, true, sample, err);
+        if (ok) add_sample(out, sample, spread, pair, count);
+        out->permutations = 2 * pair;
+        if (out->permutations >= options->permutations || (pair >= PAIRS_MIN && narrow(game, options, out))) break;
+    }
+    free(sample);
+    return ok;
+}
+
+bool glint_shapley(const struct glint_game *game, const struct glint_shapley_options *options,
+                   struct glint_shapley *out, struct glint_error *err) {
+    const size_t n = game->players, v = game->values;
+    struct play play = {.game = game};
+    *out = (struct glint_shapley){0};
+    if (n == 0 || n > GLINT_PLAYERS_MAX)
+        return glint_fail(err, GLINT_ERROR_USAGE, "expected 1 to %d players, found %zu", GLINT_PLAYERS_MAX, n);
+    play.known = calloc((size_t)1 << n, sizeof *play.known);
+    out->share = calloc(4 * n * v + 2 * v + 1, sizeof *out->share);
+    bool ok = (play.known && out->share) || no_memory(err);
+    if (ok) {
+        out->half = out->share + n * v;
+        out->first = out->half + n * v;
+        out->last = out->first + n * v;
+        out->none = out->last + n * v;
+        out->all = out->none + v;
+        /* All coalitions come in order; the ends are among them. */
+        ok = n <= options->exact ? sum_all(&play, out, err) && find_ends(&play, out, err)
+                                 : find_ends(&play, out, err) && sum_drawn(&play, options, out, err);
+        out->coalitions = play.asked;
+    }
+    for (size_t c = 0; play.known && c < (size_t)1 << n; c++) free(play.known[c]);
+    free(play.known);
+    if (!ok) glint_shapley_finish(out);
+    return ok;
+}
+
+void glint_shapley_finish(struct glint_shapley *shapley) {
+    free(shapley->share);
+    *shapley = (struct glint_shapley){0};
+}

@@ -1,0 +1,262 @@
+/* glint blame, as a user runs it. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A small pipeline: the linear march, the cube maps, one resolve. Few rays: what is checked holds for any. */
+#define SMALL "-p", GLINT_TEST_PRESET, "--rays=16", "--player-rays=2"
+
+static json_t *load(const char *name) {
+    json_t *json = json_load_file(in_folder(name), 0, NULL);
+    if (!json) fail_msg("%s is no JSON", name);
+    return json;
+}
+
+static int lines_of(const char *name) {
+    struct outcome lines = run_program("wc", "-l", in_folder(name), NULL);
+    const int count = atoi(lines.out);
+    outcome_free(&lines);
+    return count;
+}
+
+static const json_t *errors_of(const json_t *sum, const char *answer, const char *class) {
+    return json_object_get(json_object_get(json_object_get(sum, "errors"), answer), class);
+}
+
+/* Shares of every answer and class add up to what the preset errs more than its reference. */
+static void assert_sums(const json_t *sum, size_t answers) {
+    const char *answer, *class, *name;
+    json_t *classes, *errors, *player;
+    assert_int_equal(json_object_size(json_object_get(sum, "errors")), answers);
+    json_object_foreach(json_object_get(sum, "errors"), answer, classes) {
+        assert_true(json_object_size(classes) >= 2);
+        json_object_foreach(classes, class, errors) {
+            double shares = 0, size = 0;
+            json_object_foreach(json_object_get(errors, "players"), name, player) {
+                shares += number(player, "share");
+                size += fabs(number(player, "share"));
+            }
+            assert_true(number(errors, "preset") > 0 && number(errors, "reference") > 0);
+            /* some hundred additions */
+            assert_true(fabs(shares - (number(errors, "preset") - number(errors, "reference"))) <
+                        1e-12 * (size + number(errors, "preset")));
+        }
+    }
+}
+
+/* The error that a pipeline has by `glint sweep`, which knows nothing of players. */
+static double swept(const char *folder, const char *variant) {
+    char vary[64];
+    snprintf(vary, sizeof vary, "--vary=upscale=%s", variant);
+    free(glint_ok("sweep", in_folder("room.exr"), "-o", in_folder(folder), "-p", GLINT_TEST_PRESET, "--rays=16",
+                  "--repeat=0", "--no-pictures", "--use=upscale=best_match", "--set=resolve.fog=false", vary));
+    char name[96];
+    snprintf(name, sizeof name, "%s/points.json", folder);
+    json_t *json = load(name);
+    const json_t *row =
+        json_array_get(json_object_get(json_array_get(json_object_get(json, "points"), 0), "captures"), 0);
+    const double error =
+        number(json_object_get(json_object_get(json_object_get(row, "errors"), "reference"), "all"), "symmetric");
+    json_decref(json);
+    return error;
+}
+
+/* Mean of a pipeline's two rounds, which is their median. */
+static double logged_ms(const char *name, int coalition) {
+    FILE *log = fopen(in_folder(name), "rb");
+    char line[8192];
+    double sum = 0;
+    int rounds = 0;
+    assert_non_null(log);
+    while (fgets(line, sizeof line, log)) {
+        json_t *json = parse_json(line);
+        if (json_object_get(json, "round") && (int)number(json, "coalition") == coalition) {
+            sum += number(json, "frame_ms");
+            rounds++;
+        }
+        json_decref(json);
+    }
+    fclose(log);
+    assert_int_equal(rounds, 2);
+    return sum / rounds;
+}
+
+/* Catches: shares that do not add up, errors of other pipelines than said, a missing answer. */
+static void shares_add_up_to_the_error(void **state) {
+    (void)state;
+    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=8", "--truth=1"));
+    char *text = glint_ok("blame", in_folder("room.exr"), "-o", in_folder("blame"), SMALL, "--use=upscale=best_match",
+                          "--repeat=2");
+    assert_contains(text, "against the reference");
+    assert_contains(text, "against the truth");
+    assert_contains(text, "exact, of all");
+    free(text);
+    json_t *found = load("blame/shares.json");
+    const json_t *capture = json_array_get(json_object_get(found, "captures"), 0),
+                 *players = json_object_get(found, "players"), *all = errors_of(capture, "reference", "all");
+    const int count = (int)json_array_size(players);
+    assert_true(count >= 4);
+    assert_sums(capture, 2);
+    assert_sums(json_object_get(found, "mean"), 2);
+    assert_int_equal(number(capture, "pipelines"), 1 << count);
+    /* a look at each, and two rounds of both ends and of one exchange in either */
+    assert_int_equal(lines_of("blame/log.jsonl"), (1 << count) + 2 * (2 * count + 2));
+    assert_true(fabs(number(all, "preset") - swept("own", "best_match")) < 1e-9);
+    assert_true(fabs(number(all, "preset") -
+                     number(json_object_get(json_object_get(all, "players"), "upscale"), "removed") -
+                     swept("exchanged", "bilinear")) < 1e-9);
+    /* players count from the last one that runs; rays are the first */
+    const double own = logged_ms("blame/log.jsonl", 0), many = logged_ms("blame/log.jsonl", 1 << (count - 1));
+    assert_true(own > 0 && many > 0);
+    assert_true(fabs(number(json_object_get(capture, "frame_ms"), "preset") - own) < 1e-9);
+    assert_true(fabs(number(json_object_get(json_object_get(capture, "costs"), "rays"), "added_ms") - (many - own)) <
+                1e-9);
+    assert_true(number(json_object_get(json_object_get(capture, "costs"), "rays"), "added_fetches_px") > 0);
+    assert_true(file_exists(in_folder("blame/index.html")) && file_exists(in_folder("blame/shares.svg")));
+    assert_true(file_exists(in_folder("blame/bought.svg")) && file_exists(in_folder("blame/page.json")));
+    json_decref(found);
+}
+
+/* What was found is found again, whatever is asked of it; killed without warning, the same command goes on. */
+static void a_killed_blame_goes_on(void **state) {
+    (void)state;
+    char command[1024];
+    static const char arguments[] = "--rays=16 --player-rays=2 --use=upscale=best_match --repeat=0";
+    snprintf(
+        command, sizeof command,
+        "cd %s && \"$GLINT\" blame room.exr -o killed -p %s %s & pid=$!; i=0; "
+        "until [ \"$(cat %s/killed/log.jsonl 2>/dev/null | wc -l)\" -ge 5 ]; do i=$((i+1)); [ $i -lt 600 ] || exit "
+        "9; sleep 0.05; done; kill -9 $pid; wait $pid",
+        in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
+    struct outcome killed = run_program("sh", "-c", command, NULL);
+    assert_int_equal(killed.status, 128 + 9);
+    outcome_free(&killed);
+    assert_false(file_exists(in_folder("killed/shares.json")));
+    FILE *log = fopen(in_folder("killed/log.jsonl"), "ab");
+    assert_non_null(log);
+    fputs("{\"errors\":{\"reference\":{\"all\":{\"pix", log);
+    fclose(log);
+    snprintf(command, sizeof command, "cd %s && \"$GLINT\" blame room.exr -o killed -p %s %s", in_folder(""),
+             GLINT_TEST_PRESET, arguments);
+    free(checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__));
+    json_t *whole = load("blame/shares.json"), *resumed = load("killed/shares.json");
+    assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
+                           json_object_get(json_object_get(resumed, "mean"), "errors")));
+    assert_int_equal(lines_of("killed/log.jsonl"), 1 << json_array_size(json_object_get(whole, "players")));
+    json_decref(whole);
+    json_decref(resumed);
+}
+
+/* Permutations in the same folder: no pipeline is run again, and another error is shared out as well. */
+static void permutations_have_intervals(void **state) {
+    (void)state;
+    const int lines = lines_of("killed/log.jsonl");
+    free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("killed"), SMALL, "--use=upscale=best_match",
+                  "--repeat=0", "--exact=0", "--permutations=20", "--interval=50", "--metric=relative_mse"));
+    json_t *found = load("killed/shares.json");
+    assert_int_equal(lines_of("killed/log.jsonl"), lines);
+    const json_t *mean = json_object_get(found, "mean");
+    assert_string_equal(json_string_value(json_object_get(found, "metric")), "relative_mse");
+    assert_true(json_is_false(json_object_get(mean, "exact")));
+    const double permutations = number(mean, "permutations");
+    assert_true(permutations >= 2 && permutations <= 20);
+    assert_sums(mean, 2);
+    const json_t *rays = json_object_get(json_object_get(errors_of(mean, "reference", "all"), "players"), "rays");
+    assert_true(number(rays, "low") < number(rays, "share") && number(rays, "share") < number(rays, "high"));
+    json_decref(found);
+}
+
+static void several_captures_have_their_mean(void **state) {
+    (void)state;
+    free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=32x18", "--cube-size=8"));
+    free(glint_ok("blame", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), SMALL, "--repeat=0",
+                  "--exact=0", "--permutations=2"));
+    json_t *found = load("two/shares.json");
+    const json_t *captures = json_object_get(found, "captures"), *mean = json_object_get(found, "mean");
+    const char *name;
+    json_t *player;
+    json_object_foreach(json_object_get(errors_of(mean, "reference", "all"), "players"), name, player) {
+        double sum = 0;
+        for (size_t c = 0; c < 2; c++)
+            sum += number(
+                json_object_get(json_object_get(errors_of(json_array_get(captures, c), "reference", "all"), "players"),
+                                name),
+                "share");
+        assert_true(fabs(number(player, "share") - sum / 2) < 1e-12);
+    }
+    assert_sums(json_array_get(captures, 0), 2);
+    assert_sums(json_array_get(captures, 1), 1); /* it has no truth */
+    assert_sums(mean, 1);
+    json_decref(found);
+}
+
+static void what_is_wrong_is_named(void **state) {
+    (void)state;
+    char *room = strdup(in_folder("room.exr")), *street = strdup(in_folder("street.exr"));
+    glint_fails(2, "which capture?", "blame");
+    glint_fails(1, "no.exr", "blame", "no.exr");
+    glint_fails(2, "metric 'rmsd': expected one of", "blame", room, "--metric=rmsd");
+    glint_fails(2, "--metric psnr: expected an error", "blame", room, "--metric=psnr");
+    glint_fails(2, "--metric mean_error: expected an error", "blame", room, "--metric=mean_error");
+    glint_fails(2, "--metric rmse,flip: expected one metric", "blame", room, "--metric=rmse,flip");
+    glint_fails(2, "--interval 0: expected per cent", "blame", room, "--interval=0");
+    glint_fails(2, "--interval=nan: expected 1 number", "blame", room, "--interval=nan");
+    glint_fails(2, "--exact", "blame", room, "--exact=21");
+    glint_fails(2, "--permutations", "blame", room, "--permutations=1");
+    glint_fails(2, "--player-rays", "blame", room, "--player-rays=2000");
+    glint_fails(2, "reference: every slot is its own reference already", "blame", room, "-p", "reference");
+    glint_fails(2, "no variant hizz (did you mean hiz?)", "blame", room, "--use=screen_trace=hizz");
+    glint_fails(2, "expected one run for each of 1 captures, found 2", "blame", room, "--reference=a", "--reference=b");
+    glint_fails(2, "expected runs or the truth, found both", "blame", room, "--reference=a", "--reference=truth");
+    glint_fails(1, "street.exr: with nothing as in the reference: ", "blame", street, SMALL, "--reference=truth");
+    glint_fails(2, "killed: holds a blame with another reference_rays: it has 16, this command 8", "blame", room, "-o",
+                in_folder("killed"), SMALL, "--use=upscale=best_match", "--rays=8");
+    glint_fails(2, "holds a blame with another players", "blame", room, "-o", in_folder("killed"), SMALL,
+                "--use=upscale=best_match", "--player-rays=3");
+    static const char *const strange[] = {
+        "{\"capture\":0,\"coalition\":4096,\"errors\":{}}", "{\"capture\":1,\"coalition\":0,\"errors\":{}}",
+        "{\"capture\":0,\"coalition\":0}", "{\"capture\":-1,\"coalition\":0,\"errors\":{}}", "[]"};
+    for (size_t i = 0; i < sizeof strange / sizeof *strange; i++) {
+        free(checked(run_program("cp", in_folder("blame/log.jsonl"), in_folder("killed/log.jsonl"), NULL), 0, __FILE__,
+                     __LINE__));
+        FILE *log = fopen(in_folder("killed/log.jsonl"), "ab");
+        assert_non_null(log);
+        fprintf(log, "%s\n", strange[i]);
+        fclose(log);
+        glint_fails(1, "expected a line of this blame", "blame", room, "-o", in_folder("killed"), SMALL,
+                    "--use=upscale=best_match", "--repeat=0");
+    }
+    free(room);
+    free(street);
+}
+
+/* The handbook tells what the reference of each slot is. */
+static void the_handbook_shows_references(void **state) {
+    (void)state;
+    char *text = glint_ok("passes", "cubemap_trace/exact");
+    assert_contains(text, "The slot's reference, with skip=true, cubemap_mips.join=nearest");
+    free(text);
+    text = glint_ok("passes", "blur");
+    assert_contains(text, "The reference leaves this slot out: rays of a pixel share nothing");
+    free(text);
+    text = glint_ok("passes", "lit_mips", "--json");
+    json_t *passes = parse_json(text);
+    free(text);
+    const json_t *reference = json_object_get(json_array_get(json_object_get(passes, "passes"), 0), "reference");
+    assert_true(json_is_false(json_object_get(reference, "is")));
+    assert_non_null(json_object_get(json_object_get(reference, "with"), "downsample"));
+    json_decref(passes);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_add_up_to_the_error),  cmocka_unit_test(a_killed_blame_goes_on),
+        cmocka_unit_test(permutations_have_intervals), cmocka_unit_test(several_captures_have_their_mean),
+        cmocka_unit_test(what_is_wrong_is_named),      cmocka_unit_test(the_handbook_shows_references),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

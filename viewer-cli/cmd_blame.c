@@ -1,0 +1,220 @@
+/* glint blame: which slot a frame's error comes from, and what mending it would cost. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blame.h"
+#include "pass_names.h"
+#include "pipeline_args.h"
+#include "text_file.h"
+
+struct arguments {
+    struct blame blame;
+    struct pipeline_args pipeline;
+    const char *metric, *device;
+    bool json;
+};
+
+enum {
+    KEY_SEED = 256,
+    KEY_REPEAT,
+    KEY_REFERENCE,
+    KEY_RAYS,
+    KEY_PLAYER_RAYS,
+    KEY_METRIC,
+    KEY_EXACT,
+    KEY_INTERVAL,
+    KEY_PERMUTATIONS
+};
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",    'o',           "FOLDER",        0, "Where all results are kept, with a page and charts; an interrupted call goes on from what is there", 0},
+    {"metric",    KEY_METRIC,    "NAME",          0, "The error that is shared out (default symmetric): symmetric, relative_mse, rmse, clean_relative_mse, clean_rmse, "
+                                                     "flip or hdr_flip", 0},
+    {"reference", KEY_REFERENCE, "RUN|truth",     0, "What errors are against: a run of glint reference (one for each capture), or the truth in the capture "
+                                                     "(default: a reference traced once, kept in the folder; the truth is reported beside it)", 0},
+    {"rays",      KEY_RAYS,      "N",             0, "Rays a pixel of the reference that is traced (default 64)", 0},
+    {"player-rays", KEY_PLAYER_RAYS, "N",         0, "Rays a pixel of pipelines whose rays are exchanged (default: those of the preset reference)", 0},
+    {"exact",     KEY_EXACT,     "N",             0, "Up to N players all pipelines are run, 2^N at most, and shares are exact (default 8)", 0},
+    {"interval",  KEY_INTERVAL,  "PERCENT",       0, "With more players: permutations are drawn until no share's 95 % interval is wider than ± this part "
+                                                     "of what is shared out (default 2)", 0},
+    {"permutations", KEY_PERMUTATIONS, "N",       0, "At most so many (default 200)", 0},
+    {"seed",      KEY_SEED,      "N",             0, "Of the permutations (default 1)", 0},
+    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds, in turns: each pipeline once a round (default 3; 0: no times)", 0},
+    {"preset",    'p',           "NAME|FILE",     0, "The pipeline: a preset's name or a JSON file (default mafia3)", 0},
+    {"use",       KEY_USE,       "SLOT=VARIANT",  0, "Use this variant of a slot; none leaves the slot out", 0},
+    {"set",       KEY_SET,       "SLOT.PARAM=VALUE", 0, "Set a parameter; glint passes SLOT lists them", 0},
+    {"shader",    KEY_SHADER,    "SLOT=FILE",     0, "Compile the slot's shader from this file instead", 0},
+    {"all",       KEY_ALL,       NULL,            0, "Run every pass, even one that has nothing to do", 0},
+    {"device",    'd',           "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/shares.json", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint blame street.exr -o blame", "where the error of mafia3 comes from; blame/index.html shows it"},
+    {"glint blame street.exr room.exr -o both -p mafia_de", "another preset on two captures: the mean, and each"},
+    {"glint blame street.exr --repeat 0", "no times, nothing kept: the table alone"},
+    {"glint blame street.exr --metric relative_mse --reference truth",
+     "against the path tracer, what is missing included"},
+    {"glint blame street.exr -o quick --exact 0 --interval 5", "permutations until shares are known to ± 5 %"},
+    {"glint blame street.exr -o blame --interval 1", "the same folder again: only what is new is run"},
+    {"glint passes screen_trace", "what the reference of a slot is"},
+    {0},
+};
+
+extern const struct command cmd_blame;
+
+static error_t parse_more(int key, char *arg, struct argp_state *state, struct arguments *a) {
+    struct blame *blame = &a->blame;
+    switch (key) {
+    case KEY_REFERENCE:
+        if (!strcmp(arg, "truth")) blame->truth = true;
+        else list_add(&blame->references, arg, state);
+        return 0;
+    case KEY_RAYS:
+        blame->rays = arg_uint("rays", arg, 1, 1 << 20, state);
+        return 0;
+    case KEY_PLAYER_RAYS:
+        blame->player_rays = arg_uint("player-rays", arg, 1, 1024, state);
+        return 0;
+    case ARGP_KEY_ARG:
+        list_add(&blame->captures, arg, state);
+        return 0;
+    case ARGP_KEY_END:
+        if (!blame->captures.count) argp_error(state, "which capture?");
+        if (blame->truth && blame->references.count)
+            argp_error(state, "--reference: expected runs or the truth, found both");
+        if (blame->references.count && blame->references.count != blame->captures.count)
+            argp_error(state, "--reference: expected one run for each of %zu captures, found %zu",
+                       blame->captures.count, blame->references.count);
+        return 0;
+    }
+    return pipeline_args_parse(key, arg, state, &a->pipeline);
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    struct glint_shapley_options *shapley = &a->blame.options;
+    double percent;
+    switch (key) {
+    case 'o':
+        a->blame.out = arg;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case 'd':
+        a->device = arg;
+        return 0;
+    case KEY_METRIC:
+        a->metric = arg;
+        return 0;
+    case KEY_EXACT:
+        shapley->exact = arg_uint("exact", arg, 0, GLINT_PLAYERS_MAX, state);
+        return 0;
+    case KEY_INTERVAL:
+        arg_numbers("interval", arg, &percent, 1, state);
+        if (!(percent > 0 && percent <= 100))
+            argp_error(state, "--interval %s: expected per cent, above 0 and up to 100", arg);
+        shapley->interval = 0.01 * percent;
+        return 0;
+    case KEY_PERMUTATIONS:
+        shapley->permutations = arg_uint("permutations", arg, 2, 1000000, state);
+        return 0;
+    case KEY_SEED:
+        shapley->seed = arg_uint("seed", arg, 0, UINT32_MAX, state);
+        return 0;
+    case KEY_REPEAT:
+        a->blame.rounds = arg_uint("repeat", arg, 0, 100000, state);
+        return 0;
+    }
+    return parse_more(key, arg, state, a);
+}
+
+static bool choose_metric(struct arguments *a, struct glint_error *err) {
+    uint32_t bits = 1u << GLINT_METRIC_SYMMETRIC;
+    if (a->metric && !glint_metrics_parse(a->metric, &bits, err)) return false;
+    if (bits & (bits - 1)) return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected one metric", a->metric);
+    while (!(bits >> a->blame.metric & 1)) a->blame.metric++;
+    if (a->blame.metric == GLINT_METRIC_MEAN || glint_metric(a->blame.metric)->higher_is_better)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "--metric %s: expected an error, 0 for equal images, such as symmetric or relative_mse",
+                          a->metric);
+    a->blame.metrics = GLINT_METRICS_CHEAP | bits;
+    return true;
+}
+
+static bool begin(struct arguments *a, struct glint_error *err) {
+    const struct glint_device_options device = {.select = a->device};
+    struct blame *blame = &a->blame;
+    blame->all = a->pipeline.replay.all;
+    if (!choose_metric(a, err)) return false;
+    blame->base = glint_pipeline_create(a->pipeline.preset ? a->pipeline.preset : "mafia3", err);
+    if (!blame->base || !pipeline_fog_off(blame->base, err) || !pipeline_args_apply(&a->pipeline, blame->base, err))
+        return false;
+    if (!(blame->players = glint_players_create(blame->base, blame->player_rays, err))) return false;
+    blame->count = glint_players_count(blame->players);
+    return (blame->device = glint_device_create(&device, err)) && blame_open(blame, &a->pipeline.shader, err);
+}
+
+static bool write_json(const struct blame *blame, struct glint_error *err) {
+    char path[4096];
+    json_t *json = blame_json(blame);
+    char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL;
+    const bool ok = (text || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
+                    journal_path(blame->out, "shares.json", path, err) && text_file_write(path, text, err);
+    free(text);
+    json_decref(json);
+    return ok;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {
+        .blame = {.rounds = 3, .options = {.exact = 8, .interval = 0.02, .permutations = 200, .seed = 1}}};
+    struct glint_error err = {0};
+    struct progress progress;
+    command_parse(&cmd_blame, argc, argv, &a);
+    struct blame *blame = &a.blame;
+    progress_begin(&progress);
+    blame->progress = &progress;
+    bool ok = begin(&a, &err) && blame_run(blame, &err) && blame_sum_up(blame, &err);
+    ok = ok && (!blame->out || (write_json(blame, &err) && blame_write_page(blame, &err)));
+    progress_end(&progress);
+    enum status status = ok ? STATUS_DONE : command_fail(&cmd_blame, &err);
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->out)
+        command_note(&cmd_blame, "%s keeps what was found; the same command goes on from there", blame->out);
+    if (ok && a.json) status = print_json(blame_json(blame));
+    else if (ok) blame_print(blame);
+    struct glint_device *device = blame->device;
+    blame_finish(blame);
+    if (device) glint_device_destroy(&device);
+    pipeline_args_finish(&a.pipeline);
+    return status;
+}
+
+const struct command cmd_blame = {
+    .name = "blame",
+    .arguments = "F... [-o FOLDER]",
+    .summary = "which slot the error comes from, and what mending it would cost",
+    .description =
+        "Exchanges the slots of a pipeline for their references, as the passes declare them, runs what follows anew, "
+        "and "
+        "finds what each is to blame for. A slot \"removes\" the error that goes when it alone is the reference's, and "
+        "\"makes\" the error that comes when it alone is kept and all others are the reference's. Where both differ, "
+        "slots interact: a blur mends what few rays leave, and does harm where there are many. The share (Shapley "
+        "value) "
+        "is the mean of what a slot changes over all orders in which slots can be exchanged one after the other; "
+        "shares "
+        "add up to the error of the preset less that of the reference. A negative one makes the picture better than it "
+        "would be without. Any error can be shared out; symmetric, relative_mse and flip are means over pixels, so "
+        "that "
+        "shares are, too. Slots that cannot be exchanged alone are one player, and the output says why. Fog is off, "
+        "which "
+        "the truth lacks. Captures are taken each by itself, without the history of a shot.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};
