@@ -4,6 +4,7 @@
 #ifndef GLINT_CAMERA
 #define GLINT_CAMERA
 #include "shared/constants.glsl"
+#include "shared/stable.glsl"
 
 precise vec3 view_position(vec2 uv, float depth_m, vec4 view_from_uv, float front) {
     return depth_m * vec3(uv * view_from_uv.xy + view_from_uv.zw, front);
@@ -32,6 +33,6 @@ bool reflects(float depth_m, vec3 normal) {
 
 // Direction of the mirror ray about a normal that need not be exactly of unit length.
 precise vec3 mirror_direction(vec3 position, vec3 normal) {
-    return normalize(reflect(normalize(position), normalize(normal)));
+    return normalize(reflect(unit(position), normalize(normal)));
 }
 #endif

@@ -6,7 +6,7 @@
 #include "shared/stable.glsl"
 
 // tan of an angle in [0, π/2], held below 1,300: tan has a pole at π/2, where the rounded angle may lie on its other side.
-float cone_tangent(float angle) { return tan(clamp(angle, 0.0, 1.57)); }
+float cone_tangent(float angle) { return tangent(clamp(angle, 0.0, 1.57)); }
 
 // tan of the cone that a level stands for: a face spans 2 at distance 1. Deviation: the slides print
 // numPixels / cmSize / 2, against their own resolve formula.

@@ -34,7 +34,7 @@ vec3 direction_from_face(vec3 face) {
 
 // Width in radians that one texel spans across the direction d: 2/size at distance 1, seen from |d| / largest component.
 float texel_angle(vec3 d, float face_size) {
-    vec3 a = abs(d);
-    return 2.0 / face_size * max(a.x, max(a.y, a.z)) * inversesqrt(dot(d, d));
+    vec3 a = abs(d), v = d / max(a.x, max(a.y, a.z)); // the sum of squares of d itself may not fit a float
+    return 2.0 / face_size * inversesqrt(dot(v, v));
 }
 #endif

@@ -5,10 +5,11 @@
 #include "shared/constants.glsl"
 #include "shared/stable.glsl"
 
-// Blinn-Phong power n = 2/r⁴ - 2 of a roughness (000, Combining importance sampling with pre-filtering: 0.5 is 30).
+// Blinn-Phong power n = 2/r⁴ - 2 of a roughness (000, Combining importance sampling with pre-filtering: 0.5 is 30). As
+// 2 (1 - r⁴)/r⁴ with 1 - r⁴ in factors, which do not cancel near 1.
 float power_from_roughness(float roughness) {
     float r2 = roughness * roughness;
-    return 2.0 / (r2 * r2) - 2.0;
+    return 2.0 * (1.0 - roughness) * (1.0 + roughness) * (1.0 + r2) / (r2 * r2);
 }
 
 // The angle at which cosⁿ falls to `threshold`: acos(threshold^(1/n)), same slide. From the roughness, because 1/n and
@@ -97,8 +98,13 @@ float blinn_phong_cone(float roughness, float share, float threshold, float cosi
 
 // The same of GGX seen along the normal, tan²θ = α² u/(1 - u) for u below `kept`: cos 2θ = (1 - tan²)/(1 + tan²).
 float ggx_spread(float a2, float kept) {
-    float b = 1.0 - a2, x = b * kept;
-    float mean = x < 1e-2 ? 0.5 + x * (1.0 / 3.0 + 0.25 * x) : (-log1p(-x) / x - 1.0) / x;
+    float x = (1.0 - a2) * kept, mean;
+    if (x > 0.5) mean = (-log1p(-x) / x - 1.0) / x;
+    else { // the logarithm as 2 atanh(y), whose first term less one is 1/(2 - x)
+        float wide = 1.0 / (2.0 - x), y = x * wide, y2 = y * y;
+        float series = 1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 * (1.0 / 11.0 + y2 / 13.0))));
+        mean = wide + 2.0 * y * wide * wide * series;
+    }
     return 2.0 * a2 * kept * mean;
 }
 // Of the lobe's far tail a cone could hold only that it is far: it would blur all for it. The last tenth is left to what is

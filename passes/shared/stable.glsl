@@ -34,4 +34,20 @@ precise float versine(float angle) {
     float x = angle * angle;
     return x / 2.0 * (1.0 - x / 12.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0 * (1.0 - x / 132.0)))));
 }
+
+// tan of an angle in [0, π/2), where the built-in one may be off by 2^-11, more than a narrow cone's whole radius. Lambert's
+// continued fraction to its fifth division, 1.4e-8 off at π/4; beyond that the inverse of the complement's, for which π/2 is
+// given in two floats.
+precise float tangent(float angle) {
+    bool steep = angle > 0.78539816;
+    float x = steep ? 1.57079637 - angle - 4.37113883e-8 : angle, x2 = x * x;
+    float upper = x * (945.0 - x2 * (105.0 - x2)), lower = 945.0 - x2 * (420.0 - 15.0 * x2);
+    return steep ? lower / upper : upper / lower;
+}
+
+// Unit vector of any length that a float holds, where the sum of squares may not fit.
+precise vec3 unit(vec3 v) {
+    vec3 a = abs(v);
+    return normalize(v / max(a.x, max(a.y, a.z)));
+}
 #endif
