@@ -18,6 +18,7 @@ extern const struct command
     cmd_tune,
     cmd_view,
     cmd_report,
+    cmd_selftest,
     cmd_passes,
     cmd_devices;
 
@@ -34,6 +35,7 @@ const struct command *const commands[] = {
     &cmd_tune,
     &cmd_view,
     &cmd_report,
+    &cmd_selftest,
     &cmd_passes,
     &cmd_devices,
 };

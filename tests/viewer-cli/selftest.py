@@ -1,0 +1,135 @@
+"""glint selftest: passes here, says what it claims, and fails for every wrong function: selftest.py GLINT PASSES. Speaks TAP."""
+import concurrent.futures
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import tap
+
+GLINT, PASSES = sys.argv[1:]
+# A file of passes/shared, a piece of it, what it becomes, and a case that must find out: each case is here.
+MUTANTS = [
+    ("stable", "abs(x) > 0.35", "abs(x) > 0.0", ["expm1 near zero"]),
+    ("stable", "return exp(x) - 1.0;", "return exp(x);", ["expm1 far from zero", "expm1 far below zero"]),
+    ("stable", "abs(x) > 0.5", "abs(x) > 0.0", ["log1p near zero"]),
+    ("stable", "return log(1.0 + x);", "return log(1.00001 + x);", ["log1p far from zero", "log1p near its pole"]),
+    ("stable", "i < 3", "i < 2", ["arc", "angle from versine"]),
+    ("stable", "x / 2.0 * (1.0 - x / 12.0", "x / 2.0 * (1.0 - x / 11.9", ["versine"]),
+    ("stable", "- 4.37113883e-8", "", ["cone radius"]),
+    ("stable", "normalize(v / max(a.x, max(a.y, a.z)))", "normalize(v)", ["mirror direction"]),
+    ("constants", "lessThan(abs(color), vec4(LARGEST))", "lessThan(color, vec4(LARGEST))", ["finite colours"]),
+    ("steps", "if (x == 0.0)", "if (abs(x) < 1e-6)", ["first step"]),
+    ("steps", "min(log(rest), 0.0)", "0.0", ["ratio of steps"]),
+    ("steps", "log(n) + 0.5 * (n - 1.0) * x", "log(n)", ["ratio of steps near one"]),
+    ("cone", "(0.5 * face_size);", "face_size;", ["cone of a level"]),
+    ("cone", "log1p(tangent * tangent)", "log(1.0 + tangent * tangent)", ["power of a cone"]),
+    ("cone", "travelled_m < LARGEST ?", "true ?", ["level of a cube map"]),
+    ("cone", "exp2(last)", "last", ["level of the screen"]),
+    ("fog", "abs(fall) < 1e-6", "abs(fall) < 1e-2", ["fog along a ray"]),
+    ("fog", "climb > 0.0 ?", "climb < 0.0 ?", ["fog without end"]),
+    ("fog", "length_m <= 0.0", "length_m < -1.0", ["even fog"]),
+    ("fog", "return -expm1(-optical_depth)", "return 1.0 - exp(-optical_depth)", ["fog factor"]),
+    ("random", "v >> 16u", "v >> 15u", ["random numbers"]),
+    ("blue_noise", "direction ^= direction >> 1u", "direction >>= 1u", ["low-discrepancy points"]),
+    ("blue_noise", "0x33333333u", "0x33333331u", ["spread bits"]),
+    ("bayer", "0, 8, 2, 10", "0, 8, 10, 2", ["ordered dither"]),
+    ("plus", "2u * pixel.y", "3u * pixel.y", ["plus pattern"]),
+    ("cubemap", "a.z >= a.x && a.z >= a.y", "a.z > a.x && a.z > a.y", ["face of a direction"]),
+    ("cubemap", "vec3(p.x, 1.0, p.y)", "vec3(p.x, 1.0, -p.y)", ["direction of a face", "texel of a direction"]),
+    ("cubemap", "v = d / max(a.x, max(a.y, a.z))", "v = d", ["width of a texel"]),
+    ("camera", "view_from_uv.zw, front", "view_from_uv.wz * 1.001, front", ["position of a pixel"]),
+    ("camera", "uv_from_view.xy + uv_from_view.zw", "uv_from_view.xy - uv_from_view.zw", ["pixel of a position"]),
+    ("camera", "depth_m < LARGEST &&", "", ["which pixels reflect"]),
+    ("camera", "pick >> 1u", "pick >> 2u", ["picked positions"]),
+    ("facet", "normal.xy * view_from_uv.xy", "normal.yx * view_from_uv.xy", ["facet of a normal"]),
+    ("facet", "abs(after) < abs(before)", "abs(after) > abs(before)", ["facet of depths"]),
+    ("levels", "(high - 1) / size", "high / size", ["footprint of a texel"]),
+    ("levels", "<= reach * reach", "< reach * reach", ["taps of a lattice"]),
+    ("edges", "* 3.0 + 0.5", "* 3.0", ["packed edges"]),
+    ("paraboloid", "d.z < 0.0 ? 1.0 : 0.0", "d.z < 0.0 ? 0.0 : 1.0", ["place on a paraboloid"]),
+    ("paraboloid", "upper ? 1.0 - r2 : r2 - 1.0", "1.0 - r2", ["direction of a paraboloid"]),
+    ("paraboloid", "4.0 / (wide * wide)", "4.0 / wide", ["solid angle on a paraboloid"]),
+    ("paraboloid", "(1.0 + abs(height))", "(1.0 + height)", ["level of a paraboloid"]),
+    ("paraboloid", "normalize(along - dot(along, up) * up)", "normalize(along)", ["paraboloid's axes"]),
+    ("sampling", "(1.0 + r2) / (r2 * r2)", "(1.0 + r2) / r2", ["power of a roughness"]),
+    ("sampling", "2.0 * (1.0 - roughness) * (1.0 + roughness) * (1.0 + r2) / (r2 * r2)", "2.0 / (r2 * r2) - 2.0", ["power of a rough surface"]),
+    ("sampling", "(2.0 - 2.0 * r4)", "(2.0 - r4)", ["angle of a roughness", "angle of a rough surface"]),
+    ("sampling", "float inverse = r4 / (2.0 - r4)", "float inverse = r4 / 2.0", ["Blinn-Phong half-vectors"]),
+    ("sampling", "inversesqrt(threshold) - 1.0", "inversesqrt(threshold)", ["GGX's cut", "GGX that is kept"]),
+    ("sampling", "kept * u.x * (1.0 + stretched.z)", "kept * u.x * 2.0", ["GGX visible normals"]),
+    ("sampling", "if (x > 0.5) mean", "if (x > 0.01) mean", ["GGX's spread", "GGX's spread, narrow"]),
+    ("sampling", "2.0 * (twice - part)", "2.0 * twice", ["Blinn-Phong's spread"]),
+    ("sampling", "2.0 / (1.0 + cosine * cosine)", "1.0", ["cone that fills a lobe"]),
+    ("sampling", "n.z >= 0.0 ? 1.0 : -1.0", "1.0", ["tangent frames"]),
+    ("brdf", "(index * index)", "index", ["reflectance of glass"]),
+    ("brdf", "albedo, metalness", "albedo, metalness * metalness", ["reflectance at normal incidence"]),
+    ("brdf", "max(f0.g, f0.b)", "f0.g", ["reflectance at grazing incidence"]),
+    ("brdf", "c * c * c * c * c", "c * c * c * c", ["environment of a mirror"]),
+    ("reuse", "float away = min(0.5 * dot(apart, apart), 1.0)", "float away = 1.0 - dot(surface.xyz, other.xyz)", ["agreement of lobes"]),
+    ("reuse", "float(x >= to)", "float(x < to)", ["fade"]),
+    ("reuse", "abs(dot(offset, normal))", "dot(offset, normal)", ["in a plane"]),
+]
+
+
+def selftest(*arguments, status=0):
+    run = subprocess.run([GLINT, "selftest", *arguments], capture_output=True, text=True)
+    assert run.returncode == status, (arguments, run.returncode, run.stdout, run.stderr)
+    return run
+
+
+def cases(*arguments, status=0):
+    return json.loads(selftest("--json", *arguments, status=status).stdout)["cases"]
+
+
+def killed_by(mutant):
+    """The cases that fail with one file changed."""
+    file, old, new, names = mutant
+    with open(os.path.join(PASSES, "shared", file + ".glsl"), encoding="utf-8") as source:
+        text = source.read()
+    assert old in text, (file, old)
+    with tempfile.TemporaryDirectory() as folder:
+        os.mkdir(os.path.join(folder, "shared"))
+        with open(os.path.join(folder, "shared", file + ".glsl"), "w", encoding="utf-8") as changed:
+            changed.write(text.replace(old, new))
+        only = [word for name in names for word in ("--only", name)]
+        run = subprocess.run([GLINT, "selftest", "--json", "--quick", "--passes", folder, *only], capture_output=True, text=True)
+    assert run.returncode in (0, 1) and run.stdout, (mutant, run.stderr)
+    failed = {case["name"] for case in json.loads(run.stdout)["cases"] if not case["pass"]}
+    assert run.returncode == (1 if failed else 0)
+    return failed
+
+
+class Tests:
+    def test_every_case_passes_here(self):
+        found = cases("--quick")
+        assert all(case["pass"] and case["values"] >= 1024 for case in found), [c for c in found if not c["pass"]]
+        assert len(found) >= 66
+
+    def test_every_case_has_a_bound_with_its_reason(self):
+        listed = cases("--list")
+        assert all(case["what"] and case["reason"] and case["bound"] >= 0 and "pass" not in case for case in listed)
+        assert len({case["name"] for case in listed}) == len(listed)
+
+    def test_only_chooses(self):
+        names = {case["name"] for case in cases("--list", "--only", "fog")}
+        assert names == {"fog along a ray", "fog without end", "even fog", "fog factor"}, names
+        assert "no case has that" in selftest("--only", "no such thing", status=2).stderr
+
+    def test_the_table_says_where_it_is_worst(self):
+        lines = selftest("--quick", "--only", "versine").stdout.splitlines()
+        assert lines[0].split() == ["case", "worst", "bound", "worst", "at"]
+        assert any(line.startswith("versine ") and " pass " in line and " angle " in line for line in lines), lines
+        assert lines[-1].split(":")[1].strip().startswith("2 cases, 0 failed"), lines[-1]
+
+    def test_every_case_finds_a_wrong_function(self):
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            failed = list(pool.map(killed_by, MUTANTS))
+        survived = [(mutant, name) for mutant, names in zip(MUTANTS, failed) for name in mutant[3] if name not in names]
+        killed = set().union(*failed)
+        assert not survived, survived
+        assert killed == {case["name"] for case in cases("--list")}, {c["name"] for c in cases("--list")} - killed
+
+
+sys.exit(tap.run(Tests()))

@@ -1,0 +1,42 @@
+/* The self-test: cases, each a claim with a bound and its reason, by groups that know how to check theirs. They know passes and
+   their functions by name, which the replay library must not: so they stand beside the program. */
+#ifndef GLINT_VIEWER_SELFTEST_H
+#define GLINT_VIEWER_SELFTEST_H
+
+#include "glint/replay.h"
+
+struct selftest_case {
+    const char *name, *what;
+    const char *source; /* what is evaluated: GLSL, or NULL */
+    const char *unit;   /* of error and bound: "ULP", "absolute" */
+    double bound;
+    const char *reason; /* why the bound is what it is */
+};
+
+struct selftest_finding {
+    double worst; /* error, in the case's unit; +inf for a NaN or a wrong decision */
+    size_t values;
+    char at[320]; /* input, found, expected */
+};
+
+struct selftest {
+    struct glint_device *device;
+    const char *folder; /* temporary, the self-test's own */
+    const char *passes; /* a folder with passes' sources that takes the place of what is built in; NULL: none */
+    bool quick;
+    glint_progress progress;
+    void *user;
+};
+
+struct selftest_group {
+    const char *name, *what;
+    size_t (*count)(void);
+    struct selftest_case (*get)(size_t i);
+    /* Checks the chosen cases. */
+    bool (*run)(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
+                struct glint_error *err);
+};
+
+extern const struct selftest_group selftest_functions;
+
+#endif
