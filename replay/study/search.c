@@ -219,6 +219,31 @@ static void centre_on(const struct search *search, struct profile *profile, size
     profile->at = search->result->points[point].figures;
 }
 
+/* Where the limit is far: all that makes less of what is limited, on the way to its range's end together; the way is halved. */
+static bool try_line(struct search *search, struct profile *profile, struct glint_error *err) {
+    enum { HALVINGS = 5 };
+    double *end = profile->before, low = 0, high = 1;
+    double *steps = malloc((search->count + 1) * sizeof *steps);
+    if (!steps) return no_memory(err);
+    memcpy(end, profile->centre, search->count * sizeof *end);
+    for (size_t i = 0; i < profile->count; i++) {
+        const struct move *move = &profile->moves[i];
+        if (search->axes[move->axis].choices || !(move->limited < 0)) continue;
+        end[move->axis] = move->to < profile->centre[move->axis] ? 0 : axis_length(&search->axes[move->axis]);
+    }
+    const struct glint_search_point *point = NULL;
+    for (int i = 0; i <= HALVINGS; i++) {
+        const double at = i ? (low + high) / 2 : high;
+        for (size_t a = 0; a < search->count; a++) steps[a] = profile->centre[a] + at * (end[a] - profile->centre[a]);
+        if (!(point = search_at(search, steps, err))) break;
+        if (point->figures.limited <= search->options->limit) high = at;
+        else if (i) low = at;
+        else break; /* not even at the end */
+    }
+    free(steps);
+    return point || err->code == GLINT_OK;
+}
+
 /* On in the direction that led from the centre to the best point, as long as that gains (Hooke and Jeeves). */
 static bool go_on(struct search *search, struct profile *profile, struct glint_error *err) {
     for (bool gains = true; gains;) {
@@ -310,7 +335,8 @@ static bool run(struct search *search, struct profile *profile, struct glint_err
         if (search_spent(search)) search->result->matters[a] = true;
         profile->skip[a] = !search->result->matters[a] && !search->axes[a].hidden;
     }
-    if (!try_best_sums(search, profile, err)) return false;
+    if (!try_best_sums(search, profile, err) || (!search->result->within && !try_line(search, profile, err)))
+        return false;
     double least = 0.5;
     while (!search_spent(search)) {
         const size_t before = search->result->count;
