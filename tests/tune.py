@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""What glint tune finds, beside all steps scaled by one factor: at half and a quarter of mafia3's cost, on scenes it is tuned on and one
+that it has not seen.
+
+tune.py measure GLINT --as NAME -o RECORD.json [--cost ms]    needs nothing but the program
+tune.py page [RECORD.json …] [-o DOCS]                        DOCS/tune.md of these and of tests/records/tune
+tune.py docs GLINT [-o DOCS]                                  both, by fetches: no times of this machine"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import pages
+
+RECORDS = pages.HERE / "records/tune"
+SEEN, UNSEEN = ("street", "room"), "hotel"
+BUDGETS = (50, 25)
+# Counts and switches of the traces: what both costs know of.
+TRACES = ("screen_trace.cells=1..384", "screen_trace.cells_lq=1..384", "cubemap_trace.steps_hq=1..96", "cubemap_trace.steps_lq=1..96",
+          "cubemap_trace.refinements=1..8", "cubemap_trace.refinements_lq=1..8", "cubemap_trace.chain=1..4", "downsample.share")
+# What takes time without tracing.
+FRAME = ("lit_mips.reach=0..3", "screen_trace=hiz,linear", "screen_trace.steps=2..64", "upscale=best_match,bilinear", "upscale.around",
+         "blur=plus,none", "temporal.extra", "cubemap_select=score,nearest")
+
+
+def tuned(given, folder, captures, unseen, budget):
+    """What it says, or why it found nothing."""
+    command = [given.glint, "tune", *captures, "--unseen", unseen, "-o", folder / f"{budget}.json", "--folder", folder / "tune",
+               f"--budget-{given.cost}", f"{budget}%", "--baseline", "scale", "--rays", given.rays, "--tries", given.tries, "--repeat", given.repeat,
+               "--seed", 1, "--json"]
+    for name in TRACES + (FRAME if given.cost == "ms" else ()):
+        command += ["--vary", name]
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode and not done.stdout:
+        if "no point reaches" not in done.stderr:
+            sys.exit(done.stderr)
+        return {"none": done.stderr.strip().split(": ", 1)[1]}
+    return json.loads(done.stdout)
+
+
+def measure(given):
+    record = {"as": given.name, "cost": given.cost, "size": given.size, "cube": given.cube, "rays": given.rays, "tries": given.tries,
+              "repeat": given.repeat, "budgets": {}}
+    record["device"] = json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]
+    with tempfile.TemporaryDirectory(dir=given.work) as folder:
+        folder = pathlib.Path(folder)
+        captures = [pages.sample(given.glint, scene, folder, given.size, given.cube) for scene in (*SEEN, UNSEEN)]
+        for budget in BUDGETS:
+            start = time.monotonic()
+            found = record["budgets"][str(budget)] = tuned(given, folder, captures[:-1], captures[-1], budget)
+            for one in found.get("confirmed", ()):
+                one["capture"] = pathlib.Path(one["capture"]).stem
+            if "provenance" in found:
+                found["provenance"] = {key: found["provenance"][key] for key in ("limit", "points", "moved", "error", "cost")}
+            print(f"{budget} %: {time.monotonic() - start:.1f} s", flush=True)
+    given.output.parent.mkdir(parents=True, exist_ok=True)
+    given.output.write_text(json.dumps(record, indent=1) + "\n")
+
+
+def interval(figure, key="value", digits=4):
+    return f"{figure[key]:.{digits}f} [{figure['low']:.{digits}f} {figure['high']:.{digits}f}]"
+
+
+def apart(a, b):
+    if a["high"] < b["low"]:
+        return "less"
+    return "more" if b["high"] < a["low"] else "equal"
+
+
+def scene(record, one, factor):
+    """Rows of a scene: what errs how much at which cost; then what the differences are."""
+    rows, names = [], {"start": "`mafia3`", "tuned": "tuned", "scaled": f"all steps × {factor:.3g}"}
+    for key, name in names.items():
+        told = one["contenders"][key]
+        cost = interval(told["ms"], "median") if record["cost"] == "ms" else f"{told['fetches_px']:.2f}"
+        kinds = [f"{told['errors'][kind]['value']:.4f}" if kind in told["errors"] else "–" for kind in pages.KINDS]
+        difference = "–"
+        if key != "tuned":
+            d = one[f"tuned_less_{key}"]["all"]
+            difference = f"{d['value']:+.4f} [{d['low']:+.4f} {d['high']:+.4f}]: {d['verdict']}"
+        if key == "scaled" and record["cost"] == "ms":
+            cost += f"; tuned: {apart(one['contenders']['tuned']['ms'], told['ms'])}"
+        rows.append((name, interval(told["errors"]["all"]), *kinds, difference, cost))
+    return rows
+
+
+def chapter(record):
+    unit = "GPU time, ms" if record["cost"] == "ms" else "fetches a pixel"
+    lines = [f"## {record['as']}, {record['size']}", "",
+             f"Cost: {'GPU time of a frame, medians of ' + str(record['repeat']) + ' rounds in turns' if record['cost'] == 'ms' else 'texture fetches of the traces a pixel, which no device changes'}; "
+             f"errors against a reference of {record['rays']} rays a pixel; at most {record['tries']} points.", ""]
+    for budget, found in record["budgets"].items():
+        lines += [f"### At {budget} % of `mafia3`'s cost", ""]
+        if "none" in found:
+            lines += [f"{found['none'].capitalize()}.", ""]
+            continue
+        for one in found["confirmed"]:
+            lines += [f"`{one['capture']}`{', not tuned on' if one['unseen'] else ''}:", ""]
+            lines += [pages.table(("", "RMSE", *pages.KINDS, "tuned errs more than this by", unit), scene(record, one, found["scaled"]["factor"])), ""]
+        tuned_cost, scaled = found["provenance"]["cost"], found["scaled"]
+        if scaled["factor"] < 0.001:
+            lines += [f"All steps scaled do not get there: with one of each they cost {scaled['cost']:.4g}.", ""]
+        elif scaled["cost"] > 1.05 * tuned_cost:
+            lines += [f"All steps scaled cost {100 * (scaled['cost'] / tuned_cost - 1):.0f} % more than what was tuned: with the next smaller whole "
+                      "numbers they cost less than that.", ""]
+        lines += ["What moved: " + "; ".join(f"`{m['name']}` {m['from']} → {m['to']}" for m in found["provenance"]["moved"]) + ".", ""]
+    return lines
+
+
+def page(records, docs):
+    """Of files; those of devices lie in tests/records/tune."""
+    told = [json.loads(pathlib.Path(file).read_text()) for file in (*records, *sorted(RECORDS.glob("*.json")))]
+    lines = ["# What tuning buys", "",
+             "Written by `./dev docs` (tests/tune.py). `glint tune` looks for the least error within a budget: here at half and a quarter of what "
+             "the traces of `mafia3` cost, tuned on `street` and `room` together and then measured on `hotel`, too, which it has not seen. Beside it "
+             "stands what one does without a search: all counts of steps and cells times one factor, the least that costs no less than what "
+             "was tuned. *Tuned errs more than this by* is the difference of both errors with its 95 % interval, paired over tiles: *less* and *more* where "
+             "it does not hold zero, else *equal*. Errors are of the reflection before it is composed.", ""]
+    for record in told:
+        lines += chapter(record)
+    (docs / "tune.md").write_text("\n".join(lines).rstrip() + "\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("measure", "page", "docs"))
+    parser.add_argument("files", nargs="*", help="GLINT, or records")
+    parser.add_argument("--as", dest="name", default="by fetches")
+    parser.add_argument("--cost", choices=("ms", "fetches"), default="fetches")
+    parser.add_argument("--size", default="320x180")
+    parser.add_argument("--cube", default="64")
+    parser.add_argument("--rays", type=int, default=16)
+    parser.add_argument("--tries", type=int, default=64)
+    parser.add_argument("--repeat", type=int, default=0)
+    parser.add_argument("--work", help="folder for temporary files")
+    parser.add_argument("-o", "--output", type=pathlib.Path)
+    given = parser.parse_args()
+    docs = pages.HERE.parent / "docs"
+    if given.what == "page":
+        return page(given.files, given.output or docs)
+    given.glint = given.files[0]
+    if given.what == "measure":
+        return measure(given)
+    with tempfile.TemporaryDirectory() as folder:
+        docs, given.output = given.output or docs, pathlib.Path(folder) / "fetches.json"
+        measure(given)
+        page([given.output], docs)
+
+
+if __name__ == "__main__":
+    main()
