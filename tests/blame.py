@@ -13,17 +13,21 @@ from pages import run, sample, table
 
 SCENES, PRESET, SIZE, CUBE, TRUTH = ("street", "room"), "mafia3", "480x270", "128", "64"
 SURFACES = ("all", "mirror-like", "glossy", "rough")
-KEPT = ("shares.json", "shares.svg", "bought.svg")
+CHARTS = ("shares.svg", "bought.svg")
 
 
 def measure(glint, record, rays, player_rays, rounds):
-    """What the folder has of an interrupted measurement is gone on from."""
-    out = pathlib.Path(record)
+    pathlib.Path(record).mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         captures = [sample(glint, scene, folder, SIZE, CUBE, "--truth", TRUTH) for scene in SCENES]
-        run(glint, "blame", *captures, "-p", PRESET, "-o", out / "all", "--rays", rays, "--player-rays", player_rays, "--repeat", rounds)
-    for name in KEPT:
-        shutil.copy(out / "all" / name, out / name)
+        found = pathlib.Path(folder) / "blame"
+        run(glint, "blame", *captures, "-p", PRESET, "-o", found, "--rays", rays, "--player-rays", player_rays, "--repeat", rounds)
+        told = json.loads((found / "shares.json").read_text())
+        for capture in told["captures"]:
+            capture["capture"] = pathlib.Path(capture["capture"]).name
+        (pathlib.Path(record) / "shares.json").write_text(json.dumps(told, indent=1) + "\n")
+        for name in CHARTS:
+            shutil.copy(found / name, pathlib.Path(record) / name)
 
 
 def number(value, digits=4):
@@ -72,6 +76,22 @@ def scene(told):
     return text + (f"\n### Against the truth\n\n{shares(told, 'truth')}" if "truth" in told["errors"] else "")
 
 
+def said(mean):
+    """In a sentence: what errs most, what mends most alone, where time is spent best."""
+    errors = mean["errors"]["reference"]["all"]
+    players = errors["players"]
+    total = errors["preset"] - errors["reference"]
+    most, alone, saves = (f(players, key=lambda name: players[name][key]) for f, key in ((max, "share"), (max, "removed"), (min, "share")))
+    rates = {name: p["removed"] / mean["costs"][name]["added_ms"] for name, p in players.items()
+             if p["removed"] > 0 and (mean["costs"][name]["added_ms"] or 0) > 0}
+    removed, made = (sum(p[key] for p in players.values()) for key in ("removed", "made"))
+    best = max(rates, key=rates.get) if rates else None
+    return (f"`{most}` has the largest share, {100 * players[most]['share'] / total:.0f} % of the difference; alone, `{alone}` mends most, {number(players[alone]['removed'])}. "
+            f"`{saves}` is worth most as it is: {number(-players[saves]['share'])}. "
+            + (f"A millisecond more is spent best on `{best}`. " if best else "")
+            + f"How much is interaction: single exchanges in the preset add up to {number(removed)}, those in the reference to {number(made)}, the difference is {number(total)}.")
+
+
 def players(told):
     return "\n".join(f"- `{p['name']}`: {p['change']}{'. Together: ' + p['why'] if p['why'] else ''}." for p in told["players"])
 
@@ -81,12 +101,12 @@ def page(records, docs):
     for record in map(pathlib.Path, records):
         told = json.loads((record / "shares.json").read_text())
         device, mean = told["device"], told["mean"]
-        for name in KEPT[1:]:
+        for name in CHARTS:
             shutil.copy(record / name, docs / f"blame-{name}")
-        # Dates and machines are the record's: the page says whose times these are.
         text += f"""
 Measured on {device['name']}{' (a CPU: its times say nothing about a GPU)' if device['is_cpu'] else ''}, median of {told['rounds']} rounds; a frame of the
-preset takes {brief(mean['frame_ms']['preset'])} ms at this size, one of the reference {brief(mean['frame_ms']['reference'])}. All
+preset takes {brief(mean['frame_ms']['preset'])} ms at this size, one of the reference {brief(mean['frame_ms']['reference'])}. Errors are
+against a reference of {told['reference_rays']} rays a pixel; the error of the pipeline with all players exchanged is the noise of its own rays. All
 {mean['pipelines']} pipelines between the two were run on each scene, so that shares are {'exact' if mean['exact'] else 'sampled'}.
 
 ![Share, error removed and error made of each player](blame-shares.svg)
@@ -94,6 +114,8 @@ preset takes {brief(mean['frame_ms']['preset'])} ms at this size, one of the ref
 ![Error for each millisecond](blame-bought.svg)
 
 ## Mean of both scenes
+
+{said(mean)}
 
 {shares(mean, 'reference')}{"".join(scene(c) for c in told["captures"])}
 ## The players

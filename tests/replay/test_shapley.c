@@ -143,7 +143,7 @@ static void intervals_hold_what_they_say(void **state) {
         glint_shapley_finish(&found);
     }
     /* 30 pairs by the normal distribution: a little under 95 %; shares of one seed depend on each other. */
-    assert_true(inside > 0.88 * (double)all && inside < 0.99 * (double)all);
+    assert_true((double)inside > 0.88 * (double)all && (double)inside < 0.99 * (double)all);
 }
 
 /* Interactions of two players alone: an order and its opposite together have no spread at all. */
