@@ -299,7 +299,8 @@ const struct command cmd_reference = {
         "Traces many rays a pixel, over the whole lobe of each surface and in fine steps, and says how much noise is "
         "left: half of the rays share no random number with the others, and what the halves differ by is the noise. "
         "What a preset is off the reference is the error of its algorithms; what the reference is off the truth that "
-        "the capture may carry is information that its data lack.",
+        "the capture may carry is information that its data lack. The truth has no fog: for comparisons with it, trace "
+        "the reference with --set resolve.fog=false, and give glint replay --against both=RUN the same.",
     .options = options,
     .parse = parse,
     .examples = examples,
