@@ -31,8 +31,10 @@ def tuned(given, folder, captures, unseen, budget):
     command = [given.glint, "tune", *captures, "--unseen", unseen, "-o", folder / f"{budget}.json", "--folder", folder / "tune",
                f"--budget-{given.cost}", f"{budget}%", "--baseline", "scale", "--rays", given.rays, "--tries", given.tries, "--repeat", given.repeat,
                "--seed", 1, "--json"]
-    for name in TRACES + (FRAME if given.cost == "ms" else ()):
+    for name in TRACES + (FRAME if given.cost == "ms" and not given.slots else ()):
         command += ["--vary", name]
+    if given.slots:
+        command += ["--slots", given.slots]
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode and not done.stdout:
         if "no point reaches" not in done.stderr:
@@ -42,7 +44,7 @@ def tuned(given, folder, captures, unseen, budget):
 
 
 def measure(given):
-    record = {"as": given.name, "cost": given.cost, "size": given.size, "cube": given.cube, "rays": given.rays, "tries": given.tries,
+    record = {"as": given.name, "cost": given.cost, "slots": given.slots, "size": given.size, "cube": given.cube, "rays": given.rays, "tries": given.tries,
               "repeat": given.repeat, "budgets": {}}
     record["device"] = json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]
     with tempfile.TemporaryDirectory(dir=given.work) as folder:
@@ -88,10 +90,12 @@ def scene(record, one, factor):
 
 
 def chapter(record):
-    unit = "GPU time, ms" if record["cost"] == "ms" else "fetches a pixel"
-    lines = [f"## {record['as']}, {record['size']}", "",
-             f"Cost: {'GPU time of a frame, medians of ' + str(record['repeat']) + ' rounds in turns' if record['cost'] == 'ms' else 'texture fetches of the traces a pixel, which no device changes'}; "
-             f"errors against a reference of {record['rays']} rays a pixel; at most {record['tries']} points.", ""]
+    unit, cost = "fetches a pixel", "texture fetches of the traces a pixel, which no device changes"
+    if record["cost"] == "ms":
+        part = "of " + " and ".join(f"`{slot}`" for slot in record["slots"].split(",")) if record.get("slots") else "of a whole frame"
+        unit, cost = "GPU time, ms", f"GPU time {part}, medians of {record['repeat']} rounds in turns with their 95 % intervals"
+    lines = [f"## {record['as']}, {record['size'].replace('x', '×')}", "",
+             f"Cost: {cost}; errors against a reference of {record['rays']} rays a pixel; at most {record['tries']} points.", ""]
     for budget, found in record["budgets"].items():
         lines += [f"### At {budget} % of `mafia3`'s cost", ""]
         if "none" in found:
@@ -130,6 +134,7 @@ def main():
     parser.add_argument("files", nargs="*", help="GLINT, or records")
     parser.add_argument("--as", dest="name", default="by fetches")
     parser.add_argument("--cost", choices=("ms", "fetches"), default="fetches")
+    parser.add_argument("--slots", help="time of these alone")
     parser.add_argument("--size", default="320x180")
     parser.add_argument("--cube", default="64")
     parser.add_argument("--rays", type=int, default=16)
