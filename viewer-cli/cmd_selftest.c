@@ -11,7 +11,7 @@
 #include "selftest/selftest.h"
 #include "table.h"
 
-static const struct selftest_group *const groups[] = {&selftest_functions, &selftest_numbers};
+static const struct selftest_group *const groups[] = {&selftest_functions, &selftest_numbers, &selftest_garbage};
 enum { GROUPS = sizeof groups / sizeof *groups };
 
 struct arguments {
@@ -274,11 +274,14 @@ const struct command cmd_selftest = {
         "bound, and the input where it is worst. A case is a claim: functions that the passes share are evaluated over "
         "dense tables that include the ends (0, the poles, the largest and smallest, infinity) and compared with "
         "double "
-        "precision on the very inputs that the device had, so that storage is not mistaken for arithmetic; and a scene "
-        "far from the origin, or stored in another encoding, has to give the same picture. An ULP is the distance of "
-        "neighbouring floats at the expected value. Bounds have reasons, which --list gives; where a reason names the "
-        "precision that Vulkan grants, a device may use it up and still conform. The exit status is 1 when a case "
-        "fails.",
+        "precision on the very inputs that the device had, so that storage is not mistaken for arithmetic; a scene far "
+        "from the origin, or stored in another encoding, has to give the same picture; and bad pixels of a G-buffer "
+        "must "
+        "spoil no others. An ULP is the distance of neighbouring floats at the expected value. Bounds have reasons, "
+        "which "
+        "--list gives; where a reason names the precision that Vulkan grants, a device may use it up and still "
+        "conform. "
+        "The exit status is 1 when a case fails.",
     .options = options,
     .parse = parse,
     .examples = examples,

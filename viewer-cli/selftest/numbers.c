@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../text_file.h"
-#include "glint/samples.h"
-#include "selftest.h"
+#include "picture.h"
 
 struct change {
     const char *name, *what;
@@ -48,47 +46,21 @@ static struct selftest_case get(size_t i) {
     return (struct selftest_case){c->name, c->what, NULL, "absolute", c->bound, c->reason};
 }
 
-static const char preset[] =
-    "{\"name\": \"selftest\", \"title\": \"A short pipeline\", \"source\": \"glint\", \"slots\": {\"downsample\": "
-    "\"pick\", "
-    "\"screen_trace\": \"linear\", \"cubemap_active\": \"nearest\", \"cubemap_select\": \"nearest\", "
-    "\"cubemap_trace\": "
-    "\"march\", \"resolve\": \"hit\", \"upscale\": \"bilinear\", \"compose\": \"brdf\"}, \"set\": {}}\n";
-
-struct picture {
-    float *rgba;
-    uint32_t width, height;
-};
-
-/* The scene with a change, composed; the caller frees. */
-static bool compose(const struct selftest *test, struct glint_replay *replay, const struct glint_pipeline *pipeline,
-                    const struct change *change, struct picture *out, struct glint_error *err) {
-    const struct glint_replay_options options = {.float_precision = true};
-    struct glint_sample_options sample = {.width = 96,
-                                          .height = 64,
-                                          .cube_size = 64,
-                                          .probes_given = true,
-                                          .probes = GLINT_PROBES_PERFECT,
-                                          .encodings = change->encodings};
+/* The scene with a change, composed. */
+static bool compose(const struct pictures *pictures, const struct change *change, struct picture_of *out,
+                    struct glint_error *err) {
+    struct glint_sample_options sample = pictures_sample;
+    sample.encodings = change->encodings;
     memcpy(sample.offset, change->offset, sizeof sample.offset);
     char path[4096];
-    snprintf(path, sizeof path, "%s/numbers.exr", test->folder);
+    snprintf(path, sizeof path, "%s/numbers.exr", pictures->test->folder);
     remove(path);
-    struct glint_capture *capture = NULL;
-    bool ok = glint_sample_write("mirror_box", path, &sample, NULL, NULL, err) &&
-              (capture = glint_capture_open(path, NULL, err)) && glint_replay_load(replay, capture, err) &&
-              glint_replay_run(replay, pipeline, &options, test->progress, test->user, err);
-    const struct glint_image *image = ok ? glint_replay_find_image(replay, "composed") : NULL;
-    if (image) *out = (struct picture){NULL, image->width, image->height};
-    if (ok && !(out->rgba = malloc((size_t)out->width * out->height * 4 * sizeof *out->rgba)))
-        ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    ok = ok && glint_replay_read_image(replay, image, GLINT_F32, out->rgba, err);
-    if (replay) glint_replay_load(replay, NULL, NULL);
-    glint_capture_close(&capture);
-    return ok;
+    return glint_sample_write("mirror_box", path, &sample, NULL, NULL, err) &&
+           pictures_compose(pictures, path, out, err);
 }
 
-static void compare(const struct picture *expected, const struct picture *found, struct selftest_finding *finding) {
+static void compare(const struct picture_of *expected, const struct picture_of *found,
+                    struct selftest_finding *finding) {
     for (size_t i = 0; i < (size_t)expected->width * expected->height; i++)
         for (size_t k = 0; k < 3; k++, finding->values++) {
             const double e = (double)expected->rgba[4 * i + k], f = (double)found->rgba[4 * i + k];
@@ -103,23 +75,18 @@ static void compare(const struct picture *expected, const struct picture *found,
 static bool run(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
                 struct glint_error *err) {
     static const struct change none = {0};
-    struct picture expected = {0};
-    char path[4096];
-    snprintf(path, sizeof path, "%s/numbers.json", test->folder);
-    struct glint_replay *replay = glint_replay_create(test->device, err);
-    struct glint_pipeline *pipeline =
-        replay && text_file_write(path, preset, err) ? glint_pipeline_create(path, err) : NULL;
-    bool ok = pipeline && compose(test, replay, pipeline, &none, &expected, err);
+    struct pictures pictures = {0};
+    struct picture_of expected = {0};
+    bool ok = pictures_begin(&pictures, test, "", err) && compose(&pictures, &none, &expected, err);
     for (size_t i = 0; ok && i < count(); i++) {
-        struct picture found = {0};
+        struct picture_of found = {0};
         if (!chosen[i]) continue;
-        ok = compose(test, replay, pipeline, &changes[i], &found, err);
+        ok = compose(&pictures, &changes[i], &found, err);
         if (ok) compare(&expected, &found, &findings[i]);
         free(found.rgba);
     }
     free(expected.rgba);
-    glint_pipeline_destroy(&pipeline);
-    glint_replay_destroy(&replay);
+    pictures_end(&pictures);
     return ok;
 }
 

@@ -37,6 +37,6 @@ struct selftest_group {
                 struct glint_error *err);
 };
 
-extern const struct selftest_group selftest_functions, selftest_numbers;
+extern const struct selftest_group selftest_functions, selftest_numbers, selftest_garbage;
 
 #endif
