@@ -48,6 +48,9 @@ MUTANTS = [
     ("levels", "(high - 1) / size", "high / size", ["footprint of a texel"]),
     ("levels", "<= reach * reach", "< reach * reach", ["taps of a lattice"]),
     ("edges", "* 3.0 + 0.5", "* 3.0", ["packed edges"]),
+    ("edges", "max(across[y] * down[x ^ 1u]", "min(across[y] * down[x ^ 1u]", ["edges of a block"]),
+    ("levels", "+ 3.0) * log1p(r2)", "+ 2.0) * log1p(r2)", ["taps of a pre-filter"]),
+    ("sampling", "log(0.5) * 0.5 * power", "log(0.5) * power", ["cone of a cut lobe"]),
     ("paraboloid", "d.z < 0.0 ? 1.0 : 0.0", "d.z < 0.0 ? 0.0 : 1.0", ["place on a paraboloid"]),
     ("paraboloid", "upper ? 1.0 - r2 : r2 - 1.0", "1.0 - r2", ["direction of a paraboloid"]),
     ("paraboloid", "4.0 / (wide * wide)", "4.0 / wide", ["solid angle on a paraboloid"]),
@@ -105,7 +108,7 @@ class Tests:
     def test_every_case_passes_here(self):
         found = cases("--quick")
         assert all(case["pass"] and case["values"] >= 1024 for case in found), [c for c in found if not c["pass"]]
-        assert len(found) >= 90
+        assert len(found) >= 93
 
     def test_every_case_has_a_bound_with_its_reason(self):
         listed = cases("--list")

@@ -151,6 +151,28 @@ static void thirds(float *x) {
     }
 }
 
+/* The sides between the texels of a block: across its upper and lower row, down its left and right column. */
+static void expect_block(const double *x, double *y) {
+    const double across[2] = {x[0] / 3, x[1] / 3}, down[2] = {x[2] / 3, x[3] / 3};
+    const int column = (int)x[4] % 2, row = (int)x[4] / 2;
+    for (int k = 0; k < 4; k++) {
+        const int c = k % 2, r = k / 2;
+        if (c == column && r == row) y[k] = 1;
+        else if (r == row) y[k] = across[r];
+        else if (c == column) y[k] = down[c];
+        else y[k] = fmax(across[row] * down[c], down[column] * across[r]);
+    }
+}
+/* A tap seen from the centre of a face: cosⁿ⁺³ of the angle to it, and the level whose texels are half as wide as taps are apart;
+   a texel off the face's centre is seen smaller. */
+static void expect_tap(const double *x, double *y) {
+    const double rim = exp2(x[2]) * 3.5 / (x[3] / 2), apart = rim / 3.5, at[2] = {x[0] * apart, x[1] * apart};
+    const double cosine = 1 / sqrt(1 + at[0] * at[0] + at[1] * at[1]), power = log(0.1) / log(cos(atan(rim)));
+    const double most = fmax(1, fmax(fabs(at[0]), fabs(at[1])));
+    y[0] = pow(cosine, power + 3);
+    y[1] = fmin(fmax(log2(apart / 2 * x[3] / pow(most, 1.5)) - 1, 0), x[2]);
+}
+
 /* ---- paraboloid.glsl ---- */
 
 static void expect_paraboloid(const double *d, double *y) {
@@ -214,6 +236,12 @@ static const struct function list[] = {
      "open_side(packed_side(a.y, 1u), 1u), open_side(packed_side(a.z, 2u), 2u), open_side(packed_side(a.w, 3u), 3u)", "left right up down",
      {{LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}}, thirds, expect_side, 4, ABSOLUTE, 1.8e-7, "a third, 2.5 ULP of a division (Vulkan)"},
 
+    {"edges of a block", "which texels of a block are of one surface, a diagonal by the better way round", "open_in_block(uvec4(packed_side(a.x / 3.0, SIDE_RIGHT) | packed_side(a.z / 3.0, SIDE_DOWN), packed_side(a.w / 3.0, SIDE_DOWN), "
+     "packed_side(a.y / 3.0, SIDE_RIGHT), 0u), uint(b.x))", "upper lower left right from", {{WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}}, NULL,
+     expect_block, 4, ABSOLUTE, 4.5e-7, "a product of two thirds, 2.5 ULP each (Vulkan), and a rounding"},
+    {"taps of a pre-filter", "weight and level, narrow cones to wide ones", "cube_tap(ivec2(a.xy), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), a.z, a.w, 3, 3.5, 0.1).weight, "
+     "cube_tap(ivec2(a.xy), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), a.z, a.w, 3, 3.5, 0.1).lod, 0.0, 0.0", "x y level size", {{WHOLE, -3, 3, 0}, {WHOLE, -3, 3, 0}, {WHOLE, 1, 8, 0}, {LOG, 16, 2048, 0}}, NULL,
+     expect_tap, 2, ABSOLUTE, 6e-6, "log2 is 3 ULP off (Vulkan), 1.5e-6 of 8; the weight's exponent carries two logarithms, 16 ULP each"},
     {"place on a paraboloid", "poles, the rim and what lies between", "paraboloid_uv(a.xyz, 256.0), 0.0", "x y z", {CUBE}, unit_direction, expect_paraboloid, 3, ABSOLUTE, 3e-7, DIVISION "; the direction is unit to 6e-8"},
     {"direction of a paraboloid", "a direction leads back to itself", "paraboloid_direction((2.0 * paraboloid_uv(a.xyz, 256.0).xy - 1.0) * paraboloid_reach(256.0), a.z >= 0.0), 0.0", "x y z", {CUBE}, unit_direction,
      expect_same, 3, ABSOLUTE, 1.2e-6, "three divisions, 2.5 ULP each, and a place that spans 2"},

@@ -92,6 +92,17 @@ static void wider(float *x) {
     x[1] = x[0] + x[1] * (0.5f - x[0]);
 }
 
+/* Of the whole lobe what is above the horizon: half-vectors up to 45 degrees. */
+static void expect_phong_cone(const double *x, double *y) {
+    const double n = power(x[0]), horizon = (n + 1) * log(0.5) / 2;
+    const double cut = fmax((n + 1) * log1p(-2 * pow(sin(x[1] * lobe(x[0]) / 2), 2)), horizon);
+    const double of_cut[2] = {x[0], cut}, of_all[2] = {x[0], horizon};
+    double filling[3] = {0, 0, x[2]};
+    expect_phong_spread(of_cut, &filling[0]);
+    expect_phong_spread(of_all, &filling[1]);
+    expect_filling(filling, y);
+}
+
 /* ---- Frames, brdf.glsl, reuse.glsl ---- */
 
 static void normal(float *x) {
@@ -175,6 +186,8 @@ static const struct function list[] = {
     {"Blinn-Phong's spread", "mean spread of rays, powers from infinite to 0", "blinn_phong_spread(a.x, a.y)", "roughness logarithm", {{LOG, 1e-6, 1, ZERO}, {LINEAR, -20, -0.05, 0}}, NULL, expect_phong_spread, 1, ULP, 160, EXP ", and a difference that keeps a fortieth where next to nothing of the lobe is left"},
     {"cone that fills a lobe", "filter whose mean cosine is what a cut lobe lacks", "filling_cone(a.x, a.y, a.z, 0.1)", "spread whole cosine", {{LOG, 1e-6, 0.4, ZERO}, {LINEAR, 0.02, 1, 0}, {LINEAR, 0, 1, 0}}, wider, expect_filling, 1, ULP, 60, "a difference of floats that keeps a fiftieth, halved by a root; exp and arc"},
 
+    {"cone of a cut lobe", "what the cut leaves of a Blinn-Phong lobe, mirrors to rough", "blinn_phong_cone(a.x, a.y, 0.1, a.z)", "roughness share cosine", {{LOG, 1e-3, 0.7, 0}, {LINEAR, 0.05, 0.5, 0}, {LINEAR, 0, 1, 0}}, NULL,
+     expect_phong_cone, 1, ULP, 60, EXP " in either spread; their difference keeps a third and more, and a root halves it"},
     {"tangent frames", "orthonormal and right-handed, at the poles and next to them", "dot(frame_of(a.xyz)[0], frame_of(a.xyz)[0]), dot(frame_of(a.xyz)[1], frame_of(a.xyz)[1]), dot(frame_of(a.xyz)[0], frame_of(a.xyz)[1]), "
      "dot(cross(frame_of(a.xyz)[0], frame_of(a.xyz)[1]), a.xyz)", "x y z", {{LOG, 1e-12, 1, ZERO | NEGATIVE}, {LOG, 1e-12, 1, ZERO | NEGATIVE}, {LINEAR, -1, 1, ZERO}}, normal, expect_frame, 4, ABSOLUTE, 2e-6, "a normal is unit to 2e-7, and 1/(1 + z) at most doubles it"},
 
