@@ -3,6 +3,7 @@
 #ifndef GLINT_VIEWER_BLAME_H
 #define GLINT_VIEWER_BLAME_H
 
+#include "answer_args.h"
 #include "glint/blame.h"
 #include "journal.h"
 #include "progress.h"
@@ -28,10 +29,9 @@ struct blame {
     struct glint_pipeline *base;
     struct glint_players *players;
     struct glint_device *device;
-    struct list references; /* run folders, one for each capture, or none */
-    bool truth;             /* which answer comes first */
+    struct answer_args against; /* which answer comes first */
     bool all;
-    uint32_t rounds, rays, player_rays;
+    uint32_t rounds, player_rays;
     enum glint_metric metric;
     uint32_t metrics;
     struct glint_shapley_options options;
@@ -49,7 +49,7 @@ static inline size_t blame_value(size_t answer, size_t class) {
 }
 /* The answer in the first place, and in the second. */
 static inline enum glint_answer blame_answer(const struct blame *blame, size_t place) {
-    return (place == 0) == blame->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+    return (place == 0) == answer_args_kind(&blame->against);
 }
 /* The error that the player takes away (positive) or makes when it alone is exchanged in the preset; that it makes when it
    alone is as it is in the reference; its share of what lies between both. */

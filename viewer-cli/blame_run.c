@@ -62,7 +62,7 @@ static bool look(struct work *work, uint32_t coalition, struct glint_error *err)
     struct glint_error own = {0};
     if (!pipeline) return false;
     bool ok = glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
-    if (ok && work->blame->truth && verdict.no_truth.code != GLINT_OK)
+    if (ok && work->blame->against.truth && verdict.no_truth.code != GLINT_OK)
         ok = glint_fail(&own, verdict.no_truth.code, "%s", verdict.no_truth.message);
     for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++)
         ok = !verdict.errors[k].count ||
@@ -138,19 +138,18 @@ static bool find_shares(struct work *work, struct glint_error *err) {
 /* The answer before the coalitions: it can take longer than they do. */
 static bool find_answer(struct work *work, struct glint_error *err) {
     const float *error;
-    return work->blame->truth || glint_judge_answer(work->judge, GLINT_ANSWER_REFERENCE, work->blame->base, &error,
-                                                    progress_report, work->blame->progress, err);
+    return work->blame->against.truth || glint_judge_answer(work->judge, GLINT_ANSWER_REFERENCE, work->blame->base,
+                                                            &error, progress_report, work->blame->progress, err);
 }
 
 static bool on_capture(struct work *work, struct glint_error *err) {
     struct blame *blame = work->blame;
     const size_t c = work->capture;
-    const struct glint_judge_options options = {.reference = !blame->truth,
+    const struct glint_judge_options options = {.reference = !blame->against.truth,
                                                 .truth = true,
-                                                .reference_run =
-                                                    blame->references.count ? blame->references.items[c] : NULL,
+                                                .reference_run = answer_args_reference(&blame->against, c),
                                                 .reference_folder = blame->out,
-                                                .reference_rays = blame->rays,
+                                                .reference_rays = blame->against.rays,
                                                 .all = blame->all,
                                                 .metrics = blame->metrics};
     struct glint_capture *capture = glint_capture_open(blame->captures.items[c], NULL, err);
@@ -200,12 +199,12 @@ static json_t *define(const struct blame *blame, const struct list *shaders, str
         json_decref(players);
         return NULL;
     }
-    json_t *json =
-        json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:I, s:b, s:I, s:[ss]}", "format", 1, "glint",
-                  GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(blame->base), "shaders", sources,
-                  "players", players, "reference", blame->truth ? "truth" : "computed", "reference_runs",
-                  strings_json(blame->references.items), "reference_rays", (json_int_t)blame->rays, "all", blame->all,
-                  "metrics", (json_int_t)blame->metrics, "device", device->name, device->driver_version);
+    json_t *json = json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:I, s:b, s:I, s:[ss]}", "format", 1, "glint",
+                             GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(blame->base), "shaders",
+                             sources, "players", players, "reference", blame->against.truth ? "truth" : "computed",
+                             "reference_runs", strings_json(blame->against.references.items), "reference_rays",
+                             (json_int_t)blame->against.rays, "all", blame->all, "metrics", (json_int_t)blame->metrics,
+                             "device", device->name, device->driver_version);
     if (!json) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     return json;
 }

@@ -148,6 +148,6 @@ json_t *blame_json(const struct blame *blame) {
                      glint_pipeline_name(blame->base), "metric", glint_metric(blame->metric)->name, "against",
                      glint_answer_name(blame_answer(blame, 0)), "device", "name", device->name, "is_cpu",
                      device->is_cpu, "rounds", (json_int_t)blame->rounds, "reference_rays",
-                     (json_int_t)(blame->rays ? blame->rays : GLINT_JUDGE_RAYS), "players", players, "captures",
-                     captures, "mean", sum_json(blame, &blame->mean));
+                     (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS), "players", players,
+                     "captures", captures, "mean", sum_json(blame, &blame->mean));
 }

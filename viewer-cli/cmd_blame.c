@@ -15,17 +15,7 @@ struct arguments {
     bool json;
 };
 
-enum {
-    KEY_SEED = 256,
-    KEY_REPEAT,
-    KEY_REFERENCE,
-    KEY_RAYS,
-    KEY_PLAYER_RAYS,
-    KEY_METRIC,
-    KEY_EXACT,
-    KEY_INTERVAL,
-    KEY_PERMUTATIONS
-};
+enum { KEY_SEED = 256, KEY_REPEAT, KEY_PLAYER_RAYS, KEY_METRIC, KEY_EXACT, KEY_INTERVAL, KEY_PERMUTATIONS };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -70,12 +60,8 @@ static error_t parse_more(int key, char *arg, struct argp_state *state, struct a
     struct blame *blame = &a->blame;
     switch (key) {
     case KEY_REFERENCE:
-        if (!strcmp(arg, "truth")) blame->truth = true;
-        else list_add(&blame->references, arg, state);
-        return 0;
     case KEY_RAYS:
-        blame->rays = arg_uint("rays", arg, 1, 1 << 20, state);
-        return 0;
+        return answer_args_parse(key, arg, state, &blame->against);
     case KEY_PLAYER_RAYS:
         blame->player_rays = arg_uint("player-rays", arg, 1, 1024, state);
         return 0;
@@ -84,11 +70,7 @@ static error_t parse_more(int key, char *arg, struct argp_state *state, struct a
         return 0;
     case ARGP_KEY_END:
         if (!blame->captures.count) argp_error(state, "which capture?");
-        if (blame->truth && blame->references.count)
-            argp_error(state, "--reference: expected runs or the truth, found both");
-        if (blame->references.count && blame->references.count != blame->captures.count)
-            argp_error(state, "--reference: expected one run for each of %zu captures, found %zu",
-                       blame->captures.count, blame->references.count);
+        answer_args_check(&blame->against, blame->captures.count, state);
         return 0;
     }
     return pipeline_args_parse(key, arg, state, &a->pipeline);

@@ -18,17 +18,7 @@ struct arguments {
     bool json;
 };
 
-enum {
-    KEY_VARY = 256,
-    KEY_SAMPLE,
-    KEY_SEED,
-    KEY_REPEAT,
-    KEY_WHOLE,
-    KEY_REFERENCE,
-    KEY_RAYS,
-    KEY_METRIC,
-    KEY_NO_PICTURES
-};
+enum { KEY_VARY = 256, KEY_SAMPLE, KEY_SEED, KEY_REPEAT, KEY_WHOLE, KEY_METRIC, KEY_NO_PICTURES };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -87,13 +77,6 @@ static void parse_sample(struct arguments *a, char *text, struct argp_state *sta
 
 static error_t parse_answer(int key, char *arg, struct argp_state *state, struct arguments *a) {
     switch (key) {
-    case KEY_REFERENCE:
-        if (!strcmp(arg, "truth")) a->sweep.truth = true;
-        else list_add(&a->sweep.references, arg, state);
-        return 0;
-    case KEY_RAYS:
-        a->sweep.rays = arg_uint("rays", arg, 1, 1 << 20, state);
-        return 0;
     case KEY_METRIC:
         a->metric = arg;
         return 0;
@@ -107,14 +90,10 @@ static error_t parse_answer(int key, char *arg, struct argp_state *state, struct
         if (!a->sweep.captures.count) argp_error(state, "which capture?");
         if (!a->sweep.out) argp_error(state, "where to? -o FOLDER");
         if (!a->axes.count) argp_error(state, "what varies? --vary SLOT.PARAM=A..B");
-        if (a->sweep.truth && a->sweep.references.count)
-            argp_error(state, "--reference: expected runs or the truth, found both");
-        if (a->sweep.references.count && a->sweep.references.count != a->sweep.captures.count)
-            argp_error(state, "--reference: expected one run for each of %zu captures, found %zu",
-                       a->sweep.captures.count, a->sweep.references.count);
+        answer_args_check(&a->sweep.against, a->sweep.captures.count, state);
         return 0;
     }
-    return ARGP_ERR_UNKNOWN;
+    return answer_args_parse(key, arg, state, &a->sweep.against);
 }
 
 static error_t parse(int key, char *arg, struct argp_state *state) {

@@ -29,8 +29,6 @@ enum {
     KEY_ROUNDS,
     KEY_REPEAT,
     KEY_FOLDER,
-    KEY_REFERENCE,
-    KEY_RAYS,
     KEY_METRIC
 };
 
@@ -112,12 +110,8 @@ static error_t parse_search(int key, char *arg, struct argp_state *state, struct
         tune->repeat = arg_uint("repeat", arg, 0, 10000, state);
         return 0;
     case KEY_REFERENCE:
-        if (!strcmp(arg, "truth")) tune->truth = true;
-        else list_add(&tune->references, arg, state);
-        return 0;
     case KEY_RAYS:
-        tune->rays = arg_uint("rays", arg, 1, 1 << 20, state);
-        return 0;
+        return answer_args_parse(key, arg, state, &tune->against);
     case KEY_METRIC:
         a->metric = arg;
         return 0;
@@ -156,10 +150,7 @@ static void check_arguments(struct arguments *a, struct argp_state *state) {
     if (length <= 5 || strcmp(tune->out + length - 5, ".json") != 0 || tune->out[length - 6] == '/')
         argp_error(state, "-o %s: expected a preset's file, NAME.json", tune->out);
     if (a->cost && !a->error) argp_error(state, "--cost: a budget says what it is of");
-    if (tune->truth && tune->references.count) argp_error(state, "--reference: expected runs or the truth, found both");
-    if (tune->references.count && tune->references.count != all)
-        argp_error(state, "--reference: expected one run for each of %zu captures, found %zu", all,
-                   tune->references.count);
+    answer_args_check(&tune->against, all, state);
     tune->by_error = a->error != NULL;
     tune->fetches = a->budget_fetches || (a->cost && !strcmp(a->cost, "fetches"));
     if (tune->fetches && tune->slots.count) argp_error(state, "--slots: is for times; fetches are those of the traces");
@@ -287,7 +278,7 @@ void tune_finish(struct tune *tune) {
     free(tune->left);
     if (tune->base) glint_pipeline_destroy(&tune->base);
     if (tune->device) glint_device_destroy(&tune->device);
-    struct list *const lists[] = {&tune->captures, &tune->unseen, &tune->references,
+    struct list *const lists[] = {&tune->captures, &tune->unseen, &tune->against.references,
                                   &tune->vary,     &tune->slots,  &tune->shaders};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
@@ -304,7 +295,7 @@ static char *command_line(int argc, char **argv) {
 }
 
 static enum status run(int argc, char **argv) {
-    struct arguments a = {.tune = {.seed = 1, .rays = GLINT_JUDGE_RAYS, .rounds = 3, .repeat = 15}};
+    struct arguments a = {.tune = {.seed = 1, .against = {.rays = GLINT_JUDGE_RAYS}, .rounds = 3, .repeat = 15}};
     struct glint_error err = {0};
     struct progress progress;
     struct tune *tune = &a.tune;

@@ -4,6 +4,7 @@
 
 #include <jansson.h>
 
+#include "answer_args.h"
 #include "args.h"
 #include "glint/space.h"
 #include "journal.h"
@@ -41,10 +42,9 @@ struct sweep {
     struct glint_pipeline *base;
     struct glint_space *space;
     struct glint_device *device;
-    struct list references; /* run folders, one for each capture, or none */
-    bool truth;             /* which answer the errors of fronts are against */
+    struct answer_args against; /* of the errors of fronts */
     bool whole, all, pictures;
-    uint32_t rounds, rays;
+    uint32_t rounds;
     enum glint_metric metric;
     uint32_t metrics;
     struct progress *progress;

@@ -24,13 +24,13 @@ static json_t *define(const struct sweep *sweep, const char *const *axes, const 
         json_decref(captures);
         return NULL;
     }
-    json_t *json = json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:s, s:o, s:I, s:I, s:b, s:b, s:I, s:[ss]}", "format",
-                             1, "glint", GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(sweep->base),
-                             "shaders", sources, "vary", strings_json(axes), "sample", sample, "reference",
-                             sweep->truth ? "truth" : "computed", "reference_runs",
-                             strings_json(sweep->references.items), "reference_rays", (json_int_t)sweep->rays, "repeat",
-                             (json_int_t)sweep->rounds, "whole", sweep->whole, "all", sweep->all, "metrics",
-                             (json_int_t)sweep->metrics, "device", device->name, device->driver_version);
+    json_t *json = json_pack(
+        "{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:s, s:o, s:I, s:I, s:b, s:b, s:I, s:[ss]}", "format", 1, "glint",
+        GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(sweep->base), "shaders", sources, "vary",
+        strings_json(axes), "sample", sample, "reference", sweep->against.truth ? "truth" : "computed",
+        "reference_runs", strings_json(sweep->against.references.items), "reference_rays",
+        (json_int_t)sweep->against.rays, "repeat", (json_int_t)sweep->rounds, "whole", sweep->whole, "all", sweep->all,
+        "metrics", (json_int_t)sweep->metrics, "device", device->name, device->driver_version);
     if (!json) no_memory(err);
     return json;
 }
@@ -89,7 +89,7 @@ void sweep_finish(struct sweep *sweep) {
     if (sweep->space) glint_space_destroy(&sweep->space);
     if (sweep->base) glint_pipeline_destroy(&sweep->base);
     list_free(&sweep->captures);
-    list_free(&sweep->references);
+    answer_args_finish(&sweep->against);
 }
 
 char *sweep_point_text(const struct sweep *sweep, size_t point) {

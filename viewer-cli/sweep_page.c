@@ -48,8 +48,8 @@ static json_t *values_of(const struct sweep *sweep, size_t p) {
     for (size_t c = 0; c < sweep->captures.count; c++)
         for (size_t k = 0; k < sizeof classes / sizeof *classes; k++) {
             char name[200];
-            const double error =
-                sweep_error(sweep_row(sweep, c, p), sweep->truth ? "truth" : "reference", classes[k], sweep->metric);
+            const double error = sweep_error(sweep_row(sweep, c, p), sweep->against.truth ? "truth" : "reference",
+                                             classes[k], sweep->metric);
             if (!isfinite(error)) continue;
             snprintf(name, sizeof name, "%.60s, %s: %.60s", base_name(sweep->captures.items[c]), classes[k],
                      glint_metric(sweep->metric)->title);
@@ -156,7 +156,7 @@ static void add_facts(const struct sweep *sweep, json_t *document) {
     char text[400];
     for (size_t c = 0; c < sweep->captures.count; c++) page_fact(document, "capture", sweep->captures.items[c]);
     page_fact(document, "preset", glint_pipeline_name(sweep->base));
-    page_fact(document, "errors against", sweep->truth ? "the truth in the capture" : "the reference");
+    page_fact(document, "errors against", sweep->against.truth ? "the truth in the capture" : "the reference");
     page_fact(document, "device", device->name);
     snprintf(text, sizeof text, "median of %u rounds in turns%s%s", sweep->rounds,
              sweep->whole ? ", all passes in one piece" : ", passes that points have in common measured once a round",

@@ -111,7 +111,7 @@ static bool look(struct work *work, size_t point, struct glint_error *err) {
     bool ok = glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
     const double start = now_seconds();
     ok = ok && draw_point(work, point, &own);
-    if (ok && work->sweep->truth && verdict.no_truth.code != GLINT_OK) /* the same for all points */
+    if (ok && work->sweep->against.truth && verdict.no_truth.code != GLINT_OK) /* the same for all points */
         ok = glint_fail(err, verdict.no_truth.code, "%s", verdict.no_truth.message);
     else if (ok) ok = place_line(work, point, look_json(work->sweep, &verdict, now_seconds() - start), err);
     else ok = fail_point(work, point, &own, err);
@@ -164,7 +164,7 @@ static bool misses(const struct sweep *sweep, size_t capture) {
 static bool find_answer(struct work *work, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     const float *error;
-    const enum glint_answer answer = sweep->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+    const enum glint_answer answer = answer_args_kind(&sweep->against);
     struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, 0, err);
     const bool ok =
         pipeline && glint_judge_answer(work->judge, answer, pipeline, &error, progress_report, sweep->progress, err);
@@ -191,12 +191,11 @@ typedef bool (*task)(struct work *work, struct glint_error *err);
 
 static bool on_capture(struct work *work, size_t c, task task, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
-    const struct glint_judge_options options = {.reference = !sweep->truth,
+    const struct glint_judge_options options = {.reference = !sweep->against.truth,
                                                 .truth = true,
-                                                .reference_run =
-                                                    sweep->references.count ? sweep->references.items[c] : NULL,
+                                                .reference_run = answer_args_reference(&sweep->against, c),
                                                 .reference_folder = sweep->out,
-                                                .reference_rays = sweep->rays,
+                                                .reference_rays = sweep->against.rays,
                                                 .all = sweep->all,
                                                 .metrics = sweep->metrics};
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
@@ -247,7 +246,7 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
     for (size_t p = 0; p < sweep->points; p++) {
         if (!on_front(sweep, p)) continue;
         struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, p, err);
-        const enum glint_answer kind = sweep->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+        const enum glint_answer kind = answer_args_kind(&sweep->against);
         struct glint_verdict verdict = {0};
         struct glint_pixels error = {0};
         const float *noise;

@@ -60,7 +60,7 @@ static struct sweep_point sum_point(const struct sweep *sweep, size_t p) {
     for (size_t c = 0; c < sweep->captures.count; c++) {
         const struct sweep_row *row = sweep_row(sweep, c, p);
         double low, high;
-        const double error = sweep_error(row, sweep->truth ? "truth" : "reference", "all", sweep->metric);
+        const double error = sweep_error(row, sweep->against.truth ? "truth" : "reference", "all", sweep->metric);
         point.valid = point.valid && isfinite(error) && sweep_figure(row, "invalid") == 0;
         add(&point.error, badness(sweep, error), captures);
         add(&point.cubemaps_ms, sweep_time(sweep, row, "cubemaps_ms", &low, &high), captures);

@@ -74,7 +74,7 @@ void sweep_print(const struct sweep *sweep) {
     const struct glint_device_info *device = glint_device_get_info(sweep->device);
     for (size_t f = 0; f < sweep->front_count; f++) print_front(sweep, &sweep->fronts[f]);
     printf("errors of the reflection, before it is composed, against the %s",
-           sweep->truth ? "truth in the capture" : "reference");
+           sweep->against.truth ? "truth in the capture" : "reference");
     if (sweep->captures.count > 1) printf(", mean of %zu captures", sweep->captures.count);
     if (sweep->rounds)
         printf("; times: median of %u rounds in turns on %s%s", sweep->rounds, device->name,
@@ -163,8 +163,9 @@ json_t *sweep_json(const struct sweep *sweep) {
                                                 sweep->fronts[f].title, "points", on));
     }
     return json_pack("{s:i, s:O, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "format", 1, "sweep", sweep->definition, "metric",
-                     glint_metric(sweep->metric)->name, "answer", sweep->truth ? "truth" : "reference", "captures",
-                     captures, "axes", axes, "fronts", fronts, "points", points, "seconds", seconds_json(sweep));
+                     glint_metric(sweep->metric)->name, "answer", sweep->against.truth ? "truth" : "reference",
+                     "captures", captures, "axes", axes, "fronts", fronts, "points", points, "seconds",
+                     seconds_json(sweep));
 }
 
 static void put_text(FILE *out, const char *text) {

@@ -2,6 +2,7 @@
 #ifndef GLINT_VIEWER_TUNE_H
 #define GLINT_VIEWER_TUNE_H
 
+#include "answer_args.h"
 #include "args.h"
 #include "glint/judge.h"
 #include "glint/search.h"
@@ -48,12 +49,13 @@ struct tune_measured {
 
 struct tune {
     const char *out, *folder; /* the preset's file; where the rest is kept */
-    struct list captures, unseen, references, vary, slots, shaders;
+    struct list captures, unseen, vary, slots, shaders;
+    struct answer_args against;
     const char *command_line;
-    bool truth, all, fetches, by_error, baseline;
+    bool all, fetches, by_error, baseline;
     double limit; /* of cost, or of error */
     bool part;    /* the limit is a part of the start's figure */
-    uint32_t tries, seed, rays, rounds, repeat;
+    uint32_t tries, seed, rounds, repeat;
     enum glint_metric metric;
 
     struct glint_pipeline *base;

@@ -163,7 +163,7 @@ static const char *why_left(const struct tune *tune, const struct glint_pass *pa
     if (part->cached) return "works on cube maps: its time is not a frame's";
     if (!part->needed) return "has no part in the reflection";
     if (otherwise) return "changes what is asked: another reference";
-    if (!tune->truth && is_assumed(pass, row->name))
+    if (!tune->against.truth && is_assumed(pass, row->name))
         return "stands for what captures do not say: the reference assumes it too";
     return NULL;
 }

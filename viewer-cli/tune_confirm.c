@@ -102,7 +102,7 @@ static bool make_contenders(struct tune *tune, struct glint_error *err) {
 }
 
 static bool measure(struct tune *tune, size_t s, struct glint_error *err) {
-    const enum glint_answer answer = tune->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+    const enum glint_answer answer = answer_args_kind(&tune->against);
     struct tune_measured *measured = tune->measured + s * TUNE_CONTENDERS;
     struct tune_median ms[TUNE_CONTENDERS];
     for (int k = 0; k < TUNE_CONTENDERS; k++) {
@@ -117,7 +117,8 @@ static bool measure(struct tune *tune, size_t s, struct glint_error *err) {
         verdict.errors[answer] = (struct glint_metric_table){0};
         const struct glint_error no_truth = verdict.no_truth;
         glint_verdict_finish(&verdict);
-        if (tune->truth && no_truth.code != GLINT_OK) return glint_fail(err, no_truth.code, "%s", no_truth.message);
+        if (tune->against.truth && no_truth.code != GLINT_OK)
+            return glint_fail(err, no_truth.code, "%s", no_truth.message);
         if (!glint_metrics_valid(&measured[k].errors, tune->subjects[s].path, err)) return false;
     }
     if (!time_in_turns(tune, &tune->subjects[s], tune->contenders, ms, err)) return false;

@@ -153,7 +153,7 @@ static void add_facts(const struct tune *tune, json_t *document) {
     for (size_t s = 0; s < tune->unseen.count; s++) page_fact(document, "not tuned on", tune->unseen.items[s]);
     page_fact(document, "start", glint_pipeline_name(tune->base));
     page_fact(document, "preset", tune->out);
-    page_fact(document, "errors against", tune->truth ? "the truth in the captures" : "the reference");
+    page_fact(document, "errors against", tune->against.truth ? "the truth in the captures" : "the reference");
     page_fact(document, "device", device->name);
     snprintf(text, sizeof text, "%zu points, seed %u", tune->found.count, tune->seed);
     page_fact(document, "search", text);

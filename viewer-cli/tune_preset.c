@@ -119,9 +119,9 @@ static json_t *confirmed_json(const struct tune *tune) {
 }
 
 static json_t *references_json(const struct tune *tune) {
-    if (tune->truth) return json_string("truth");
-    if (tune->references.count) return strings_json(tune->references.items);
-    return json_pack("{s:I}", "rays", (json_int_t)tune->rays);
+    if (tune->against.truth) return json_string("truth");
+    if (tune->against.references.count) return strings_json(tune->against.references.items);
+    return json_pack("{s:I}", "rays", (json_int_t)tune->against.rays);
 }
 
 static json_t *provenance_json(const struct tune *tune) {

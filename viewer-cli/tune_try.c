@@ -24,18 +24,17 @@ void tune_unload_subject(struct tune *tune, size_t s) {
 
 bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
     struct tune_subject *subject = &tune->subjects[s];
-    const struct glint_judge_options options = {.reference = !tune->truth,
-                                                .truth = tune->truth,
-                                                .reference_run =
-                                                    tune->references.count ? tune->references.items[s] : NULL,
+    const struct glint_judge_options options = {.reference = !tune->against.truth,
+                                                .truth = tune->against.truth,
+                                                .reference_run = answer_args_reference(&tune->against, s),
                                                 .reference_folder = tune->folder,
-                                                .reference_rays = tune->rays,
+                                                .reference_rays = tune->against.rays,
                                                 .all = tune->all,
                                                 .metrics = GLINT_METRICS_CHEAP | 1u << tune->metric,
                                                 .resamples = resamples,
                                                 .keep_resampled = resamples != 0,
                                                 .seed = 1};
-    const enum glint_answer answer = tune->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+    const enum glint_answer answer = answer_args_kind(&tune->against);
     const float *error;
     return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
            (subject->judge = glint_judge_create(tune->device, &options, err)) &&
@@ -117,13 +116,14 @@ bool tune_open(struct tune *tune, struct glint_error *err) {
         json_decref(captures);
         return false;
     }
-    json_t *definition = json_pack(
-        "{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:I, s:I, s:s, s:s, s:b, s:[ss]}", "format", 1, "glint",
-        GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(tune->base), "shaders", sources, "axes",
-        axes_json(tune), "cost", tune->fetches ? "fetches" : "ms", "slots", strings_json(tune->slots.items),
-        "reference_runs", strings_json(tune->references.items), "reference_rays", (json_int_t)tune->rays, "rounds",
-        (json_int_t)tune->rounds, "metric", glint_metric(tune->metric)->name, "against",
-        tune->truth ? "truth" : "reference", "all", tune->all, "device", device->name, device->driver_version);
+    json_t *definition =
+        json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:I, s:I, s:s, s:s, s:b, s:[ss]}", "format", 1,
+                  "glint", GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(tune->base), "shaders",
+                  sources, "axes", axes_json(tune), "cost", tune->fetches ? "fetches" : "ms", "slots",
+                  strings_json(tune->slots.items), "reference_runs", strings_json(tune->against.references.items),
+                  "reference_rays", (json_int_t)tune->against.rays, "rounds", (json_int_t)tune->rounds, "metric",
+                  glint_metric(tune->metric)->name, "against", tune->against.truth ? "truth" : "reference", "all",
+                  tune->all, "device", device->name, device->driver_version);
     tune->lines = json_array();
     tune->journal.folder = tune->folder;
     tune->journal.kind = "tuning";
@@ -175,7 +175,7 @@ static bool time_beside_start(struct tune *tune, struct tune_subject *subject, c
 /* Failures that a pipeline has itself are figures that it has not. */
 static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
                         json_t *line, struct glint_error *err) {
-    const enum glint_answer answer = tune->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+    const enum glint_answer answer = answer_args_kind(&tune->against);
     struct glint_verdict verdict;
     struct glint_error own = {0};
     double error = NAN, cost = NAN;
@@ -183,7 +183,8 @@ static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const s
     if (ok) {
         const struct glint_metric_table *table = &verdict.errors[answer];
         const struct glint_error no_truth = verdict.no_truth;
-        if (tune->truth && no_truth.code != GLINT_OK) ok = glint_fail(&own, GLINT_ERROR_IO, "%s", no_truth.message);
+        if (tune->against.truth && no_truth.code != GLINT_OK)
+            ok = glint_fail(&own, GLINT_ERROR_IO, "%s", no_truth.message);
         else if (!table->invalid_found && !table->invalid_truth) error = table->rows[0].of[tune->metric].value;
         cost = verdict.fetches_px;
         glint_verdict_finish(&verdict);

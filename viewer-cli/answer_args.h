@@ -1,0 +1,27 @@
+/* The options that sweep, blame and tune share: what errors are against. */
+#ifndef GLINT_VIEWER_ANSWER_ARGS_H
+#define GLINT_VIEWER_ANSWER_ARGS_H
+
+#include "args.h"
+#include "glint/judge.h"
+
+struct answer_args {
+    struct list references; /* run folders, one for each capture, or none */
+    bool truth;             /* the truth in the captures instead */
+    uint32_t rays;          /* of a reference that is traced; 0: the judge's own number */
+};
+
+enum { KEY_REFERENCE = 768, KEY_RAYS };
+
+/* Reads --reference and --rays; ARGP_ERR_UNKNOWN for any other key. */
+error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct answer_args *args);
+/* When all arguments are read. */
+void answer_args_check(const struct answer_args *args, size_t captures, struct argp_state *state);
+void answer_args_finish(struct answer_args *args);
+/* The run folder that was named for a capture; NULL: none was. */
+const char *answer_args_reference(const struct answer_args *args, size_t capture);
+static inline enum glint_answer answer_args_kind(const struct answer_args *args) {
+    return args->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+}
+
+#endif
