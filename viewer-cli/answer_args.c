@@ -27,6 +27,21 @@ void answer_args_finish(struct answer_args *args) {
     list_free(&args->references);
 }
 
-const char *answer_args_reference(const struct answer_args *args, size_t capture) {
-    return args->references.count ? args->references.items[capture] : NULL;
+struct glint_judge_options answer_args_judge(const struct answer_args *args, const char *folder, size_t capture) {
+    return (struct glint_judge_options){.reference = !args->truth,
+                                        .truth = args->truth,
+                                        .reference_run =
+                                            args->references.count ? args->references.items[capture] : NULL,
+                                        .reference_folder = folder,
+                                        .reference_rays = args->rays};
+}
+
+bool answer_args_metric(const char *name, enum glint_metric *metric, struct glint_error *err) {
+    uint32_t bits = 1u << *metric;
+    if (name && !glint_metrics_parse(name, &bits, err)) return false;
+    if (bits & (bits - 1)) return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected one metric", name);
+    int first = 0;
+    while (!(bits >> first & 1)) first++;
+    *metric = (enum glint_metric)first;
+    return true;
 }

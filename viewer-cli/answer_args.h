@@ -18,8 +18,10 @@ error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct a
 /* When all arguments are read. */
 void answer_args_check(const struct answer_args *args, size_t captures, struct argp_state *state);
 void answer_args_finish(struct answer_args *args);
-/* The run folder that was named for a capture; NULL: none was. */
-const char *answer_args_reference(const struct answer_args *args, size_t capture);
+/* What a judge of that capture needs for it; a reference that is traced is kept in the folder. */
+struct glint_judge_options answer_args_judge(const struct answer_args *args, const char *folder, size_t capture);
+/* --metric's single name; without one *metric stays. */
+bool answer_args_metric(const char *name, enum glint_metric *metric, struct glint_error *err);
 static inline enum glint_answer answer_args_kind(const struct answer_args *args) {
     return args->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
 }

@@ -145,13 +145,10 @@ static bool find_answer(struct work *work, struct glint_error *err) {
 static bool on_capture(struct work *work, struct glint_error *err) {
     struct blame *blame = work->blame;
     const size_t c = work->capture;
-    const struct glint_judge_options options = {.reference = !blame->against.truth,
-                                                .truth = true,
-                                                .reference_run = answer_args_reference(&blame->against, c),
-                                                .reference_folder = blame->out,
-                                                .reference_rays = blame->against.rays,
-                                                .all = blame->all,
-                                                .metrics = blame->metrics};
+    struct glint_judge_options options = answer_args_judge(&blame->against, blame->out, c);
+    options.truth = true;
+    options.all = blame->all;
+    options.metrics = blame->metrics;
     struct glint_capture *capture = glint_capture_open(blame->captures.items[c], NULL, err);
     const bool ok = capture && (work->judge = glint_judge_create(blame->device, &options, err)) &&
                     glint_judge_load(work->judge, capture, err) && find_answer(work, err) && find_shares(work, err) &&

@@ -116,15 +116,12 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
 }
 
 static bool choose_metric(struct arguments *a, struct glint_error *err) {
-    uint32_t bits = 1u << GLINT_METRIC_SYMMETRIC;
-    if (a->metric && !glint_metrics_parse(a->metric, &bits, err)) return false;
-    if (bits & (bits - 1)) return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected one metric", a->metric);
-    while (!(bits >> a->blame.metric & 1)) a->blame.metric++;
+    if (!answer_args_metric(a->metric, &a->blame.metric, err)) return false;
     if (a->blame.metric == GLINT_METRIC_MEAN || glint_metric(a->blame.metric)->higher_is_better)
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "--metric %s: expected an error, 0 for equal images, such as symmetric or relative_mse",
                           a->metric);
-    a->blame.metrics = GLINT_METRICS_CHEAP | bits;
+    a->blame.metrics = GLINT_METRICS_CHEAP | 1u << a->blame.metric;
     return true;
 }
 
@@ -153,8 +150,9 @@ static bool write_json(const struct blame *blame, struct glint_error *err) {
 }
 
 static enum status run(int argc, char **argv) {
-    struct arguments a = {
-        .blame = {.rounds = 3, .options = {.exact = 8, .interval = 0.02, .permutations = 200, .seed = 1}}};
+    struct arguments a = {.blame = {.metric = GLINT_METRIC_SYMMETRIC,
+                                    .rounds = 3,
+                                    .options = {.exact = 8, .interval = 0.02, .permutations = 200, .seed = 1}}};
     struct glint_error err = {0};
     struct progress progress;
     command_parse(&cmd_blame, argc, argv, &a);

@@ -178,22 +178,15 @@ static bool sort_points(struct sweep *sweep, struct glint_error *err) {
     return ok;
 }
 
-static bool choose_metric(struct arguments *a, struct glint_error *err) {
-    uint32_t bits = 1u << GLINT_METRIC_RMSE;
-    if (a->metric && !glint_metrics_parse(a->metric, &bits, err)) return false;
-    if (bits & (bits - 1)) return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected one metric", a->metric);
-    while (!(bits >> a->sweep.metric & 1)) a->sweep.metric++;
-    a->sweep.metrics = GLINT_METRICS_CHEAP | bits;
-    return true;
-}
-
 static bool begin(struct arguments *a, struct glint_error *err) {
     const struct glint_device_options device = {.select = a->device};
     struct sweep *sweep = &a->sweep;
     for (size_t i = 0; i < a->axes.count; i++)
         if (!check_names(a->axes.items[i], err) || !check_variants(a->axes.items[i], err)) return false;
     sweep->all = a->pipeline.replay.all;
-    if (!choose_metric(a, err) || !(sweep->base = pipeline_args_create(&a->pipeline, err))) return false;
+    if (!answer_args_metric(a->metric, &sweep->metric, err)) return false;
+    sweep->metrics = GLINT_METRICS_CHEAP | 1u << sweep->metric;
+    if (!(sweep->base = pipeline_args_create(&a->pipeline, err))) return false;
     sweep->space = a->hypercube ? glint_space_create_hypercube(sweep->base, a->axes.items, a->hypercube, a->seed, err)
                                 : glint_space_create(sweep->base, a->axes.items, err);
     char sample[64] = "grid";
@@ -234,7 +227,7 @@ static enum status report_failures(const struct sweep *sweep) {
 }
 
 static enum status run(int argc, char **argv) {
-    struct arguments a = {.sweep = {.rounds = 3, .pictures = true}, .seed = 1};
+    struct arguments a = {.sweep = {.rounds = 3, .pictures = true, .metric = GLINT_METRIC_RMSE}, .seed = 1};
     struct glint_error err = {0};
     struct progress progress;
     command_parse(&cmd_sweep, argc, argv, &a);

@@ -209,10 +209,7 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
 }
 
 static bool choose_metric(struct arguments *a, struct glint_error *err) {
-    uint32_t bits = 1u << GLINT_METRIC_RMSE;
-    if (a->metric && !glint_metrics_parse(a->metric, &bits, err)) return false;
-    if (bits & (bits - 1)) return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected one metric", a->metric);
-    while (!(bits >> a->tune.metric & 1)) a->tune.metric++;
+    if (!answer_args_metric(a->metric, &a->tune.metric, err)) return false;
     if (a->tune.metric == GLINT_METRIC_MEAN || glint_metric(a->tune.metric)->higher_is_better)
         return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected an error, which is better when lower",
                           a->metric);
@@ -295,7 +292,9 @@ static char *command_line(int argc, char **argv) {
 }
 
 static enum status run(int argc, char **argv) {
-    struct arguments a = {.tune = {.seed = 1, .against = {.rays = GLINT_JUDGE_RAYS}, .rounds = 3, .repeat = 15}};
+    struct arguments a = {
+        .tune = {
+            .metric = GLINT_METRIC_RMSE, .seed = 1, .against = {.rays = GLINT_JUDGE_RAYS}, .rounds = 3, .repeat = 15}};
     struct glint_error err = {0};
     struct progress progress;
     struct tune *tune = &a.tune;

@@ -191,13 +191,10 @@ typedef bool (*task)(struct work *work, struct glint_error *err);
 
 static bool on_capture(struct work *work, size_t c, task task, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
-    const struct glint_judge_options options = {.reference = !sweep->against.truth,
-                                                .truth = true,
-                                                .reference_run = answer_args_reference(&sweep->against, c),
-                                                .reference_folder = sweep->out,
-                                                .reference_rays = sweep->against.rays,
-                                                .all = sweep->all,
-                                                .metrics = sweep->metrics};
+    struct glint_judge_options options = answer_args_judge(&sweep->against, sweep->out, c);
+    options.truth = true;
+    options.all = sweep->all;
+    options.metrics = sweep->metrics;
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
     work->capture = c;
     bool ok = capture && (work->judge = glint_judge_create(sweep->device, &options, err)) &&

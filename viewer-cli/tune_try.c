@@ -24,16 +24,12 @@ void tune_unload_subject(struct tune *tune, size_t s) {
 
 bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
     struct tune_subject *subject = &tune->subjects[s];
-    const struct glint_judge_options options = {.reference = !tune->against.truth,
-                                                .truth = tune->against.truth,
-                                                .reference_run = answer_args_reference(&tune->against, s),
-                                                .reference_folder = tune->folder,
-                                                .reference_rays = tune->against.rays,
-                                                .all = tune->all,
-                                                .metrics = GLINT_METRICS_CHEAP | 1u << tune->metric,
-                                                .resamples = resamples,
-                                                .keep_resampled = resamples != 0,
-                                                .seed = 1};
+    struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
+    options.all = tune->all;
+    options.metrics = GLINT_METRICS_CHEAP | 1u << tune->metric;
+    options.resamples = resamples;
+    options.keep_resampled = resamples != 0;
+    options.seed = 1;
     const enum glint_answer answer = answer_args_kind(&tune->against);
     const float *error;
     return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
