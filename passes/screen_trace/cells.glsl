@@ -1,5 +1,5 @@
-// A ray through the texels of the depth buffer, in integer cells: level 0 are the texels, a cell of level k covers 2ᵏ of
-// them along each axis, and the last one of a row what is left over. Next include of a pass with the rows of cell_rows.h.
+// A ray through the texels of the depth buffer, and what each makes of it. Next include of a pass with the rows of
+// cell_rows.h.
 #include "screen_trace/screen_ray.glsl"
 
 struct CellRay {
@@ -10,11 +10,9 @@ struct CellRay {
     uint limit;                     // what lies at the end, as an end reason
 };
 
-// Cells are whole numbers in floats, which hold them exactly: conversions cost as much as a division.
-// Where the ray leaves a cell of so many texels, one value an axis, by its far edges.
-vec2 cell_exits(CellRay ray, vec2 cell, float width) {
-    return ((cell + ray.forward) * width - ray.start) * ray.per_across;
-}
+// Texels are whole numbers in floats, which hold them exactly: conversions cost as much as a division.
+// Where the ray leaves one, one value an axis, by its far edges.
+vec2 cell_exits(CellRay ray, vec2 cell) { return (cell + ray.forward - ray.start) * ray.per_across; }
 
 // The sample of a texel lies in its middle: other texels of a reduced picture may hold another pixel of their block.
 CellRay cell_ray(ScreenRay ray, ivec2 texel) {
@@ -26,7 +24,7 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
     cells.inverse = ray.inverse;
     cells.inverse_rate = ray.inverse_rate;
     // Half a texel may lie between where the two leave the picture: a ray starts in its texel's middle here.
-    vec2 border = (cells.forward * vec2(frame.size.zw) - cells.start) * cells.per_across;
+    vec2 border = cell_exits(cells, cells.forward * (vec2(frame.size.zw) - 1.0));
     float leaves = min(border.x, border.y);
     cells.end = min(ray.end, leaves);
     cells.limit = leaves < ray.end ? END_left_screen : ray.limit;

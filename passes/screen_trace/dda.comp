@@ -16,7 +16,7 @@ Result march(ScreenRay ray, ivec2 texel) {
     precise float s_front = 0.0, s_in = 0.0;
     Hidden hidden = Hidden(0.0, 0.0);
     for (int i = 0; i < cells; ++i) {
-        precise vec2 exits = cell_exits(path, cell, 1.0);
+        precise vec2 exits = cell_exits(path, cell);
         precise float s_out = min(min(exits.x, exits.y), path.end);
         if (i > 0) { // its own texel cannot stop a ray
             float depth_m = texelFetch(depth_half, ivec2(cell), 0).x, inverse = texelFetch(inverse_half, ivec2(cell), 0).x;

@@ -48,8 +48,9 @@ uint meets(CellRay path, ivec2 texel, float s_out, inout Hidden hidden, inout fl
     return !pass_behind || blocked(hidden, path, inverse) ? BLOCKED : PASSED;
 }
 
-// A ray among the cells. Texels are counted in the direction in which it goes: turned, -1 - x, the cells are the same ones,
-// and what lies ahead has the larger numbers. A cell is told by the last of its texels.
+// A ray among the cells: a cell of level k covers 2ᵏ texels along each axis, and the last one of a row what is left over.
+// Texels are counted in the direction in which it goes: turned, -1 - x, the cells are the same ones, and what lies ahead
+// has the larger numbers. A cell is told by the last of its texels.
 struct Walk {
     vec2 start, across, per_across; // turned
     ivec2 turn, last;               // turn: all bits of an axis, or none; last: turned
