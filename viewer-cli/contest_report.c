@@ -5,6 +5,7 @@
 
 #include "contest.h"
 #include "table.h"
+#include "text_file.h"
 
 static const char *base_name(const char *path) {
     return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
@@ -259,16 +260,6 @@ json_t *contest_json(const struct contest_table *t) {
                      device->is_cpu, "rounds", (json_int_t)t->contest->rounds, "captures", captures);
 }
 
-/* A text as CSV holds it. */
-static void put_text(FILE *out, const char *text) {
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', out);
-        fputc(*text, out);
-    }
-    fputc('"', out);
-}
-
 static void put_number(FILE *out, bool there, double value) {
     fputc(',', out);
     if (there && isfinite(value)) fprintf(out, "%.6g", value);
@@ -305,12 +296,12 @@ char *contest_csv(const struct contest_table *t) {
     for (size_t c = 0; c < t->capture_count; c++)
         for (size_t p = 0; p < t->contest->count; p++) {
             const struct showing *s = showing_of(t, c, p);
-            put_text(out, t->captures[c]);
+            csv_text(out, t->captures[c]);
             fputc(',', out);
-            put_text(out, t->contest->contestants[p].label);
+            csv_text(out, t->contest->contestants[p].label);
             put_showing(out, s);
             fputc(',', out);
-            put_text(out, s->failure[0] ? s->failure : s->notes ? s->notes : "");
+            csv_text(out, s->failure[0] ? s->failure : s->notes ? s->notes : "");
             fputc('\n', out);
         }
     bool failed = ferror(out);

@@ -5,6 +5,7 @@
 
 #include "sweep.h"
 #include "table.h"
+#include "text_file.h"
 
 static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
 enum { CLASSES = sizeof classes / sizeof *classes };
@@ -168,15 +169,6 @@ json_t *sweep_json(const struct sweep *sweep) {
                      seconds_json(sweep));
 }
 
-static void put_text(FILE *out, const char *text) {
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', out);
-        fputc(*text, out);
-    }
-    fputc('"', out);
-}
-
 static void put_number(FILE *out, double value) {
     fputc(',', out);
     if (isfinite(value)) fprintf(out, "%.7g", value);
@@ -186,7 +178,7 @@ static void put_titles(FILE *out, const struct sweep *sweep) {
     fputs("capture,point", out);
     for (size_t a = 0; a < glint_space_axis_count(sweep->space); a++) {
         fputc(',', out);
-        put_text(out, glint_space_axis(sweep->space, a));
+        csv_text(out, glint_space_axis(sweep->space, a));
     }
     for (int k = 0; k < GLINT_ANSWER_COUNT; k++)
         for (int i = 0; i < CLASSES; i++)
@@ -205,7 +197,7 @@ static void put_row(FILE *out, const struct sweep *sweep, size_t c, size_t p) {
     static const char *const figures[] = {"invalid", "steps", "fetches", "steps_px", "fetches_px"};
     const struct sweep_row *row = sweep_row(sweep, c, p);
     double low, high, other[2];
-    put_text(out, sweep->captures.items[c]);
+    csv_text(out, sweep->captures.items[c]);
     fprintf(out, ",%zu", p);
     for (size_t a = 0; a < glint_space_axis_count(sweep->space); a++)
         fprintf(out, ",%s", glint_space_value(sweep->space, p, a));
@@ -223,7 +215,7 @@ static void put_row(FILE *out, const struct sweep *sweep, size_t c, size_t p) {
     for (size_t f = 0; f < sweep->front_count; f++) fprintf(out, ",%d", sweep->fronts[f].on[p]);
     const char *failed = json_string_value(json_object_get(row->look, "failed"));
     fputc(',', out);
-    if (failed) put_text(out, failed);
+    if (failed) csv_text(out, failed);
     fputc('\n', out);
 }
 

@@ -2,7 +2,6 @@
 #include "text_file.h"
 
 #include <errno.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -18,4 +17,13 @@ bool text_file_write(const char *path, const char *text, struct glint_error *err
     glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     unlink(temporary);
     return false;
+}
+
+void csv_text(FILE *out, const char *text) {
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    fputc('"', out);
 }
