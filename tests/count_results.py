@@ -1,24 +1,34 @@
-"""Adds up the cases of the given build folders' test runs and prints the closing line of the suite."""
+"""Adds up the cases of the given build folders' test runs and prints the closing line of the suite. A program that ended badly
+although none of its cases failed (it was killed, say) is a failure of its own."""
+import json
 import os
 import sys
 import xml.etree.ElementTree as xml
 
 passed = failed = skipped = 0
 for folder in sys.argv[1:]:
-    log = os.path.join(folder, "meson-logs", "testlog.junit.xml")
-    if not os.path.exists(log):
+    logs = [os.path.join(folder, "meson-logs", name) for name in ("testlog.junit.xml", "testlog.json")]
+    if not all(map(os.path.exists, logs)):
         failed += 1
-        print(f"{log}: missing, so the tests there did not run", file=sys.stderr)
+        print(f"{logs[0]}: missing, so the tests there did not run", file=sys.stderr)
         continue
-    for case in xml.parse(log).iter("testcase"):
+    blamed = set()
+    for case in xml.parse(logs[0]).iter("testcase"):
+        program = case.get("classname", "")
         if case.find("failure") is not None or case.find("error") is not None:
             failed += 1
-            print(f"failed: {folder}: {case.get('classname', '')} {case.get('name')}")
+            blamed.add(program)
+            print(f"failed: {folder}: {program} {case.get('name')}")
         elif case.find("skipped") is not None:
             skipped += 1
             print(f"skipped: {folder}: {case.get('name')}")
         else:
             passed += 1
+    with open(logs[1], encoding="utf-8") as lines:
+        for program in map(json.loads, lines):
+            if program["result"] not in ("OK", "SKIP") and not any(name.endswith(program["name"]) for name in blamed):
+                failed += 1
+                print(f"failed: {folder}: {program['name']} ended as {program['result']}, status {program['returncode']}")
 if os.path.exists("build/style-ok"):
     passed += 1
 else:
