@@ -31,6 +31,7 @@ struct glint_reference {
     json_t *record;      /* run.json as it is or will be; NULL before the first round */
 };
 
+/* reference_rays.c */
 /* (A + B)/2, and its standard error relative to it. */
 bool reference_mean(const struct halves *halves, struct glint_pixels *mean, float **error, struct glint_error *err);
 bool reference_measure(struct glint_reference *reference, struct glint_error *err);
@@ -39,9 +40,7 @@ bool reference_measure(struct glint_reference *reference, struct glint_error *er
 enum { REFERENCE_DIGITS = 9 }; /* of numbers, as in run.json */
 bool reference_settings(struct glint_reference *reference, struct glint_error *err);
 json_t *reference_json(const struct glint_reference *reference);
-/* Remembers what was found, in the folder too. */
-bool reference_keep(struct glint_reference *reference, const struct glint_reference_sensitivity *sensitivity,
-                    struct glint_error *err);
+json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity);
 
 /* reference_folder.c */
 bool reference_resume(struct glint_reference *reference, bool anew, struct glint_error *err);

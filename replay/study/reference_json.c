@@ -75,7 +75,7 @@ static json_t *changes_json(const struct glint_reference_assumption *row) {
     return rows;
 }
 
-static json_t *sensitivity_json(const struct glint_reference_sensitivity *sensitivity) {
+json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity) {
     json_t *rows = json_array();
     for (size_t i = 0; i < sensitivity->count; i++) {
         const struct glint_reference_assumption *row = &sensitivity->rows[i];
@@ -85,17 +85,6 @@ static json_t *sensitivity_json(const struct glint_reference_sensitivity *sensit
                                               row->ran ? NULL : row->reason));
     }
     return json_pack("{si so}", "rays", (int)sensitivity->rays, "rows", rows);
-}
-
-bool reference_keep(struct glint_reference *reference, const struct glint_reference_sensitivity *sensitivity,
-                    struct glint_error *err) {
-    json_t *json = sensitivity_json(sensitivity);
-    if (!json) return no_memory(err);
-    json_decref(reference->sensitivity);
-    reference->sensitivity = json;
-    if (!reference->folder || !reference->record) return true;
-    return (json_object_set_new(reference->record, "reference", reference_json(reference)) == 0 || no_memory(err)) &&
-           reference_save(reference, err);
 }
 
 json_t *reference_json(const struct glint_reference *reference) {

@@ -95,6 +95,20 @@ static bool try_row(const struct glint_reference *reference, uint32_t rays, cons
     return ok;
 }
 
+/* Remembers what was found, in the folder too. */
+static bool keep(struct glint_reference *reference, const struct glint_reference_sensitivity *sensitivity,
+                 struct glint_error *err) {
+    json_t *found = reference_sensitivity_json(sensitivity);
+    bool ok = found != NULL;
+    if (ok) {
+        json_decref(reference->sensitivity);
+        reference->sensitivity = found;
+        if (!reference->folder || !reference->record) return true;
+        ok = json_object_set_new(reference->record, "reference", reference_json(reference)) == 0;
+    }
+    return ok ? reference_save(reference, err) : glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
+}
+
 bool glint_reference_sensitivity(struct glint_reference *reference, uint32_t rays, glint_progress progress, void *user,
                                  struct glint_reference_sensitivity *sensitivity, struct glint_error *err) {
     struct part part = {.progress = progress, .user = user, .text = "as it is"};
@@ -114,5 +128,5 @@ bool glint_reference_sensitivity(struct glint_reference *reference, uint32_t ray
     }
     sensitivity->rays = 2 * base.rays;
     halves_finish(&base);
-    return ok && reference_keep(reference, sensitivity, err);
+    return ok && keep(reference, sensitivity, err);
 }
