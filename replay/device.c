@@ -113,6 +113,8 @@ struct glint_device *glint_device_create(const struct glint_device_options *opti
     if (select && !select[0]) select = NULL;
     const char *validation = getenv("GLINT_VALIDATION");
     bool validate = (options && options->validation) || (validation && strcmp(validation, "1") == 0);
+    const char *passes = options && options->passes ? options->passes : getenv("GLINT_PASSES");
+    if (!shaders_init(&device->shaders, passes, err)) goto done;
     if (!instance_init(&device->instance, validate ? &device->messages : NULL, err)) goto done;
     if (!instance_devices(device->instance.instance, &physical, &infos, &count, err)) goto done;
     size_t chosen = choose(infos, count, select, err);
@@ -144,6 +146,7 @@ void glint_device_destroy(struct glint_device **pointer) {
         vkDestroyDevice(device->device, NULL);
     }
     instance_finish(&device->instance);
+    shaders_finish(&device->shaders);
     pthread_mutex_destroy(&device->messages.lock);
     free(device);
 }

@@ -7,6 +7,7 @@
 #include <vulkan/vulkan.h>
 
 #include "glint/replay.h"
+#include "shader.h"
 
 struct debug_names {
     PFN_vkSetDebugUtilsObjectNameEXT name;
@@ -41,6 +42,7 @@ struct glint_device {
     VkCommandBuffer commands;
     VkFence fence;
     VkPipelineCache cache;
+    struct shaders shaders;
     struct glint_device_info info;
 };
 

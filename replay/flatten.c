@@ -13,8 +13,9 @@ enum { DEPTH_MAX = 16, TEXT_MAX = 1 << 22, PATH_SIZE = 1024 };
 struct flatten {
     char *text;
     size_t size, capacity;
-    const char *slot;
+    const char *slot, *folder;
     bool versioned; /* #version, which must come first, has been seen */
+    bool foreign;   /* something came from the folder */
 };
 
 static bool append(struct flatten *out, const char *text, size_t length, struct glint_error *err) {
@@ -96,6 +97,24 @@ static bool flatten_disk(struct flatten *out, const char *path, int depth, struc
     return ok;
 }
 
+/* A file of passes/: the folder's, else the one that is built in. */
+static bool is_pass_file(const struct flatten *out, const char *path) {
+    char own[PATH_SIZE];
+    return glint_pass_text(path) ||
+           (out->folder && snprintf(own, sizeof own, "%s/%s", out->folder, path) < PATH_SIZE && access(own, R_OK) == 0);
+}
+
+static bool flatten_pass_file(struct flatten *out, const char *path, int depth, struct glint_error *err) {
+    char own[PATH_SIZE];
+    if (!out->folder || snprintf(own, sizeof own, "%s/%s", out->folder, path) >= PATH_SIZE || access(own, R_OK) != 0)
+        return flatten_text(out, path, glint_pass_text(path), false, depth, err);
+    char *text = file_text(own, TEXT_MAX / 4, err);
+    bool ok = text && flatten_text(out, path, text, false, depth, err);
+    out->foreign = true;
+    free(text);
+    return ok;
+}
+
 static bool flatten_include(struct flatten *out, const char *file, size_t line, const char *name, bool on_disk,
                             int depth, struct glint_error *err) {
     char path[PATH_SIZE], in_slot[PATH_SIZE];
@@ -104,12 +123,12 @@ static bool flatten_include(struct flatten *out, const char *file, size_t line, 
     if (on_disk && (name[0] == '/' ? snprintf(path, sizeof path, "%s", name) < PATH_SIZE : beside(path, file, name)) &&
         access(path, R_OK) == 0)
         return flatten_disk(out, path, depth + 1, err);
-    if (!on_disk && beside(path, file, name) && glint_pass_text(path))
-        return flatten_text(out, path, glint_pass_text(path), false, depth + 1, err);
+    if (!on_disk && beside(path, file, name) && is_pass_file(out, path))
+        return flatten_pass_file(out, path, depth + 1, err);
     if (on_disk && snprintf(in_slot, sizeof in_slot, "%s/", out->slot) < PATH_SIZE && beside(path, in_slot, name) &&
-        glint_pass_text(path))
-        return flatten_text(out, path, glint_pass_text(path), false, depth + 1, err);
-    if (glint_pass_text(name)) return flatten_text(out, name, glint_pass_text(name), false, depth + 1, err);
+        is_pass_file(out, path))
+        return flatten_pass_file(out, path, depth + 1, err);
+    if (is_pass_file(out, name)) return flatten_pass_file(out, name, depth + 1, err);
     return glint_fail(err, GLINT_ERROR_USAGE, "%s:%zu: include \"%s\" not found beside the file nor among the passes",
                       file, line, name);
 }
@@ -141,12 +160,25 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
     return true;
 }
 
-char *shader_flatten(const char *path, const char *slot, struct glint_error *err) {
-    struct flatten out = {.slot = slot};
-    if (flatten_disk(&out, path, 0, err) && out.text) {
-        if (out.versioned) return out.text;
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s:1: expected #version 460 first", path);
-    } else if (!out.text && err && err->code == GLINT_OK) glint_fail(err, GLINT_ERROR_FORMAT, "%s: empty", path);
+static char *finished(struct flatten *out, bool ok, const char *path, struct glint_error *err) {
+    if (ok && out->text && out->versioned) return out->text;
+    if (ok) glint_fail(err, GLINT_ERROR_FORMAT, out->text ? "%s:1: expected #version 460 first" : "%s: empty", path);
+    free(out->text);
+    return NULL;
+}
+
+char *shader_flatten(const char *path, const char *slot, const char *folder, struct glint_error *err) {
+    struct flatten out = {.slot = slot, .folder = folder};
+    return finished(&out, flatten_disk(&out, path, 0, err), path, err);
+}
+
+char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, struct glint_error *err) {
+    struct flatten out = {.slot = pass->slot, .folder = folder};
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/%s.comp", pass->slot, pass->variant);
+    if (!folder || !is_pass_file(&out, path)) return NULL;
+    const bool ok = flatten_pass_file(&out, path, 0, err);
+    if (!ok || out.foreign) return finished(&out, ok, path, err);
     free(out.text);
     return NULL;
 }

@@ -81,7 +81,6 @@ void run_release(struct run *run) {
     vkDestroyQueryPool(device, run->queries, NULL);
     vkDestroyDescriptorPool(device, run->pool, NULL);
     for (size_t p = 0; run->steps && p < run->graph.pass_count; p++) {
-        spirv_finish(&run->steps[p].spirv);
         free(run->steps[p].ns);
         free(run->steps[p].dispatches);
     }

@@ -94,9 +94,8 @@ bool rays_prepare(struct run *run, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     struct spirv spirv;
     const struct pipeline_pass entry = {.pass = &accumulate};
-    if (!spirv_init(&spirv, &entry, err)) return false;
+    if (!spirv_find(&spirv, &replay->device->shaders, &entry, err)) return false;
     run->rays->program = programs_get(&replay->programs, replay->device, &accumulate, &spirv, &constants, err);
-    spirv_finish(&spirv);
     if (!run->rays->program || !create_pool(run, (uint32_t)count, err)) return false;
     for (size_t p = graph->loop_first; p < graph->loop_end; p++)
         for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++) {

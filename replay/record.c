@@ -33,7 +33,8 @@ static json_t *pass_record(const struct run *run, size_t p) {
         json_object_set_new(object, "dispatches",
                             json_integer((json_int_t)(run->steps[p].dispatch_count * pass_rays(run, p))));
     if (pass->pass->host) json_object_set_new(object, "host", json_true());
-    if (pass->entry->shader) json_object_set_new(object, "shader", json_string(pass->entry->shader));
+    const char *shader = pass->entry->shader ? pass->entry->shader : run->steps[p].spirv.from;
+    if (shader) json_object_set_new(object, "shader", json_string(shader));
     json_object_set_new(object, "parameters", parameters);
     json_object_set_new(object, "images", json_array());
     json_object_set_new(object, "time_ns",

@@ -1,6 +1,7 @@
-/* SPIR-V of a pass: the embedded one, or the user's file compiled with glslang. */
+/* SPIR-V of a pass: the embedded one, or the user's file or that of a folder of sources, compiled with glslang. */
 #include "shader.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +29,15 @@ static bool fail_with_log(const char *path, bool names_file, const char *log, st
                       used ? text : "does not compile");
 }
 
-static bool compile(struct spirv *spirv, const char *path, const char *code, struct glint_error *err) {
+/* A text's SPIR-V, found by the text's hash. */
+struct compiled {
+    XXH128_hash_t text;
+    uint32_t *words;
+    size_t bytes;
+    struct compiled *next;
+};
+
+static bool compile(struct compiled *out, const char *path, const char *code, struct glint_error *err) {
     const glslang_input_t input = {.language = GLSLANG_SOURCE_GLSL,
                                    .stage = GLSLANG_STAGE_COMPUTE,
                                    .client = GLSLANG_CLIENT_VULKAN,
@@ -54,11 +63,10 @@ static bool compile(struct spirv *spirv, const char *path, const char *code, str
             fail_with_log(path, false, glslang_program_get_info_log(program), err);
         else {
             glslang_program_SPIRV_generate(program, input.stage);
-            spirv->bytes = glslang_program_SPIRV_get_size(program) * sizeof(uint32_t);
-            spirv->owned = spirv->bytes ? malloc(spirv->bytes) : NULL;
-            if (spirv->owned) glslang_program_SPIRV_get(program, spirv->owned);
-            spirv->words = spirv->owned;
-            ok = spirv->owned || glint_fail(err, GLINT_ERROR_MEMORY, "%s: no SPIR-V was made", path);
+            out->bytes = glslang_program_SPIRV_get_size(program) * sizeof(uint32_t);
+            out->words = out->bytes ? malloc(out->bytes) : NULL;
+            if (out->words) glslang_program_SPIRV_get(program, out->words);
+            ok = out->words || glint_fail(err, GLINT_ERROR_MEMORY, "%s: no SPIR-V was made", path);
         }
     }
     if (program) glslang_program_delete(program);
@@ -67,28 +75,62 @@ static bool compile(struct spirv *spirv, const char *path, const char *code, str
     return ok;
 }
 
-bool spirv_init(struct spirv *spirv, const struct pipeline_pass *entry, struct glint_error *err) {
-    *spirv = (struct spirv){0};
-    if (entry->shader) {
-        struct glint_error own = {0};
-        char *code = shader_flatten(entry->shader, entry->pass->slot, &own);
-        if (!code) return glint_fail(err, own.code, "%s", own.message);
-        bool ok = compile(spirv, entry->shader, code, err);
+static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const char *path, const char *code,
+                          struct glint_error *err) {
+    const XXH128_hash_t hash = XXH3_128bits(code, strlen(code));
+    struct compiled *found = shaders->first;
+    while (found && !XXH128_isEqual(found->text, hash)) found = found->next;
+    if (!found) {
+        found = calloc(1, sizeof *found);
+        if (!found || !compile(found, path, code, err)) {
+            if (!found) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+            free(found);
+            return false;
+        }
+        found->text = hash;
+        found->next = shaders->first;
+        shaders->first = found;
+    }
+    spirv->words = found->words;
+    spirv->bytes = found->bytes;
+    return true;
+}
+
+bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipeline_pass *entry,
+                struct glint_error *err) {
+    const struct glint_pass *pass = entry->pass;
+    struct glint_error own = {0};
+    char *code = entry->shader ? shader_flatten(entry->shader, pass->slot, shaders->folder, &own)
+                               : shader_flatten_pass(pass, shaders->folder, &own);
+    *spirv = (struct spirv){.words = pass->spirv, .bytes = pass->spirv_bytes};
+    if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
+    if (code) {
+        spirv->from = entry->shader ? entry->shader : shaders->folder;
+        const bool ok = find_compiled(spirv, shaders, spirv->from, code, err);
         free(code);
-        if (!ok || !spirv_check_bindings(spirv, entry->pass, entry->shader, err)) return false;
-    } else {
-        spirv->words = entry->pass->spirv;
-        spirv->bytes = entry->pass->spirv_bytes;
+        if (!ok || !spirv_check_bindings(spirv, pass, spirv->from, err)) return false;
     }
     if (!spirv->words)
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s/%s: this build has no shader for it", entry->pass->slot,
-                          entry->pass->variant);
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s/%s: this build has no shader for it", pass->slot,
+                          pass->variant);
     spirv->hash = XXH3_64bits(spirv->words, spirv->bytes);
     spirv_find_frame_words(spirv);
     return true;
 }
 
-void spirv_finish(struct spirv *spirv) {
-    free(spirv->owned);
-    *spirv = (struct spirv){0};
+bool shaders_init(struct shaders *shaders, const char *folder, struct glint_error *err) {
+    *shaders = (struct shaders){0};
+    if (!folder || !folder[0]) return true;
+    shaders->folder = realpath(folder, NULL);
+    return shaders->folder || glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
+}
+
+void shaders_finish(struct shaders *shaders) {
+    for (struct compiled *next, *one = shaders->first; one; one = next) {
+        next = one->next;
+        free(one->words);
+        free(one);
+    }
+    free(shaders->folder);
+    *shaders = (struct shaders){0};
 }

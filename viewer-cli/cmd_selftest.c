@@ -28,8 +28,9 @@ static const struct argp_option options[] = {
     {"only",   KEY_ONLY,   "TEXT",       0, "Only cases that have TEXT in their name, their group's, or what they say; "
                                             "several --only choose more", 0},
     {"list",   KEY_LIST,   NULL,         0, "List the cases with their bounds and the reasons for them; run none", 0},
-    {"passes", KEY_PASSES, "FOLDER",     0, "Check the functions of FOLDER/shared, such as a source tree's passes/ that is being "
-                                            "edited, instead of those built in; nothing needs a rebuild, and what FOLDER lacks is taken from what is built in", 0},
+    {"passes", KEY_PASSES, "FOLDER",     0, "Check the shaders of FOLDER, such as a source tree's passes/ that is being edited, "
+                                            "instead of those built in (default: $GLINT_PASSES); nothing needs a rebuild, and what "
+                                            "FOLDER lacks is taken from what is built in", 0},
     {"device", 'd',        "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
     {"json",   'j',        NULL,         0, "Print JSON", 0},
     {0},
@@ -204,11 +205,9 @@ static void remove_folder(const char *folder) {
 
 static bool run_groups(const struct arguments *a, const struct chosen *chosen, struct glint_device *device,
                        struct progress *progress, struct glint_error *err) {
-    char folder[256] = "", passes_path[4096];
-    if (a->passes && !realpath(a->passes, passes_path))
-        return glint_fail(err, GLINT_ERROR_IO, "%s: %s", a->passes, strerror(errno));
+    char folder[256] = "";
     bool ok = make_folder(folder, err);
-    const struct selftest test = {device, folder, a->passes ? passes_path : NULL, a->quick, progress_report, progress};
+    const struct selftest test = {device, folder, a->quick, progress_report, progress};
     for (size_t g = 0; ok && g < GROUPS; g++) {
         bool any = false;
         for (size_t i = 0; i < groups[g]->count(); i++) any = any || chosen->cases[g][i];
@@ -251,7 +250,7 @@ static enum status run(int argc, char **argv) {
     struct glint_device *device = NULL;
     if (ok && !a.list) {
         progress_begin(&progress);
-        device = glint_device_create(&(struct glint_device_options){.select = a.device}, &err);
+        device = glint_device_create(&(struct glint_device_options){.select = a.device, .passes = a.passes}, &err);
         ok = device && run_groups(&a, &chosen, device, &progress, &err);
         progress_end(&progress);
     }

@@ -24,13 +24,12 @@ static json_t *values_json(const struct pipeline_pass *entry) {
     return values;
 }
 
-static json_t *pass_settings(const struct pipeline_pass *entry, struct glint_error *err) {
+static json_t *pass_settings(struct shaders *shaders, const struct pipeline_pass *entry, struct glint_error *err) {
     char shader[17] = "host";
     struct spirv spirv;
     if (!entry->pass->host) {
-        if (!spirv_init(&spirv, entry, err)) return NULL;
+        if (!spirv_find(&spirv, shaders, entry, err)) return NULL;
         snprintf(shader, sizeof shader, "%016" PRIx64, spirv.hash);
-        spirv_finish(&spirv);
     }
     return json_pack("{ss so ss}", "variant", entry->pass->variant, "values", values_json(entry), "shader", shader);
 }
@@ -41,7 +40,7 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
     json_t *passes = json_object();
     bool ok = replay_hash(reference->replay, hash, err);
     for (size_t i = 0; ok && i < reference->pipeline->count; i++) {
-        json_t *pass = pass_settings(&reference->pipeline->passes[i], err);
+        json_t *pass = pass_settings(&reference->replay->device->shaders, &reference->pipeline->passes[i], err);
         ok = pass && json_object_set_new(passes, reference->pipeline->passes[i].pass->slot, pass) == 0;
     }
     json_t *all = ok ? json_pack("{ss ss ss ss sb sO}", "capture", hash, "device", device->name, "driver",

@@ -24,11 +24,13 @@ static char *write_text(void **state, const char *name, const char *text) {
     return path;
 }
 
+static struct shaders shaders;
+
 static bool compile(char *path, struct spirv *spirv, struct glint_error *err) {
     const struct pipeline_pass pass = {.pass = glint_pass_find("resolve", "hit"), .shader = path};
     *err = (struct glint_error){0};
     *spirv = (struct spirv){0};
-    return spirv_init(spirv, &pass, err);
+    return spirv_find(spirv, &shaders, &pass, err);
 }
 
 #define START                                                                                                          \
@@ -67,13 +69,12 @@ static void every_pass_compiles_to_what_is_built_in(void **state) {
         const struct pipeline_pass pass = {.pass = &passes[i], .shader = path};
         struct spirv spirv;
         struct glint_error err = {0};
-        if (!spirv_init(&spirv, &pass, &err)) fail_msg("%s: %s", name, err.message);
+        if (!spirv_find(&spirv, &shaders, &pass, &err)) fail_msg("%s: %s", name, err.message);
         uint32_t *mine = malloc(spirv.bytes), *built_in = malloc(passes[i].spirv_bytes);
         const size_t words = without_source(spirv.words, spirv.bytes, mine);
         assert_int_equal(words, without_source(passes[i].spirv, passes[i].spirv_bytes, built_in));
         if (memcmp(mine, built_in, words * sizeof *mine) != 0) fail_msg("%s: differs", name);
         free(mine), free(built_in);
-        spirv_finish(&spirv);
     }
 }
 
@@ -164,7 +165,6 @@ static void foreign_bindings_are_refused(void **state) {
         snprintf(text, sizeof text, START "%s\nvoid main() { %s }\n", cases[i].declaration, cases[i].use);
         assert_false(compile(write_text(state, "foreign.comp", text), &spirv, &err));
         fixture_says(&err, cases[i].says);
-        spirv_finish(&spirv);
     }
 }
 
@@ -192,8 +192,56 @@ static void the_words_of_the_frame_that_a_shader_reads_are_known(void **state) {
         for (size_t w = 0; w < FRAME_WORDS; w++)
             if (spirv.frame_words[w] != (w >= cases[i].first && w < cases[i].first + cases[i].count))
                 fail_msg("%s: word %zu", cases[i].use, w);
-        spirv_finish(&spirv);
     }
+}
+
+static bool find(struct spirv *spirv, struct shaders *from, const char *variant, struct glint_error *err) {
+    const struct pipeline_pass pass = {.pass = glint_pass_find("resolve", variant)};
+    *err = (struct glint_error){0};
+    return spirv_find(spirv, from, &pass, err);
+}
+
+static void file_in(const char *folder, const char *slot, const char *name, const char *text) {
+    char path[400];
+    snprintf(path, sizeof path, "%s/%s", folder, slot);
+    mkdir(path, 0700);
+    snprintf(path, sizeof path, "%s/%s/%s", folder, slot, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+/* Catches: an edit of a shared file that no pass sees, one that other passes see, and one that is not seen again. */
+static void files_of_a_folder_stand_in_for_those_built_in(void **state) {
+    const struct fixture *fixture = *state;
+    struct shaders from;
+    struct glint_error err = {0};
+    struct spirv hit, previous, changed;
+    char folder[200];
+    snprintf(folder, sizeof folder, "%s/passes", fixture->folder);
+    mkdir(folder, 0700);
+    if (!shaders_init(&from, folder, &err)) fail_msg("%s", err.message);
+    file_in(folder, "resolve", "hit.comp", START "void main() { imageStore(reflection_half, ivec2(0), vec4(1)); }\n");
+    assert_true(find(&hit, &from, "hit", &err) && find(&previous, &from, "previous", &err));
+    assert_non_null(hit.from);
+    assert_null(previous.from);
+    assert_ptr_equal(previous.words, glint_pass_find("resolve", "previous")->spirv);
+    file_in(folder, "resolve", "hit.comp", START "void main() { imageStore(reflection_half, ivec2(0), vec4(2)); }\n");
+    assert_true(find(&changed, &from, "hit", &err));
+    assert_int_not_equal(changed.hash, hit.hash);
+    file_in(folder, "shared", "camera.glsl", "\n#error seen\n");
+    assert_true(find(&hit, &from, "hit", &err)); /* which includes nothing of it */
+    assert_false(find(&previous, &from, "previous", &err));
+    fixture_says(&err, "shared/camera.glsl:2: '#error' : seen");
+    shaders_finish(&from);
+    assert_false(shaders_init(&from, "/nowhere/passes", &err));
+    fixture_says(&err, "/nowhere/passes");
+}
+
+static int teardown(void **state) {
+    shaders_finish(&shaders);
+    return fixture_teardown(state);
 }
 
 int main(void) {
@@ -208,6 +256,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_shader_is_an_error),
         cmocka_unit_test(foreign_bindings_are_refused),
         cmocka_unit_test(the_words_of_the_frame_that_a_shader_reads_are_known),
+        cmocka_unit_test(files_of_a_folder_stand_in_for_those_built_in),
     };
-    return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);
+    return cmocka_run_group_tests(tests, fixture_setup_host, teardown);
 }

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "../text_file.h"
 #include "selftest.h"
@@ -85,7 +84,6 @@ static const char head[] = "#version 460\n"
                            "#include \"shared/push_begin.glsl\"\n"
                            "#include \"brdf.pass.h\"\n"
                            "};\n";
-/* Each before those that include it: what a folder gives then comes first. */
 static const char *const shared[] = {"constants",  "stable",     "random", "bayer", "blue_noise", "brdf",     "camera",
                                      "cone",       "cubemap",    "edges",  "facet", "fog",        "sampling", "levels",
                                      "cube_chain", "paraboloid", "plus",   "reuse", "steps"};
@@ -100,22 +98,14 @@ static const char tail[] =
     "    imageStore(composed, pixel, evaluate(pixel.y / ROWS, texelFetch(albedo_full, pixel, 0), b));\n"
     "}\n";
 
-/* The folder's file where it has one. */
-static void include(FILE *file, const char *folder, const char *name) {
-    char path[4400];
-    snprintf(path, sizeof path, "%s/shared/%s.glsl", folder ? folder : "", name);
-    fprintf(file, "#include \"%s\"\n",
-            folder && access(path, R_OK) == 0 ? path : path + (folder ? strlen(folder) : 0) + 1);
-}
-
-static bool write_shader(const struct selftest *test, const bool *chosen, size_t rows, const char *path,
-                         struct glint_error *err) {
+static bool write_shader(const bool *chosen, size_t rows, const char *path, struct glint_error *err) {
     char *text = NULL;
     size_t size = 0, row = 0;
     FILE *file = open_memstream(&text, &size);
     if (!file) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     fputs(head, file);
-    for (size_t i = 0; i < sizeof shared / sizeof *shared; i++) include(file, test->passes, shared[i]);
+    for (size_t i = 0; i < sizeof shared / sizeof *shared; i++)
+        fprintf(file, "#include \"shared/%s.glsl\"\n", shared[i]);
     fputs(helpers, file);
     fprintf(file, "const int ROWS = %zu;\nvec4 evaluate(int number, vec4 a, vec4 b) {\n", rows);
     for (size_t i = 0; i < count(); i++)
@@ -258,7 +248,7 @@ static bool run(const struct selftest *test, const bool *chosen, struct selftest
             fill_arguments(function(i), p, points, one);
             for (size_t k = 0; k < ARGUMENTS; k++) x[k][place] = one[k];
         }
-    bool ok = write_shader(test, chosen, rows, paths[1], err) && text_file_write(paths[2], preset, err) &&
+    bool ok = write_shader(chosen, rows, paths[1], err) && text_file_write(paths[2], preset, err) &&
               write_capture(paths[0], x, (uint32_t)(cases * rows), err) &&
               evaluate(test, paths[0], paths[1], paths[2], out, err);
     place = 0;

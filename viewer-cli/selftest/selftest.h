@@ -22,7 +22,6 @@ struct selftest_finding {
 struct selftest {
     struct glint_device *device;
     const char *folder; /* temporary, the self-test's own */
-    const char *passes; /* a folder with passes' sources that takes the place of what is built in; NULL: none */
     bool quick;
     glint_progress progress;
     void *user;

@@ -26,7 +26,11 @@ size_t glint_devices(struct glint_device_info *devices, size_t capacity, struct 
 struct glint_device;
 struct glint_device_options {
     const char *select; /* index or a part of the name, case ignored; NULL: $GLINT_DEVICE, else the best usable one */
-    bool validation;    /* the Khronos validation layer with synchronisation validation; $GLINT_VALIDATION=1 also */
+    /* A folder whose files stand in for those of passes/ that are built in, such as a source tree's passes/ that is being
+       edited: shaders are compiled from them as they are at each run. Declarations stay those that are built in. NULL:
+       $GLINT_PASSES, else none. */
+    const char *passes;
+    bool validation; /* the Khronos validation layer with synchronisation validation; $GLINT_VALIDATION=1 also */
 };
 struct glint_device *glint_device_create(const struct glint_device_options *options, struct glint_error *err);
 void glint_device_destroy(struct glint_device **device);
