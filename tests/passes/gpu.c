@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "plain_capture.h"
+
 static void check(bool ok, const struct glint_error *err) {
     if (!ok) fail_msg("%s", err->message);
 }
@@ -97,6 +99,11 @@ void gpu_shader(struct gpu *gpu, const char *slot, const char *file) {
     char assignment[1024];
     snprintf(assignment, sizeof assignment, "%s=%s/%s", slot, GLINT_TEST_SHADERS, file);
     check(glint_pipeline_shader(gpu->pipeline, assignment, &err), &err);
+}
+
+void plain_capture(const char *path, const struct plain *plain) {
+    struct glint_error err = {0};
+    check(plain_write(path, plain, &err), &err);
 }
 
 const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]) {

@@ -6,6 +6,7 @@
 #include "glint/replay.h"
 #include "glint/samples.h"
 
+struct plain;
 struct gpu {
     struct glint_device *device;
     struct glint_replay *replay;
@@ -28,6 +29,8 @@ void gpu_without(struct gpu *gpu, const char *const *slots);
 void gpu_shader(struct gpu *gpu, const char *slot, const char *file);
 /* A path in the folder; valid until the next call with the same buffer. */
 const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]);
+/* Writes a capture there. */
+void plain_capture(const char *path, const struct plain *plain);
 /* Writes the sample under `name` unless it is already there, and loads it. */
 void gpu_sample(struct gpu *gpu, const char *scene, const char *name, const struct glint_sample_options *options);
 void gpu_load(struct gpu *gpu, const char *name);

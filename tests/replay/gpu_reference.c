@@ -345,10 +345,9 @@ static void what_thickness_decides_is_told(void **state) {
     char path[256], folder[256];
     snprintf(path, sizeof path, "%s/board.exr", fixture->folder);
     snprintf(folder, sizeof folder, "%s/board", fixture->folder);
-    plain_capture(
-        path,
-        &(struct plain){
-            .width = BOARD_WIDTH, .height = BOARD_HEIGHT, .fov_y_degrees = 90, .floor = true, .spoil = put_up_board});
+    const struct plain plain = {
+        .width = BOARD_WIDTH, .height = BOARD_HEIGHT, .fov_y_degrees = 90, .floor = true, .spoil = put_up_board};
+    assert_true(plain_write(path, &plain, &err));
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
     assert_non_null(capture);
     assert_true(glint_replay_load(fixture->replay, capture, &err));
@@ -396,8 +395,8 @@ static void light_that_is_none_fails(void **state) {
     struct glint_error err = {0};
     char path[256];
     snprintf(path, sizeof path, "%s/blind.exr", fixture->folder);
-    plain_capture(path,
-                  &(struct plain){.width = 8, .height = 32, .fov_y_degrees = 90, .floor = true, .spoil = blind_wall});
+    const struct plain plain = {.width = 8, .height = 32, .fov_y_degrees = 90, .floor = true, .spoil = blind_wall};
+    assert_true(plain_write(path, &plain, &err));
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
     assert_non_null(capture);
     assert_true(glint_replay_load(fixture->replay, capture, &err));

@@ -1,6 +1,6 @@
 /* Small captures by closed form. */
-#ifndef GLINT_TESTS_PASSES_PLAIN_CAPTURE_H
-#define GLINT_TESTS_PASSES_PLAIN_CAPTURE_H
+#ifndef GLINT_VIEWER_PLAIN_CAPTURE_H
+#define GLINT_VIEWER_PLAIN_CAPTURE_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -42,6 +42,9 @@ struct plain {
     uint32_t frame;       /* number; 0: 1 */
     bool cut;
     double jitter_px[2], previous_jitter_px[2]; /* of the projection; the wall's motion says both */
+    const double *world_to_view;                /* 16 values; NULL: as above */
+    enum glint_compression compression;
+    const void *user; /* for `spoil` */
     /* Cube maps, cube_size wide: R G B A and distance in a unit direction. NULL: none. */
     uint32_t cube_size, cube_count;
     bool color_only; /* without distances */
@@ -53,7 +56,7 @@ struct plain {
     void (*water)(uint32_t x, uint32_t y, float out[9]);
     void (*pane)(uint32_t x, uint32_t y, float out[9]);
 };
-void plain_capture(const char *path, const struct plain *plain);
+bool plain_write(const char *path, const struct plain *plain, struct glint_error *err);
 
 /* Unit direction of a texel of a face (+X -X +Y -Y +Z -Z) in Vulkan's orientation; x and y may be any place on it. */
 void plain_direction(uint32_t face, double x, double y, uint32_t size, double out[3]);

@@ -1,7 +1,7 @@
 /* Mirror rays through a depth buffer, walked over every texel in double precision. Written from what the passes declare,
    in positions and depths; nothing of the shaders is used. */
-#ifndef GLINT_TESTS_PASSES_WALK_H
-#define GLINT_TESTS_PASSES_WALK_H
+#ifndef GLINT_VIEWER_WALK_H
+#define GLINT_VIEWER_WALK_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,21 +1,14 @@
 #include "plain_capture.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include "glint/capture.h"
-
 static const double wall_m = 5, floor_m = 1;
 
-static void check(bool ok, const struct glint_error *err) {
-    if (!ok) fail_msg("%s", err->message);
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
 static double focal(const struct plain *plain) {
@@ -46,9 +39,8 @@ static void fill(const struct plain *plain, float *values) {
 }
 
 /* ids: NULL, or stencil ids too */
-static void add_part(struct glint_writer *writer, const char *name, const struct plain *plain, const char *const *names,
-                     const float *values, size_t count, const uint32_t *ids) {
-    struct glint_error err = {0};
+static bool add_part(struct glint_writer *writer, const char *name, const struct plain *plain, const char *const *names,
+                     const float *values, size_t count, const uint32_t *ids, struct glint_error *err) {
     struct glint_channel channels[PLAIN_CHANNELS + 2] = {{0}};
     const size_t pixels = (size_t)plain->width * plain->height;
     float *fresnel = plain->fresnel && strcmp(name, "gbuffer") == 0 ? malloc(pixels * sizeof *fresnel) : NULL;
@@ -62,8 +54,9 @@ static void add_part(struct glint_writer *writer, const char *name, const struct
     if (ids) channels[count++] = (struct glint_channel){.name = "stencil.id", .type = GLINT_U32, .data = ids};
     const struct glint_part part = {
         .name = name, .width = plain->width, .height = plain->height, .channels = channels, .channel_count = count};
-    check(glint_writer_add_part(writer, &part, &err), &err);
+    const bool ok = glint_writer_add_part(writer, &part, err);
     free(fresnel);
+    return ok;
 }
 
 void plain_direction(uint32_t face, double x, double y, uint32_t size, double out[3]) {
@@ -78,14 +71,13 @@ void plain_direction(uint32_t face, double x, double y, uint32_t size, double ou
 }
 
 /* Cube map `number`, or the sky for the number cube_count. */
-static void add_cube(struct glint_writer *writer, const struct plain *plain, uint32_t number) {
+static bool add_cube(struct glint_writer *writer, const struct plain *plain, uint32_t number, struct glint_error *err) {
     static const char *const names[5] = {"R", "G", "B", "A", "distance.Z"};
-    struct glint_error err = {0};
     struct glint_channel channels[5] = {{0}};
     const uint32_t size = plain->cube_size;
     bool is_sky = number == plain->cube_count;
     float *values = calloc((size_t)size * size * 6 * 5, sizeof *values);
-    assert_non_null(values);
+    if (!values) return no_memory(err);
     for (uint32_t i = 0; i < 6 * size * size; ++i) {
         double direction[3];
         plain_direction(i / (size * size), i % size, i / size % size, size, direction);
@@ -105,14 +97,14 @@ static void add_cube(struct glint_writer *writer, const struct plain *plain, uin
                                                      : plain->color_only ? 4
                                                                          : 5,
                                     .cubemap = is_sky ? NULL : &plain->cubes[number]};
-    check(glint_writer_add_part(writer, &part, &err), &err);
-    /* The writer has copied them. */
-    free(values);
+    const bool ok = glint_writer_add_part(writer, &part, err);
+    free(values); /* the writer has copied them */
+    return ok;
 }
 
 /* A part that lies over the picture. */
-static void add_over(struct glint_writer *writer, const struct plain *plain, const char *name,
-                     void (*at)(uint32_t x, uint32_t y, float out[9])) {
+static bool add_over(struct glint_writer *writer, const struct plain *plain, const char *name,
+                     void (*at)(uint32_t x, uint32_t y, float out[9]), struct glint_error *err) {
     const bool water = !strcmp(name, "water");
     const char *const names[9] = {"R",
                                   "G",
@@ -125,17 +117,42 @@ static void add_over(struct glint_writer *writer, const struct plain *plain, con
                                   water ? "thickness.Z" : "material.roughness"};
     const size_t pixels = (size_t)plain->width * plain->height;
     float *values = malloc(9 * pixels * sizeof *values);
-    assert_non_null(values);
+    if (!values) return no_memory(err);
     for (size_t i = 0; i < pixels; ++i) {
         float pixel[9];
         at((uint32_t)(i % plain->width), (uint32_t)(i / plain->width), pixel);
         for (size_t k = 0; k < 9; ++k) values[k * pixels + i] = pixel[k];
     }
-    add_part(writer, name, plain, names, values, 9, NULL);
+    const bool ok = add_part(writer, name, plain, names, values, 9, NULL, err);
     free(values);
+    return ok;
 }
 
-void plain_capture(const char *path, const struct plain *plain) {
+static struct glint_frame frame_of(const struct plain *plain) {
+    const double near = 0.1, far = 1000;
+    struct glint_frame frame = {.number = plain->frame ? plain->frame : 1, .cut = plain->cut};
+    for (int i = 0; i < 16; ++i)
+        frame.camera.world_to_view[i] = plain->world_to_view ? plain->world_to_view[i] : i % 5 == 0;
+    frame.camera.view_to_clip[0] = focal(plain) * plain->height / plain->width;
+    frame.camera.view_to_clip[5] = focal(plain);
+    frame.camera.view_to_clip[10] = far / (near - far);
+    frame.camera.view_to_clip[11] = near * far / (near - far);
+    frame.camera.view_to_clip[14] = -1;
+    frame.has_previous = true;
+    frame.previous = frame.camera;
+    for (int i = 0; i < 2; ++i) { /* to the right, and down */
+        frame.jitter_px[i] = plain->jitter_px[i];
+        double clip = (i ? 2.0 : -2.0) / (i ? plain->height : plain->width);
+        frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
+        frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
+    }
+    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, "foreground"};
+    return frame;
+}
+
+/* G-buffer and pictures, from planes of PLAIN_CHANNELS; the light's are changed. */
+static bool add_pictures(struct glint_writer *writer, const struct plain *plain, float *values,
+                         struct glint_error *err) {
     static const char *const names[PLAIN_CHANNELS] = {"depth.Z",
                                                       "normal.X",
                                                       "normal.Y",
@@ -151,45 +168,35 @@ void plain_capture(const char *path, const struct plain *plain) {
                                                       "R",
                                                       "G",
                                                       "B"};
-    struct glint_error err = {0};
+    const size_t pixels = (size_t)plain->width * plain->height;
+    float *light = values + (size_t)PLAIN_LIT_R * pixels;
+    uint32_t *ids = plain->foreground ? malloc(pixels * sizeof *ids) : NULL;
+    if (plain->foreground && !ids) return no_memory(err);
+    for (size_t i = 0; ids && i < pixels; ++i) ids[i] = 2 * (i % plain->width) >= plain->width ? 5 : 1;
+    bool ok = add_part(writer, "gbuffer", plain, names, values, PLAIN_LIT_R, ids, err) &&
+              add_part(writer, "lit", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL, err);
+    for (size_t i = 0; plain->scene && i < 3 * pixels; ++i) light[i] = plain->scene[i / pixels];
+    if (plain->scene)
+        ok =
+            ok && add_part(writer, "scene", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL, err);
+    free(ids);
+    return ok;
+}
+
+bool plain_write(const char *path, const struct plain *plain, struct glint_error *err) {
     float *values = malloc((size_t)plain->width * plain->height * PLAIN_CHANNELS * sizeof *values);
-    assert_non_null(values);
+    if (!values) return no_memory(err);
     fill(plain, values);
     if (plain->spoil) plain->spoil(plain, values);
-    struct glint_writer *writer = glint_writer_create(path, NULL, &err);
-    check(writer != NULL, &err);
-    double near = 0.1, far = 1000;
-    struct glint_frame frame = {.number = plain->frame ? plain->frame : 1, .cut = plain->cut};
-    for (int i = 0; i < 4; ++i) frame.camera.world_to_view[5 * i] = 1;
-    frame.camera.view_to_clip[0] = focal(plain) * plain->height / plain->width;
-    frame.camera.view_to_clip[5] = focal(plain);
-    frame.camera.view_to_clip[10] = far / (near - far);
-    frame.camera.view_to_clip[11] = near * far / (near - far);
-    frame.camera.view_to_clip[14] = -1;
-    frame.has_previous = true;
-    frame.previous = frame.camera;
-    for (int i = 0; i < 2; ++i) { /* to the right, and down */
-        frame.jitter_px[i] = plain->jitter_px[i];
-        double clip = (i ? 2.0 : -2.0) / (i ? plain->height : plain->width);
-        frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
-        frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
-    }
-    const size_t pixels = (size_t)plain->width * plain->height;
-    uint32_t *ids = plain->foreground ? malloc(pixels * sizeof *ids) : NULL;
-    for (size_t i = 0; ids && i < pixels; ++i) ids[i] = 2 * (i % plain->width) >= plain->width ? 5 : 1;
-    if (ids) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, "foreground"};
-    check(glint_writer_set_frame(writer, &frame, &err), &err);
-    add_part(writer, "gbuffer", plain, names, values, PLAIN_LIT_R, ids);
-    float *light = values + (size_t)PLAIN_LIT_R * pixels;
-    add_part(writer, "lit", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL);
-    for (size_t i = 0; plain->scene && i < 3 * pixels; ++i) light[i] = plain->scene[i / pixels];
-    if (plain->scene) add_part(writer, "scene", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL);
-    free(ids);
-    if (plain->water) add_over(writer, plain, "water", plain->water);
-    if (plain->pane) add_over(writer, plain, "transparent", plain->pane);
-    for (uint32_t i = 0; plain->cube && i < plain->cube_count; ++i) add_cube(writer, plain, i);
-    if (plain->sky) add_cube(writer, plain, plain->cube_count);
-    check(glint_writer_finish(writer, &err), &err);
-    glint_writer_destroy(&writer);
+    const struct glint_writer_options options = {.compression = plain->compression};
+    const struct glint_frame frame = frame_of(plain);
+    struct glint_writer *writer = glint_writer_create(path, &options, err);
+    bool ok = writer && glint_writer_set_frame(writer, &frame, err) && add_pictures(writer, plain, values, err);
     free(values);
+    ok = ok && (!plain->water || add_over(writer, plain, "water", plain->water, err)) &&
+         (!plain->pane || add_over(writer, plain, "transparent", plain->pane, err));
+    for (uint32_t i = 0; ok && plain->cube && i < plain->cube_count; ++i) ok = add_cube(writer, plain, i, err);
+    ok = ok && (!plain->sky || add_cube(writer, plain, plain->cube_count, err)) && glint_writer_finish(writer, err);
+    glint_writer_destroy(&writer);
+    return ok;
 }
