@@ -2,17 +2,23 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "args.h"
 #include "pipe.h"
 #include "png_file.h"
 #include "progress.h"
 #include "render.h"
+#include "view/statistics.h"
+#include "view/terminal.h"
+#include "view/tev.h"
 
 struct arguments {
     struct source_choice choice;
-    const char *out;
-    bool sheet;
+    const char *out, *tev;
+    bool sheet, levels, terminal;
+    enum terminal_mode terminal_mode;
+    struct statistics_options statistics;
     struct list paths;
     struct list images; /* of --image */
     struct render_options render;
@@ -34,21 +40,38 @@ enum {
     KEY_INPUT,
     KEY_NO_LEGEND,
     KEY_FACES,
-    KEY_SHEET
+    KEY_SHEET,
+    KEY_LATLONG,
+    KEY_LEVELS,
+    KEY_PERCENTILES,
+    KEY_TERMINAL,
+    KEY_STATS,
+    KEY_HISTOGRAM,
+    KEY_BINS,
+    KEY_TEV
 };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",    'o',           "FILE",     0, "The PNG to write; - is stdout", 0},
+    {"output",    'o',           "FILE",     0, "The PNG to write; - is stdout (default: draw it in the terminal)", 0},
+    {"terminal",  KEY_TERMINAL,  "MODE",     OPTION_ARG_OPTIONAL, "Draw in the terminal also where it is none: ", 0},
+    {"stats",     KEY_STATS,     NULL,       0, "Print statistics of each channel", 0},
+    {"histogram", KEY_HISTOGRAM, NULL,       0, "Print a histogram of each channel, over --range and --scale (default: all finite values, linear)", 0},
+    {"bins",      KEY_BINS,      "N",        0, "Bins of histograms (default 16)", 0},
+    {"json",      'j',           NULL,       0, "Print --stats and --histogram as JSON", 0},
+    {"to-tev",    KEY_TEV,       "HOST",     0, "Show the image in the tev that runs at HOST or HOST:PORT", 0},
     {"image",     KEY_IMAGE,     "NAME,...", 0, "Image of a run (default: its last colour image); several for --sheet", 0},
     {"sheet",     KEY_SHEET,     NULL,       0, "All images of a run on one picture, or those of --image; of several runs: a column each, one range a row", 0},
     {"part",      KEY_PART,      "NAME",     0, "Part of a file (default: lit, or the first with colour)", 0},
     {"layer",     KEY_LAYER,     "NAME",     0, "Layer or channel of the part: depth, normal, material.roughness", 0},
     {"as",        KEY_AS,        "KIND",     0, "How to show it (default: by unit and channels): ", 0},
-    {"range",     KEY_RANGE,     "LOW,HIGH", 0, "Values at the ends of the scale (default: 0.5 and 99.5 percentiles)", 0},
+    {"range",     KEY_RANGE,     "LOW,HIGH", 0, "Values at the ends of the scale", 0},
+    {"percentiles", KEY_PERCENTILES, "LOW,HIGH", 0, "Values at the ends of the scale, by percentile (default: 0.5,99.5)", 0},
     {"scale",     KEY_SCALE,     "NAME",     0, "Scale of distances (default: log for lengths that span more than 1:20): ", 0},
     {"no-legend", KEY_NO_LEGEND, NULL,       0, "The picture alone, at its own size", 0},
     {"faces",     KEY_FACES,     NULL,       0, "Cube maps as they are stored, faces below each other, not as a cross", 0},
+    {"latlong",   KEY_LATLONG,   NULL,       0, "Cube maps by longitude and latitude, not as a cross", 0},
+    {"levels",    KEY_LEVELS,    NULL,       0, "A run's image with all its MIP levels", 0},
     {"crop",      KEY_CROP,      "X,Y,W,H",  0, "Only this part of the picture, in pixels", 0},
     {"zoom",      KEY_ZOOM,      "N",        0, "Each pixel as N × N", 0},
     {"exposure",  KEY_EXPOSURE,  "EV",       0, "Colour: brighter by this many stops", 0},
@@ -68,6 +91,10 @@ static const struct example examples[] = {
     {"glint view street.exr:gbuffer:normal -o normals.png", "a layer of a capture"},
     {"glint view street.exr --part cubemap.003 -o cube.png", "a cube map as a cross"},
     {"glint view run --exposure 2 --view sRGB -o - | display", "brighter, not tone-mapped, into a pipe"},
+    {"glint view run", "into the terminal, as kitty, sixel or blocks"},
+    {"glint view run:screen_travelled --stats --histogram --scale log", "its values in numbers"},
+    {"glint view run:cubemap_color_mips --levels -o mips.png", "a chain of MIP levels"},
+    {"glint view run:reflection --to-tev localhost", "in a running tev"},
     {0},
 };
 
@@ -78,6 +105,7 @@ extern const struct command cmd_view;
 static char *values(int key) {
     if (key == KEY_AS) return join_names("", kind_names);
     if (key == KEY_SCALE) return join_names("", scales);
+    if (key == KEY_TERMINAL) return join_names("", terminal_mode_names);
     return key == KEY_VIEW ? ocio_builtin_views() : NULL;
 }
 
@@ -92,6 +120,60 @@ static void parse_crop(struct arguments *a, char *arg, struct argp_state *state)
         a->render.crop[i] = (uint32_t)v[i];
     }
     a->render.has_crop = true;
+}
+
+/* What is asked for beside a picture. */
+static bool prints(const struct arguments *a) {
+    return a->statistics.table || a->statistics.histogram || a->tev;
+}
+
+static void end_arguments(struct arguments *a, struct argp_state *state) {
+    if (!a->paths.count) argp_error(state, "which image?");
+    if (!a->out && !a->terminal && !prints(a) && !isatty(STDOUT_FILENO))
+        argp_error(state, "where to? -o FILE.png, or --terminal");
+    a->terminal = a->terminal || (!a->out && !prints(a));
+    if (a->statistics.json && !a->statistics.table && !a->statistics.histogram)
+        argp_error(state, "--json is of --stats or --histogram");
+    if (a->statistics.json && a->terminal) argp_error(state, "--json and --terminal both want stdout");
+    if (a->sheet && (prints(a) || a->levels))
+        argp_error(state, "--sheet is a picture of many images; the rest is of one");
+    if (!a->sheet && a->paths.count > 1)
+        argp_error(state, "%s and %s: one image at a time, several runs need --sheet", a->paths.items[0],
+                   a->paths.items[1]);
+    if (!a->sheet && a->images.count > 1) argp_error(state, "several images need --sheet");
+    a->choice.path = a->paths.items[0];
+    a->choice.image = a->images.count ? a->images.items[0] : NULL;
+}
+
+static error_t parse_output(int key, char *arg, struct argp_state *state, struct arguments *a) {
+    switch (key) {
+    case KEY_TERMINAL:
+        a->terminal = true;
+        if (arg) a->terminal_mode = (enum terminal_mode)arg_choice("terminal", arg, terminal_mode_names, state);
+        return 0;
+    case KEY_STATS:
+        a->statistics.table = true;
+        return 0;
+    case KEY_HISTOGRAM:
+        a->statistics.histogram = true;
+        return 0;
+    case KEY_BINS:
+        a->statistics.bins = arg_uint("bins", arg, 1, STATISTICS_BINS_MAX, state);
+        return 0;
+    case 'j':
+        a->statistics.json = true;
+        return 0;
+    case KEY_TEV:
+        a->tev = arg;
+        return 0;
+    case KEY_LATLONG:
+        a->render.latlong = true;
+        return 0;
+    case KEY_LEVELS:
+        a->levels = true;
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
 }
 
 static error_t parse_color(int key, char *arg, struct argp_state *state, struct arguments *a) {
@@ -115,14 +197,7 @@ static error_t parse_color(int key, char *arg, struct argp_state *state, struct 
         list_add(&a->paths, arg, state);
         return 0;
     case ARGP_KEY_END:
-        if (!a->paths.count) argp_error(state, "which image?");
-        if (!a->out) argp_error(state, "where to? -o FILE.png");
-        if (!a->sheet && a->paths.count > 1)
-            argp_error(state, "%s and %s: one image at a time, several runs need --sheet", a->paths.items[0],
-                       a->paths.items[1]);
-        if (!a->sheet && a->images.count > 1) argp_error(state, "several images need --sheet");
-        a->choice.path = a->paths.items[0];
-        a->choice.image = a->images.count ? a->images.items[0] : NULL;
+        end_arguments(a, state);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -154,6 +229,13 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         a->render.falsecolor.low = range[0];
         a->render.falsecolor.high = range[1];
         return 0;
+    case KEY_PERCENTILES:
+        arg_numbers("percentiles", arg, range, 2, state);
+        if (!(range[0] >= 0 && range[0] < range[1] && range[1] <= 100))
+            argp_error(state, "--percentiles=%s: expected two from 0 to 100, the first the smaller", arg);
+        a->render.falsecolor.percentiles_given = true;
+        memcpy(a->render.falsecolor.percentiles, range, sizeof range);
+        return 0;
     case KEY_SCALE:
         a->render.falsecolor.scale = (enum scale)arg_choice("scale", arg, scales, state);
         return 0;
@@ -173,20 +255,29 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         a->render.zoom = arg_uint("zoom", arg, 1, 64, state);
         return 0;
     }
-    return parse_color(key, arg, state, a);
+    const error_t output = parse_output(key, arg, state, a);
+    return output == ARGP_ERR_UNKNOWN ? parse_color(key, arg, state, a) : output;
 }
 
-static bool draw_one(struct picture *picture, const struct arguments *a, struct glint_error *err) {
+/* The picture of one image, and what is printed of it. */
+static bool show_one(struct picture *picture, struct arguments *a, struct glint_error *err) {
     struct source source = {0};
     size_t invalid = 0;
-    bool ok = source_open(&source, &a->choice, err) && render(picture, &source, &a->render, &invalid, err);
+    bool ok = source_open(&source, &a->choice, err);
+    a->statistics.range = a->render.falsecolor;
+    a->choice.image = a->levels ? source.title : a->choice.image; /* the path may have named it */
+    if (ok && (a->statistics.table || a->statistics.histogram)) ok = statistics_print(&source, &a->statistics, err);
+    if (ok && a->tev) ok = tev_send(a->tev, source.title, &source, err);
+    if (ok && (a->out || a->terminal))
+        ok = a->levels ? render_levels(picture, &a->choice, &a->render, &invalid, err)
+                       : render(picture, &source, &a->render, &invalid, err);
     if (invalid) command_note(&cmd_view, "%s: %zu pixels are NaN or infinite, shown in magenta", source.title, invalid);
     source_finish(&source);
     return ok;
 }
 
 static enum status run(int argc, char **argv) {
-    struct arguments a = {0};
+    struct arguments a = {.statistics.bins = 16};
     command_parse(&cmd_view, argc, argv, &a);
     struct glint_error err = {0};
     struct picture picture = {0};
@@ -197,9 +288,10 @@ static enum status run(int argc, char **argv) {
     bool ok = a.choice.path != NULL;
     if (ok && a.sheet)
         ok = render_sheet(&picture, a.paths.items, a.paths.count, list_or_null(&a.images), &a.render, &err);
-    else if (ok) ok = draw_one(&picture, &a, &err);
-    ok = ok && png_file_write(a.out, &picture, &err);
+    else if (ok) ok = show_one(&picture, &a, &err);
+    if (ok && a.out) ok = png_file_write(a.out, &picture, &err);
     progress_end(&progress);
+    if (ok && a.terminal) ok = terminal_draw(&picture, a.terminal_mode, &err);
     picture_finish(&picture);
     pipe_finish(&pipe);
     list_free(&a.images);
@@ -209,11 +301,11 @@ static enum status run(int argc, char **argv) {
 
 const struct command cmd_view = {
     .name = "view",
-    .arguments = "IMAGE|RUN... -o P.png",
+    .arguments = "IMAGE|RUN... [-o P.png]",
     .summary = "a picture of an image, a capture's part or a run",
     .description = "Writes a PNG of an EXR layer (FILE:PART:LAYER), a capture's part or an image of a run (RUN:IMAGE). "
                    "Colour goes through OpenColorIO; distances, normals, indices and end reasons are shown in false "
-                   "colour with a legend. NaN is magenta.",
+                   "colour with a legend. NaN is magenta. Without -o the picture goes to the terminal.",
     .options = options,
     .parse = parse,
     .examples = examples,

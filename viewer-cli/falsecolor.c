@@ -8,7 +8,8 @@
 
 #include "colormap.h"
 
-const char *const kind_names[] = {"auto", "color", "distance", "normal", "index", "reason", "raw", NULL};
+const char *const kind_names[] = {"auto",   "color", "distance", "depth",   "steps", "weight",
+                                  "normal", "index", "reason",   "invalid", "raw",   NULL};
 
 enum kind kind_of(const struct source *s) {
     static const char *const indices[] = {"place", "index", "id", "finished", "class"};
@@ -37,7 +38,10 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* Percentiles of at most a million texels, evenly taken, of which `positive` takes those above 0. */
-static bool percentiles(const struct source *s, bool positive, double *low, double *high, struct glint_error *err) {
+static bool percentiles(const struct source *s, bool positive, const struct falsecolor_options *options, double *low,
+                        double *high, struct glint_error *err) {
+    const double first = options->percentiles_given ? options->percentiles[0] / 100 : 0.005,
+                 last = options->percentiles_given ? options->percentiles[1] / 100 : 0.995;
     size_t texels = (size_t)s->width * s->height, step = texels / 1000000 + 1, count = 0;
     float *values = malloc((texels / step + 1) * sizeof *values);
     if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -46,8 +50,8 @@ static bool percentiles(const struct source *s, bool positive, double *low, doub
         if (isfinite(v) && (!positive || v > 0)) values[count++] = (float)v;
     }
     qsort(values, count, sizeof *values, ascending);
-    *low = count ? (double)values[(size_t)((double)(count - 1) * 0.005)] : positive;
-    *high = count ? (double)values[(size_t)((double)(count - 1) * 0.995 + 0.5)] : 1;
+    *low = count ? (double)values[(size_t)((double)(count - 1) * first)] : positive;
+    *high = count ? (double)values[(size_t)((double)(count - 1) * last + 0.5)] : 1;
     free(values);
     return true;
 }
@@ -59,13 +63,13 @@ static bool find_scale(struct legend *legend, const struct source *s, const stru
     if (options->range_given) {
         legend->low = options->low;
         legend->high = options->high;
-    } else if (!percentiles(s, may, &legend->low, &legend->high, err)) return false;
+    } else if (!percentiles(s, may, options, &legend->low, &legend->high, err)) return false;
     if (options->scale == SCALE_LOG && !(legend->low > 0))
         return glint_fail(err, GLINT_ERROR_USAGE, "a logarithmic scale needs a range above 0");
     bool wide = legend->low > 0 && legend->high > 20 * legend->low;
     legend->logarithmic = options->scale == SCALE_LOG || (may && wide);
     return legend->logarithmic || !may || options->range_given ||
-           percentiles(s, false, &legend->low, &legend->high, err);
+           percentiles(s, false, options, &legend->low, &legend->high, err);
 }
 
 static double position(const struct legend *l, double v) {
@@ -114,6 +118,17 @@ static struct rgb index_color(struct legend *l, double v, double share) {
     return index == 255 ? COLOR_BACKGROUND : colormap_category(l->kind == KIND_REASON ? index : index + 1);
 }
 
+/* Where a texel is no number in any channel; the rest is grey by its value. */
+static struct rgb invalid_color(struct legend *l, const struct source *s, size_t i) {
+    for (uint32_t k = 0; k < s->components; k++)
+        if (!isfinite(s->texels[i * s->components + k])) {
+            l->has_invalid = true;
+            return isnan(s->texels[i * s->components + k]) ? COLOR_INVALID : COLOR_INFINITE;
+        }
+    const uint8_t grey = to_byte(0.35 * position(l, scalar(s, i)));
+    return (struct rgb){grey, grey, grey};
+}
+
 static struct rgb raw_color(struct legend *l, const struct source *s, const float *v) {
     uint8_t c[3];
     for (uint32_t k = 0; k < 3; k++) {
@@ -135,6 +150,8 @@ static struct rgb texel_color(struct legend *l, const struct source *s, size_t i
     case KIND_INDEX:
     case KIND_REASON:
         return index_color(l, (double)v[0], share);
+    case KIND_INVALID:
+        return invalid_color(l, s, i);
     case KIND_RAW:
         return raw_color(l, s, v);
     default:
@@ -142,8 +159,23 @@ static struct rgb texel_color(struct legend *l, const struct source *s, size_t i
     }
 }
 
-static bool prepare(struct legend *l, const struct source *s, enum kind kind, const struct falsecolor_options *options,
+/* A kind that is another one with a scale of its own. */
+static enum kind plain_kind(enum kind kind, const struct source *s, struct falsecolor_options *options) {
+    const bool free_range = !options->range_given;
+    if (kind == KIND_DEPTH && options->scale == SCALE_AUTO) options->scale = SCALE_LOG;
+    if (kind == KIND_WEIGHT && free_range) options->high = 1;
+    for (size_t i = 0; kind == KIND_STEPS && free_range && i < (size_t)s->width * s->height; i++) {
+        const double v = scalar(s, i);
+        options->high = isfinite(v) ? fmax(options->high, v) : options->high;
+    }
+    options->range_given = options->range_given || kind == KIND_WEIGHT || kind == KIND_STEPS;
+    return kind == KIND_DEPTH || kind == KIND_STEPS || kind == KIND_WEIGHT ? KIND_DISTANCE : kind;
+}
+
+static bool prepare(struct legend *l, const struct source *s, enum kind kind, const struct falsecolor_options *given,
                     struct glint_error *err) {
+    struct falsecolor_options of_kind = *given, *options = &of_kind;
+    kind = plain_kind(kind, s, options);
     bool has_unit = *s->unit && strcmp(s->unit, "1") != 0 && kind == KIND_DISTANCE;
     *l = (struct legend){.kind = kind, .low = 0, .high = 1};
     snprintf(l->title, sizeof l->title, "%s%s%s%s", s->title, has_unit ? " (" : "", has_unit ? s->unit : "",
@@ -155,7 +187,7 @@ static bool prepare(struct legend *l, const struct source *s, enum kind kind, co
         l->low = options->low;
         l->high = options->high;
     }
-    return kind != KIND_DISTANCE || find_scale(l, s, options, err);
+    return (kind != KIND_DISTANCE && kind != KIND_INVALID) || find_scale(l, s, options, err);
 }
 
 bool falsecolor_draw(struct picture *picture, struct legend *legend, const struct source *source, enum kind kind,

@@ -5,7 +5,20 @@
 #include "picture.h"
 #include "source.h"
 
-enum kind { KIND_AUTO, KIND_COLOR, KIND_DISTANCE, KIND_NORMAL, KIND_INDEX, KIND_REASON, KIND_RAW };
+/* Depth, steps and weight are distances with a scale of their own: logarithmic, from 0, 0 to 1. */
+enum kind {
+    KIND_AUTO,
+    KIND_COLOR,
+    KIND_DISTANCE,
+    KIND_DEPTH,
+    KIND_STEPS,
+    KIND_WEIGHT,
+    KIND_NORMAL,
+    KIND_INDEX,
+    KIND_REASON,
+    KIND_INVALID,
+    KIND_RAW
+};
 extern const char *const kind_names[]; /* "auto", "color", …, NULL */
 
 enum scale { SCALE_AUTO, SCALE_LINEAR, SCALE_LOG }; /* auto: logarithmic for lengths over more than 1 : 20 */
@@ -14,6 +27,8 @@ struct falsecolor_options {
     enum scale scale;
     bool range_given;
     double low, high;
+    bool percentiles_given; /* else 0.5 and 99.5 */
+    double percentiles[2];
 };
 
 /* What a source most likely is: from its unit and the names of its channels. */
@@ -28,7 +43,7 @@ struct legend {
     double shares[257];                                    /* of each index, the last for all others; sums to 1 */
 };
 
-/* Every kind but KIND_COLOR. Without a range, the 0.5 and 99.5 percentiles of the finite values. */
+/* Every kind but KIND_COLOR. Without a range, percentiles of the finite values. */
 bool falsecolor_draw(struct picture *picture, struct legend *legend, const struct source *source, enum kind kind,
                      const struct falsecolor_options *options, struct glint_error *err);
 /* A colour image's name, and nothing else. */

@@ -101,7 +101,10 @@ static void layout(struct flow *flow, const struct legend *l) {
     }
     if (l->has_zero) item(flow, colormap_category(0), "0 or less");
     if (l->has_infinite) item(flow, COLOR_SKY, "infinite (sky)");
-    if (l->has_invalid) item(flow, COLOR_INVALID, l->kind == KIND_DISTANCE ? "NaN" : "NaN or infinite");
+    if (l->kind == KIND_INVALID) {
+        item(flow, COLOR_INVALID, "NaN");
+        item(flow, COLOR_INFINITE, "infinite");
+    } else if (l->has_invalid) item(flow, COLOR_INVALID, l->kind == KIND_DISTANCE ? "NaN" : "NaN or infinite");
     if (flow->x > MARGIN_PX) flow->y += LINE_PX;
     flow->y += MARGIN_PX / 2;
 }

@@ -1,6 +1,7 @@
 /* A picture of 8-bit RGBA. */
 #include "picture.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -114,5 +115,52 @@ bool picture_cross(struct picture *picture, struct glint_error *err) {
             memcpy(pixel_at(&cross, x, y + j), pixel_at(picture, 0, face * n + j), (size_t)n * 4);
     }
     replace(picture, &cross);
+    return true;
+}
+
+/* The place in a column of faces that a direction meets. */
+static void face_place(const double d[3], uint32_t size, uint32_t *x, uint32_t *y) {
+    const double a[3] = {fabs(d[0]), fabs(d[1]), fabs(d[2])};
+    const int axis = a[0] >= a[1] && a[0] >= a[2] ? 0 : a[1] >= a[2] ? 1 : 2;
+    const bool negative = d[axis] < 0;
+    const double s[6] = {-d[2], d[2], d[0], d[0], d[0], -d[0]}, t[6] = {-d[1], -d[1], d[2], -d[2], -d[1], -d[1]};
+    const int face = 2 * axis + negative;
+    const double u = 0.5 * (s[face] / a[axis] + 1) * size, v = 0.5 * (t[face] / a[axis] + 1) * size;
+    *x = u < 0 ? 0 : u >= size ? size - 1 : (uint32_t)u;
+    *y = (uint32_t)face * size + (v < 0 ? 0 : v >= size ? size - 1 : (uint32_t)v);
+}
+
+bool picture_latlong(struct picture *picture, struct glint_error *err) {
+    const double pi = 3.14159265358979323846;
+    const uint32_t n = picture->width, cubes = picture->height / (6 * n), width = 4 * n, height = 2 * n;
+    struct picture map;
+    if (!picture_init(&map, width, height * cubes, COLOR_BACKGROUND, err)) return false;
+    for (uint32_t row = 0; row < height * cubes; row++)
+        for (uint32_t column = 0; column < width; column++) {
+            const double latitude = pi * (0.5 - (row % height + 0.5) / height),
+                         longitude = 2 * pi * ((column + 0.5) / width - 0.5);
+            const double d[3] = {cos(latitude) * sin(longitude), sin(latitude), cos(latitude) * cos(longitude)};
+            uint32_t x, y;
+            face_place(d, n, &x, &y);
+            memcpy(pixel_at(&map, column, row), pixel_at(picture, x, y + row / height * 6 * n), 4);
+        }
+    replace(picture, &map);
+    return true;
+}
+
+bool picture_chain(struct picture *chain, const struct picture *pictures, size_t count, struct glint_error *err) {
+    uint32_t side = 0, high = 0;
+    for (size_t i = 1; i < count; i++) {
+        side = pictures[i].width > side ? pictures[i].width : side;
+        high += pictures[i].height;
+    }
+    if (!picture_init(chain, pictures[0].width + side, pictures[0].height > high ? pictures[0].height : high,
+                      COLOR_BACKGROUND, err))
+        return false;
+    uint32_t y = 0;
+    for (size_t i = 0; i < count; i++) {
+        picture_paste(chain, &pictures[i], i ? pictures[0].width : 0, y);
+        y += i ? pictures[i].height : 0;
+    }
     return true;
 }

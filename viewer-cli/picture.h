@@ -14,7 +14,8 @@ struct rgb {
     uint8_t r, g, b;
 };
 static const struct rgb COLOR_BACKGROUND = {0x16, 0x18, 0x1d}, COLOR_TEXT = {0xe6, 0xe8, 0xeb},
-                        COLOR_INVALID = {0xff, 0x00, 0xff}, COLOR_SKY = {0xb4, 0xc6, 0xdc};
+                        COLOR_INVALID = {0xff, 0x00, 0xff}, COLOR_INFINITE = {0x00, 0xff, 0xff},
+                        COLOR_SKY = {0xb4, 0xc6, 0xdc};
 
 struct picture {
     uint32_t width, height;
@@ -40,6 +41,10 @@ bool picture_shrink(struct picture *picture, uint32_t factor, bool mean, struct 
 /* Six faces below each other, +X −X +Y −Y +Z −Z as Vulkan orients them, become a horizontal cross with +Z in the middle;
    several cubes become crosses below each other. */
 bool picture_cross(struct picture *picture, struct glint_error *err);
+/* The same faces as longitude and latitude: +Z in the middle, +X to the right of it, +Y at the top. */
+bool picture_latlong(struct picture *picture, struct glint_error *err);
+/* Pictures beside each other, the first as it is and the others below each other to its right. */
+bool picture_chain(struct picture *chain, const struct picture *pictures, size_t count, struct glint_error *err);
 
 #ifdef __cplusplus
 }

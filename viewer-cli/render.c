@@ -2,6 +2,7 @@
 #include "render.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* RGBA with the exposure applied; one channel stands for all three. */
@@ -51,15 +52,63 @@ bool render_plain(struct picture *picture, struct legend *legend, const struct s
     bool ok = kind == KIND_COLOR ? draw_color(picture, source, options, invalid, err)
                                  : falsecolor_draw(picture, legend, source, kind, &options->falsecolor, err);
     if (kind == KIND_COLOR) *legend = legend_of_color(source);
-    if (ok && source->cube && !options->faces) ok = picture_cross(picture, err);
+    if (ok && source->cube && !options->faces)
+        ok = options->latlong ? picture_latlong(picture, err) : picture_cross(picture, err);
     if (ok && options->has_crop) ok = picture_crop(picture, crop[0], crop[1], crop[2], crop[3], err);
     return ok;
+}
+
+/* Zoom and legend, where they are wanted. */
+static bool finish(struct picture *picture, const struct legend *legend, const struct render_options *options,
+                   struct glint_error *err) {
+    return picture_zoom(picture, options->zoom, err) &&
+           (legend->kind == KIND_COLOR || options->no_legend || legend_add(picture, legend, err));
 }
 
 bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
             struct glint_error *err) {
     struct legend legend;
-    if (!render_plain(picture, &legend, source, options, invalid, err)) return false;
-    if (!picture_zoom(picture, options->zoom, err)) return false;
-    return legend.kind == KIND_COLOR || options->no_legend || legend_add(picture, &legend, err);
+    return render_plain(picture, &legend, source, options, invalid, err) && finish(picture, &legend, options, err);
+}
+
+enum { LEVELS_MAX = 16 };
+
+/* One level; false without an error when the chain has no such level. */
+static bool level(struct picture *picture, struct legend *legend, const struct source_choice *choice, uint32_t number,
+                  const struct render_options *options, size_t *invalid, struct glint_error *err) {
+    char name[300];
+    struct source_choice of_level = *choice;
+    struct source source;
+    struct glint_error none = {0};
+    size_t found = 0;
+    snprintf(name, sizeof name, "%s.level%u", choice->image, number);
+    if (number) of_level.image = name;
+    if (!source_open(&source, &of_level, number ? &none : err)) return false;
+    const bool ok = render_plain(picture, legend, &source, options, &found, err);
+    *invalid += found;
+    source_finish(&source);
+    return ok;
+}
+
+bool render_levels(struct picture *picture, const struct source_choice *choice, const struct render_options *options,
+                   size_t *invalid, struct glint_error *err) {
+    struct picture levels[LEVELS_MAX] = {{0}};
+    struct render_options same = *options;
+    struct legend legend, other;
+    size_t count = 0;
+    *invalid = 0;
+    while (count < LEVELS_MAX &&
+           level(&levels[count], count ? &other : &legend, choice, (uint32_t)count, &same, invalid, err)) {
+        if (!count++) {
+            same.falsecolor.range_given = legend.low < legend.high;
+            same.falsecolor.low = legend.low;
+            same.falsecolor.high = legend.high;
+        }
+    }
+    bool ok = count > 0 && err->code == GLINT_OK;
+    if (ok && count == 1)
+        ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: image %s has one level", choice->path, choice->image);
+    ok = ok && picture_chain(picture, levels, count, err) && finish(picture, &legend, options, err);
+    for (size_t i = 0; i < LEVELS_MAX; i++) picture_finish(&levels[i]);
+    return ok;
 }

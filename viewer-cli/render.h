@@ -11,6 +11,7 @@ struct render_options {
     struct ocio_options ocio;
     double exposure_ev;
     bool faces;    /* cube maps as they are stored, not as a cross */
+    bool latlong;  /* cube maps by longitude and latitude */
     bool has_crop; /* x, y, width, height */
     uint32_t crop[4], zoom;
     bool no_legend;
@@ -22,6 +23,10 @@ bool render_plain(struct picture *picture, struct legend *legend, const struct s
 /* With them; colour explains itself and gets no legend. */
 bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
             struct glint_error *err);
+
+/* A run's image and its coarser levels on one picture, by one range of values. */
+bool render_levels(struct picture *picture, const struct source_choice *choice, const struct render_options *options,
+                   size_t *invalid, struct glint_error *err);
 
 /* All images of a run, or those of a NULL-terminated list, in rows of one width, each with its name or legend below.
    Several runs: a row for each image of the first, a column for each run, one range of values in a row. */
