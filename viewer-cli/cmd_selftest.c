@@ -11,7 +11,7 @@
 #include "selftest/selftest.h"
 #include "table.h"
 
-static const struct selftest_group *const groups[] = {&selftest_functions, &selftest_numbers, &selftest_garbage};
+static const struct selftest_group *const groups[] = {&selftest_functions, &selftest_numbers, &selftest_garbage, &selftest_time};
 enum { GROUPS = sizeof groups / sizeof *groups };
 
 struct arguments {

@@ -16,18 +16,22 @@ vec4 current_color(ivec2 pixel) {
 // M. Salvi, An Excursion in Temporal Supersampling, GDC 2016: mean and deviation of the 3 x 3 neighbours. The window opens as
 // 1/(1 - roughness/limit).
 vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
-    vec4 sum = vec4(0.0), squares = vec4(0.0);
+    // From the first of them, sums of differences: where all are alike nothing is left of a bright colour's rounding, and
+    // at worst, where it alone lies apart, the variance is a ninth of what it is taken from.
+    vec4 first = vec4(0.0), sum = vec4(0.0), squares = vec4(0.0);
     float count = 0.0;
     for (int i = 0; i < 9; ++i) {
         ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), imageSize(reflection_stable) - 1);
         vec4 color = current_color(at);
         if (!finite(color)) continue;
+        if (count == 0.0) first = color;
+        color -= first;
         sum += color;
         squares += color * color;
         count += 1.0;
     }
     if (count == 0.0) return past;
-    vec4 mean = sum / count, deviation = sqrt(max(squares / count - mean * mean, 0.0));
+    vec4 offset = sum / count, mean = first + offset, deviation = sqrt(max(squares / count - offset * offset, 0.0));
     float open = 1.0 - roughness / sharp_roughness;
     if (!(open > 0.0)) return past;
     return clamp(past, mean - window / open * deviation, mean + window / open * deviation);

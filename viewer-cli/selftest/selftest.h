@@ -36,6 +36,6 @@ struct selftest_group {
                 struct glint_error *err);
 };
 
-extern const struct selftest_group selftest_functions, selftest_numbers, selftest_garbage;
+extern const struct selftest_group selftest_functions, selftest_numbers, selftest_garbage, selftest_time;
 
 #endif
