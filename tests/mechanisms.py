@@ -368,7 +368,7 @@ for the better, each with the reason that was found.
                         ("rays", "RMSE, mirror-like", "glossy", "rough", "noise, glossy", "noise, rough", "ms"), ray_counts, bench, docs)
         text += attempt("Noise of a shot", "A camera that stands, rough pixels: RMSE against a mean of 64 rays in each of 16 frames, as a part of "
                         "the first frame's own. Each of n frames weighs 1/n up to 16, as the slides' 15:1 has it, which leaves 1/√n; from there "
-                        "on the new frame weighs 1/16, and noise settles at √(1/31) = 0.180 (`gpu_temporal` follows it there). With `extra`, "
+                        "on the new frame weighs 1/16, and noise settles at √(1/31) = 0.180 (`glint selftest --only noise` follows it there). With `extra`, "
                         "the first frame has up to 25 samples instead of five.",
                         ("frames", "1/√n", "room", "street", "room, `extra`"), noise_of_frames, bench)
         text += attempt("Error of a shot", "Against the truth: mean of the symmetric error, and RMSE.",

@@ -11,7 +11,14 @@
 #include "selftest/selftest.h"
 #include "table.h"
 
-static const struct selftest_group *const groups[] = {&selftest_functions, &selftest_numbers, &selftest_garbage, &selftest_time};
+/* clang-format off */
+static const struct selftest_group *const groups[] = {
+    &selftest_functions,
+    &selftest_numbers,
+    &selftest_garbage,
+    &selftest_time,
+};
+/* clang-format on */
 enum { GROUPS = sizeof groups / sizeof *groups };
 
 struct arguments {
@@ -214,6 +221,10 @@ static bool run_groups(const struct arguments *a, const struct chosen *chosen, s
         if (any) ok = groups[g]->run(&test, chosen->cases[g], chosen->findings[g], err);
     }
     remove_folder(folder);
+    const char *last = NULL;
+    const uint32_t messages = glint_device_messages(device, &last);
+    if (ok && messages)
+        ok = glint_fail(err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
     return ok;
 }
 

@@ -81,8 +81,8 @@ static bool add_part(struct glint_writer *writer, const struct planes *planes, s
     struct glint_channel list[12] = {{0}};
     size_t count = 0;
     for (; count < 12 && planes->channels[count]; count++)
-        list[count] = (struct glint_channel){
-            .name = planes->channels[count], .type = planes->type, .data = planes->data[count]};
+        list[count] =
+            (struct glint_channel){.name = planes->channels[count], .type = planes->type, .data = planes->data[count]};
     const struct glint_part part = {.name = planes->name,
                                     .width = planes->width,
                                     .height = planes->height,
@@ -105,8 +105,8 @@ static bool add_sky(struct glint_writer *writer, struct glint_error *err) {
         for (size_t k = 0; k < 3; k++) values[k][i] = (float)(2 * d[k] * d[k] / (1 + u * u + v * v));
     }
     return add_part(
-        writer,
-        &(struct planes){"sky", SKY, 6 * SKY, {"R", "G", "B"}, {values[0], values[1], values[2]}, GLINT_F32}, err);
+        writer, &(struct planes){"sky", SKY, 6 * SKY, {"R", "G", "B"}, {values[0], values[1], values[2]}, GLINT_F32},
+        err);
 }
 
 static bool write_parts(struct glint_writer *writer, const struct frame *f, struct glint_error *err) {

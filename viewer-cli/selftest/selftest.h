@@ -36,6 +36,9 @@ struct selftest_group {
                 struct glint_error *err);
 };
 
-extern const struct selftest_group selftest_functions, selftest_numbers, selftest_garbage, selftest_time;
+extern const struct selftest_group selftest_functions;
+extern const struct selftest_group selftest_numbers;
+extern const struct selftest_group selftest_garbage;
+extern const struct selftest_group selftest_time;
 
 #endif

@@ -81,8 +81,8 @@ static void compare(const struct shot *s, int n, size_t pixel, int value, double
     if (error <= finding->worst) return;
     finding->worst = error;
     snprintf(finding->at, sizeof finding->at, "frame %d, pixel %zu,%zu, %s%c: found %.9g, expected %.9g", n,
-             pixel % FRAME_WIDTH, pixel / FRAME_WIDTH, value < 4 ? "channel " : "samples", value < 4 ? "RGBA"[value] : ' ',
-             found, expected);
+             pixel % FRAME_WIDTH, pixel / FRAME_WIDTH, value < 4 ? "channel " : "samples",
+             value < 4 ? "RGBA"[value] : ' ', found, expected);
     (void)s;
 }
 

@@ -72,8 +72,7 @@ static bool still_camera(struct frames *shot, struct bench *bench, struct selfte
     bool ok = true;
     for (int n = 1; ok && n <= frames; n++) {
         wall(&bench->frame, (uint32_t)n);
-        ok = frames_run(shot, &bench->frame, err) &&
-             frames_read(shot, "reflection_half", bench->color, err);
+        ok = frames_run(shot, &bench->frame, err) && frames_read(shot, "reflection_half", bench->color, err);
         if (ok) bench->one[n - 1] = statistic_of(bench->color);
         ok = ok && frames_read(shot, "reflection_temporal", bench->color, err);
         if (ok) bench->mean[n - 1] = statistic_of(bench->color);
@@ -100,8 +99,7 @@ static bool frame_numbers(struct frames *frames, struct bench *bench, struct sel
     bool ok = true;
     for (int n = 0; ok && n < 4; n++) {
         wall(&bench->frame, numbers[n]);
-        ok = frames_run(frames, &bench->frame, err) &&
-             frames_read(frames, "reflection_half", bench->others[n], err);
+        ok = frames_run(frames, &bench->frame, err) && frames_read(frames, "reflection_half", bench->others[n], err);
         if (ok) each[n] = statistic_of(bench->others[n]);
     }
     for (int a = 0; ok && a < 4; a++)
@@ -191,8 +189,8 @@ static bool cut_leaves_no_trace(const struct selftest *test, struct selftest_fin
         ok = follow(test, pipeline, cut, false, &in_shot, err) && follow(test, pipeline, cut, true, &alone, err);
         int differing = 0;
         for (int i = 0; ok && i < IMAGES; i++)
-            differing += in_shot.bytes[i] != alone.bytes[i] ||
-                         memcmp(in_shot.values[i], alone.values[i], alone.bytes[i]) != 0;
+            differing +=
+                in_shot.bytes[i] != alone.bytes[i] || memcmp(in_shot.values[i], alone.values[i], alone.bytes[i]) != 0;
         const int expected = cut ? 0 : IMAGES;
         if (ok)
             found(finding, abs(differing - expected), alone.bytes[IMAGES - 1] / sizeof(float),

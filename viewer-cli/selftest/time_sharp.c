@@ -47,7 +47,8 @@ static void hold_by(const struct frame *frame, size_t pixel, double color[4], do
             if (!isfinite((double)frame->color[0][there])) continue;
             count += pass == 0;
             for (int k = 0; k < 4 && pass == 0; k++) sum[k] += (double)frame->color[k][there];
-            for (int k = 0; k < 4 && pass == 1; k++) squares[k] += pow((double)frame->color[k][there] - sum[k] / count, 2);
+            for (int k = 0; k < 4 && pass == 1; k++)
+                squares[k] += pow((double)frame->color[k][there] - sum[k] / count, 2);
         }
     for (int k = 0; k < 4 && open > 1e-6 && count > 0; k++) {
         const double reach = window / open * sqrt(squares[k] / count), mean = sum[k] / count;

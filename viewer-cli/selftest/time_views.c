@@ -134,7 +134,8 @@ static void jittered(struct frame *frame, int n) {
     }
 }
 
-#define PLACES "places are rounded by 1e-5 of a pixel in either direction, between colours that are 2 apart, and samples 15"
+#define PLACES                                                                                                         \
+    "places are rounded by 1e-5 of a pixel in either direction, between colours that are 2 apart, and samples 15"
 #define ALONE "temporal.extra=false"
 #define CAMERAS "temporal.motion=false"
 #define TURNS "temporal.divergence=1e6"
