@@ -133,6 +133,7 @@ void glint_capture_close(struct glint_capture **capture) {
     for (size_t i = 0; i < (*capture)->sibling_count; i++) glint_exr_close(&(*capture)->siblings[i].exr);
     glint_exr_close(&(*capture)->exr);
     glint_arena_finish(&(*capture)->arena);
+    free((*capture)->perturbation.only);
     free(*capture);
     *capture = NULL;
 }

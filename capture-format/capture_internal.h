@@ -4,6 +4,7 @@
 
 #include "exr_internal.h"
 #include "part.h"
+#include "perturb.h"
 
 /* Another file in the capture's folder that holds pixels of its cube maps. */
 struct glint_sibling {
@@ -28,6 +29,7 @@ struct glint_capture {
     size_t sibling_count;
     struct glint_frame frame;
     bool has_frame;
+    struct glint_perturbation perturbation; /* of what glint_capture_read returns */
 };
 
 /* The reader's open, and validate's: the check decides whether a broken rule ends it. */

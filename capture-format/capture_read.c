@@ -24,6 +24,9 @@ struct job {
     size_t count;
     enum glint_type type;
     uint8_t *out;
+    struct glint_precision precision[GLINT_EXR_MAX_WANTED]; /* of the planes that are perturbed */
+    uint64_t key[GLINT_EXR_MAX_WANTED];
+    bool moves[GLINT_EXR_MAX_WANTED];
 };
 
 /* The index of a file channel among those to read; adds it once. -1 when the part has none or there is no room. */
@@ -101,7 +104,7 @@ static bool put_as_stored(const struct job *job, const struct output *from, cons
         return true;
     }
     const bool half = job->stored[from->plane[0]] == GLINT_STORED_HALF;
-    if (from->decoding != AS_STORED || half != (job->type == GLINT_F16)) return false;
+    if (from->decoding != AS_STORED || job->moves[from->plane[0]] || half != (job->type == GLINT_F16)) return false;
     if (half)
         for (size_t i = 0; i < count; i++) memcpy(out + 2 * i * job->count, in + 2 * i, 2);
     else
@@ -115,17 +118,21 @@ struct block {
     bool has_normal;
 };
 
-static void load(const struct job *job, const uint8_t *const *planes, size_t line, uint32_t x, size_t count, int plane,
-                 float *out) {
-    const uint8_t *in = planes[plane] + line + x * glint_stored_bytes(job->stored[plane]);
+/* `pixel` is the first one's number. */
+static void load(const struct job *job, const uint8_t *in, uint64_t pixel, size_t count, int plane, float *out) {
     glint_decode_widen(job->stored[plane], in, count, out);
+    if (job->moves[plane]) glint_perturb(&job->precision[plane], job->key[plane], pixel, out, count);
 }
 
 static const float *normal_of(const struct job *job, const struct output *from, const uint8_t *const *planes,
-                              size_t line, uint32_t x, size_t count, struct block *block) {
+                              size_t line, uint32_t x, uint64_t pixel, size_t count, struct block *block) {
     if (!block->has_normal || memcmp(block->normal, from->plane, sizeof block->normal)) {
-        for (int axis = 0; axis < 3; axis++)
-            if (from->plane[axis] >= 0) load(job, planes, line, x, count, from->plane[axis], block->values[axis]);
+        for (int axis = 0; axis < 3; axis++) {
+            const int plane = from->plane[axis];
+            if (plane >= 0)
+                load(job, planes[plane] + line + x * glint_stored_bytes(job->stored[plane]), pixel, count, plane,
+                     block->values[axis]);
+        }
         float *const n[3] = {block->values[0], block->values[1], block->values[2]};
         glint_decode_normal(&job->decoder, from->normal, n, NULL, count);
         memcpy(block->normal, from->plane, sizeof block->normal);
@@ -134,14 +141,27 @@ static const float *normal_of(const struct job *job, const struct output *from, 
     return block->values[from->axis];
 }
 
-static void decode(const struct job *job, const struct output *from, const uint8_t *in, float *v, size_t count) {
+/* Packed values are whole numbers, of which half a step is a half; they are decoded by a straight line. */
+static void decode_packed(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,
+                          size_t count) {
     uint32_t words[GLINT_BLOCK];
+    const uint32_t ends[2] = {0, 1};
+    float line[2];
+    memcpy(words, in, count * 4);
+    glint_decode_motion_packed(&job->decoder, from->axis, words, v, count);
+    if (!job->moves[from->plane[0]]) return;
+    glint_decode_motion_packed(&job->decoder, from->axis, ends, line, 2);
+    for (size_t i = 0; i < count; i++)
+        v[i] += (float)(0.5 * glint_perturbation_sign(job->key[from->plane[0]], pixel + i)) * (line[1] - line[0]);
+}
+
+static void decode(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,
+                   size_t count) {
     if (from->decoding == PACKED) {
-        memcpy(words, in, count * 4);
-        glint_decode_motion_packed(&job->decoder, from->axis, words, v, count);
+        decode_packed(job, from, in, pixel, v, count);
         return;
     }
-    glint_decode_widen(job->stored[from->plane[0]], in, count, v);
+    load(job, in, pixel, count, from->plane[0], v);
     switch (from->decoding) {
     case LENGTH:
         glint_decode_length(&job->decoder, v, count);
@@ -176,23 +196,38 @@ static bool decode_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *c
     for (uint32_t l = 0; l < lines; l++)
         for (uint32_t x = 0; x < width; x += GLINT_BLOCK) {
             const size_t count = width - x < GLINT_BLOCK ? width - x : GLINT_BLOCK, line = l * line_bytes;
+            const uint64_t pixel = (uint64_t)(y + l) * width + x;
             block.has_normal = false;
             for (size_t i = 0; i < job->count; i++) {
                 const struct output *from = &job->outputs[i];
-                uint8_t *out = job->out + (((size_t)(y + l) * width + x) * job->count + i) * bytes;
+                uint8_t *out = job->out + (pixel * job->count + i) * bytes;
                 const uint8_t *in = from->plane[0] < 0 ? NULL
                                                        : planes[from->plane[0]] + line +
                                                              x * glint_stored_bytes(job->stored[from->plane[0]]);
                 if (put_as_stored(job, from, in, count, out)) continue;
                 if (from->decoding == NORMAL) {
-                    put(job, normal_of(job, from, planes, line, x, count, &block), count, out);
+                    put(job, normal_of(job, from, planes, line, x, pixel, count, &block), count, out);
                 } else {
-                    decode(job, from, in, values, count);
+                    decode(job, from, in, pixel, values, count);
                     put(job, values, count, out);
                 }
             }
         }
     return true;
+}
+
+/* What is perturbed of the planes. Depth that stands for sky is at an end of the range of its encoding. */
+static void plan_perturbation(const struct glint_capture *capture, const struct glint_part_info *part,
+                              const struct glint_exr_part_info *file, struct job *job) {
+    const struct glint_perturbation *p = &capture->perturbation;
+    for (size_t i = 0; p->seed && i < job->planes; i++) {
+        const int at = glint_exr_channel(file, job->names[i]);
+        const struct glint_role_channel *row = glint_role_channel_find(part->role, job->names[i]);
+        job->moves[i] = glint_perturbation_moves(p, part, job->names[i]);
+        job->key[i] = glint_perturbation_key(p, part, job->names[i]);
+        job->precision[i] = glint_precision_of(part->channels[at].storage, job->names[i], job->stored[i]);
+        if (row && !strcmp(row->encoding, "depth")) glint_precision_of_depth(&job->precision[i], &job->decoder);
+    }
 }
 
 /* ---- the calls ---- */
@@ -241,6 +276,7 @@ bool glint_capture_read(struct glint_capture *capture, const struct glint_part_i
         memset(out, 0, (size_t)part->width * part->height * count * (type == GLINT_F16 ? 2 : 4));
         return true;
     }
+    plan_perturbation(capture, part, file, &job);
     return glint_exr_rows(source->exr, source->part, job.names, job.planes, threads, decode_rows, &job, err);
 }
 

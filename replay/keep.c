@@ -63,8 +63,8 @@ void run_adopt(struct run *run, size_t i, struct image *image) {
     image->used_at = run->replay->runs;
     image->kept = wanted->kept;
     image->lineage = run->options->lineage;
-    image->listed =
-        (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE || wanted->wanted;
+    image->listed = (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE ||
+                    wanted->wanted || (wanted->source == SOURCE_CAPTURE && run->options->captured);
     for (uint32_t l = 0; l < image->desc.levels; l++) {
         image->levels[l].info.row = wanted->row;
         image->levels[l].info.pass = wanted->pass;

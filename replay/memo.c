@@ -68,6 +68,7 @@ static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct g
     if (image->source == SOURCE_CAPTURE && image->row->size == GLINT_SIZE_SKY) return sky_key(run, image, key, err);
     if (image->source != SOURCE_CAPTURE || !size_is_array(image->row->size) || !sibling_key(run, key))
         *key = run->content[0] ? mix_text(*key, run->content) : mix_number(*key, run->replay->serial);
+    *key = mix_number(*key, glint_capture_perturbed(run->replay->capture));
     return true;
 }
 

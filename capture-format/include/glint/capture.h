@@ -287,6 +287,17 @@ bool glint_capture_read_raw(struct glint_capture *capture, const struct glint_pa
                             const char *const *channels, size_t count, enum glint_type type, void *out,
                             uint32_t threads, struct glint_error *err);
 
+/* From now on glint_capture_read returns values that the engine may as well have had in mind: before they are decoded, each
+   moves by half a step of its channel's declared storage format, up or down as `seed` draws it for each pixel and
+   channel; 0: as they are stored. What engines write on purpose stays: 0, the ends of a fixed-point range, sky. A value of
+   float moves by a whole step or not at all, as half of one rounds. `only`: NULL for all, or a NULL-terminated list of
+   parts or roles ("lit", "cubemap"), with a channel or a layer of theirs ("gbuffer:normal"); one that the capture lacks
+   is an error. Ids and raw reads never move. */
+bool glint_capture_perturb(struct glint_capture *capture, uint32_t seed, const char *const *only,
+                           struct glint_error *err);
+/* A number that tells such perturbations apart; 0 without one. */
+uint64_t glint_capture_perturbed(const struct glint_capture *capture);
+
 /* Checks every rule of FORMAT.md; pixels when the headers keep theirs, for what they mean depends on those. Calls
    `report` once for each rule and channel that is broken, on the calling thread; false on an I/O, memory or limit failure
    only. *violations receives the count. Takes a file of cube maps only, too. */

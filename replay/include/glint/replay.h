@@ -91,11 +91,12 @@ struct glint_replay_options {
     const char *history;
     const char *const *skip, *const *force; /* slots, NULL-terminated */
     bool all;                               /* no pass is dropped for having nothing to do */
-    bool diagnostics;                       /* end reasons, steps, fetches; changes no bit of the other images */
-    bool float_precision;                   /* every half image as float */
-    uint32_t repeat;                        /* timed rounds after a warm-up; 0: one round, first use included */
-    uint32_t warmup;                        /* rounds before the timed ones; 0: 1 */
-    bool no_cache;                          /* run every pass although nothing changed */
+    bool captured;        /* images that are read from the capture are among the run's, with no pass */
+    bool diagnostics;     /* end reasons, steps, fetches; changes no bit of the other images */
+    bool float_precision; /* every half image as float */
+    uint32_t repeat;      /* timed rounds after a warm-up; 0: one round, first use included */
+    uint32_t warmup;      /* rounds before the timed ones; 0: 1 */
+    bool no_cache;        /* run every pass although nothing changed */
     /* Not 0: a pass runs, although nothing changed, unless it did in a run of this round. Pipelines that take turns share
        the work of one round, and every round measures it anew. */
     uint32_t round;

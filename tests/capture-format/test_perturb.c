@@ -1,0 +1,177 @@
+/* Perturbed reads: how far values move, by each way to name a storage format, and what stays. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "fixture.h"
+
+enum { PIXELS = FIX_W * FIX_H };
+static struct fixture fixture;
+static char path[512];
+
+/* The smallest capture, with `values` and their storage in one channel of the G-buffer. */
+static struct glint_capture *capture_with(const char *channel, const float *values, const char *storage,
+                                          struct glint_encodings encodings) {
+    struct glint_error err = {0};
+    const struct glint_frame frame = fixture_frame();
+    struct glint_writer *writer = glint_writer_create(fixture_path(path, "perturb.exr"), NULL, &err);
+    assert_non_null(writer);
+    assert_true(glint_writer_set_frame(writer, &frame, &err));
+    for (int p = 0; p <= FIXTURE_LIT; p++) {
+        struct fixture_channels channels;
+        struct glint_part part = fixture_part(&fixture, (enum fixture_part)p, &channels);
+        if (p == FIXTURE_GBUFFER) part.encodings = encodings;
+        for (size_t c = 0; c < part.channel_count; c++)
+            if (!strcmp(channels.all[c].name, channel))
+                channels.all[c] =
+                    (struct glint_channel){.name = channel, .type = GLINT_F32, .data = values, .storage = storage};
+        if (!glint_writer_add_part(writer, &part, &err)) fail_msg("%s", err.message);
+    }
+    if (!glint_writer_finish(writer, &err)) fail_msg("%s", err.message);
+    glint_writer_destroy(&writer);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    if (!capture) fail_msg("%s", err.message);
+    return capture;
+}
+
+static void read_moved(struct glint_capture *capture, const char *channel, uint32_t seed, const char *const *only,
+                       float *out) {
+    struct glint_error err = {0};
+    if (!glint_capture_perturb(capture, seed, only, &err)) fail_msg("%s", err.message);
+    if (!glint_capture_read(capture, glint_capture_find(capture, "gbuffer"), &channel, 1, GLINT_F32, out, 1, &err))
+        fail_msg("%s", err.message);
+}
+
+static void finish(struct glint_capture *capture) {
+    glint_capture_close(&capture);
+    unlink(path);
+}
+
+/* Half of the distance between floats with so many bits behind the leading one. */
+static double half_of(double v, int digits) {
+    return ldexp(1, (int)floor(log2(v)) - digits - 1);
+}
+
+/* Catches: a format's name that is read for another's, steps of another size, coins that always fall alike. */
+static void values_move_by_half_a_step(void **state) {
+    static const struct {
+        const char *storage;
+        int digits; /* of floating formats; 0: fixed with `steps` */
+        double steps;
+    } formats[] = {
+        {"unorm8", 0, 255},
+        {"R8", 0, 255},
+        {"RGBA8", 0, 255},
+        {"R8G8B8A8_UNORM", 0, 255},
+        {"VK_FORMAT_R16_UNORM", 0, 65535},
+        {"DXGI_FORMAT_R16G16_SNORM", 0, 32767},
+        {"snorm8", 0, 127},
+        {"R10G10B10A2", 0, 1023},
+        {"D24S8", 0, 16777215},
+        {"D16", 0, 65535},
+        {"R11G11B10", 6, 0},
+        {"RG16F", 10, 0},
+        {"half", 10, 0},
+        {"VK_FORMAT_R16G16B16A16_SFLOAT", 10, 0},
+    };
+    static float values[PIXELS], moved[PIXELS], again[PIXELS], other[PIXELS];
+    (void)state;
+    for (size_t i = 0; i < PIXELS; i++) values[i] = 0.1F + 0.85F * (float)fixture_noise((uint32_t)i, 5);
+    values[0] = 0;
+    values[1] = 1;
+    for (size_t f = 0; f < sizeof formats / sizeof *formats; f++) {
+        struct glint_capture *capture =
+            capture_with("material.metalness", values, formats[f].storage, (struct glint_encodings){0});
+        size_t up = 0, differ = 0;
+        read_moved(capture, "material.metalness", 7, NULL, moved);
+        read_moved(capture, "material.metalness", 8, NULL, other);
+        read_moved(capture, "material.metalness", 7, NULL, again);
+        assert_memory_equal(moved, again, sizeof moved);
+        assert_true(moved[0] == 0 && (formats[f].digits || moved[1] == 1));
+        for (size_t i = 2; i < PIXELS; i++) {
+            const double v = (double)values[i], by = (double)moved[i] - v;
+            const double step = formats[f].digits ? half_of(v, formats[f].digits) : 0.5 / formats[f].steps;
+            if (fabs(fabs(by) - step) > ldexp(1, -24)) /* the moved value is a float */
+                fail_msg("%s: %.9g moved by %.9g, half a step is %.9g", formats[f].storage, v, by, step);
+            up += by > 0;
+            differ += moved[i] != other[i];
+        }
+        /* Five standard deviations of coins. */
+        assert_true(fabs((double)up - PIXELS / 2.0) < 2.5 * sqrt(PIXELS));
+        assert_true(fabs((double)differ - PIXELS / 2.0) < 2.5 * sqrt(PIXELS));
+        read_moved(capture, "material.metalness", 0, NULL, moved);
+        assert_memory_equal(moved, values, sizeof moved);
+        finish(capture);
+    }
+}
+
+/* t² / |B| · h, whether the buffer was decoded before or is by the reader; sky stays. */
+static void depth_moves_as_its_buffer_does(void **state) {
+    static float device[PIXELS], linear[PIXELS], moved[2][PIXELS], before[2][PIXELS];
+    const double *m = fixture_frame().camera.view_to_clip, unit = fixture_frame().metres_per_unit;
+    const double scale = unit > 0 ? unit : 1;
+    (void)state;
+    for (size_t i = 0; i < PIXELS; i++) {
+        const double t = 1 + 20 * fixture_noise((uint32_t)i, 9);
+        device[i] = (float)(m[10] * m[14] + m[11] / t);
+        linear[i] = (float)t;
+    }
+    device[3] = 1;
+    linear[3] = INFINITY;
+    for (int k = 0; k < 2; k++) {
+        struct glint_capture *capture =
+            capture_with("depth.Z", k ? linear : device, "D16",
+                         (struct glint_encodings){.depth = k ? GLINT_DEPTH_VIEW_LINEAR : GLINT_DEPTH_DEVICE});
+        read_moved(capture, "depth.Z", 0, NULL, before[k]);
+        read_moved(capture, "depth.Z", 5, NULL, moved[k]);
+        for (size_t i = 0; i < PIXELS; i++) {
+            const double t = (double)before[k][i], by = fabs((double)moved[k][i] - t);
+            if (i == 3) assert_true(isinf(moved[k][i]));
+            /* To first order; half a step of 16 bits is up to t/B · 8e-6 of it. */
+            else assert_true(fabs(by / (t * t / scale / fabs(m[11]) * 0.5 / 65535) - 1) < 0.01);
+        }
+        finish(capture);
+    }
+}
+
+static void only_what_is_named_moves(void **state) {
+    static float values[PIXELS], moved[PIXELS], normal[PIXELS], normal_moved[PIXELS];
+    struct glint_error err = {0};
+    (void)state;
+    for (size_t i = 0; i < PIXELS; i++) values[i] = 0.3F;
+    struct glint_capture *capture = capture_with("material.metalness", values, "R8", (struct glint_encodings){0});
+    read_moved(capture, "normal.X", 0, NULL, normal);
+    assert_int_equal(glint_capture_perturbed(capture), 0);
+    read_moved(capture, "material.metalness", 3, (const char *const[]){"lit", "gbuffer:normal", NULL}, moved);
+    read_moved(capture, "normal.X", 3, (const char *const[]){"lit", "gbuffer:normal", NULL}, normal_moved);
+    assert_memory_equal(values, moved, sizeof values);
+    assert_memory_not_equal(normal, normal_moved, sizeof normal);
+    const uint64_t some = glint_capture_perturbed(capture);
+    read_moved(capture, "material.metalness", 3, (const char *const[]){"gbuffer:material.metalness", NULL}, moved);
+    assert_true(some && some != glint_capture_perturbed(capture));
+    assert_memory_not_equal(values, moved, sizeof values);
+    assert_true(glint_capture_read_raw(capture, glint_capture_find(capture, "gbuffer"),
+                                       (const char *const[]){"material.metalness"}, 1, GLINT_F32, moved, 1, &err));
+    assert_memory_equal(values, moved, sizeof values);
+    assert_false(glint_capture_perturb(capture, 3, (const char *const[]){"gbuffer:norm", NULL}, &err));
+    assert_non_null(strstr(err.message, "found \"gbuffer:norm\""));
+    assert_int_equal(glint_capture_perturbed(capture), 0);
+    finish(capture);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_move_by_half_a_step),
+        cmocka_unit_test(depth_moves_as_its_buffer_does),
+        cmocka_unit_test(only_what_is_named_moves),
+    };
+    fixture_init(&fixture);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,192 @@
+/* glint stability: how far the rounding of a capture's values moves each pixel, and in which pass that begins. */
+#include "pipe.h"
+#include "pipeline_args.h"
+#include "progress.h"
+#include "stability.h"
+
+struct arguments {
+    struct pipeline_args pipeline;
+    struct list inputs;
+    struct glint_stability_options options;
+    const char *capture, *out, *device;
+    double fail_above, fail_percent;
+    bool fails, json;
+};
+
+enum { KEY_SEEDS = 256, KEY_PERTURB, KEY_BOUND, KEY_FAIL_ABOVE, KEY_FAIL_PERCENT, KEY_PRECISION };
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",  'o',         "FOLDER",        0, "Keep what was found: layers for each pass (glint view shows them), stability.json, and a sheet, stability.png", 0},
+    {"seeds",   KEY_SEEDS,   "N",             0, "Perturbed replays (default 8)", 0},
+    {"perturb", KEY_PERTURB, "PART[:CHANNEL],...", 0, "Move only these values: gbuffer:depth, gbuffer:normal, lit, cubemap:distance … (default: all)", 0},
+    {"precision", KEY_PRECISION, "half|float", 0, "float (default): every image in float, so that storage is not mistaken for arithmetic; half: images in their own formats", 0},
+    {"bound",   KEY_BOUND,   "X",             0, "Amplification above X is ill-conditioned (default 10, or what --fail-above says)", 0},
+    {"fail-above", KEY_FAIL_ABOVE, "X",       0, "Exit with 1 when the amplification of a pixel is above X in any pass", 0},
+    {"fail-percent", KEY_FAIL_PERCENT, "P",   0, "With --fail-above: when that holds for more than P per cent of a pass's pixels (default 0)", 0},
+    {"preset",  'p',         "NAME|FILE",     0, "The pipeline: a preset's name or a JSON file (default mafia3)", 0},
+    {"use",     KEY_USE,     "SLOT=VARIANT",  0, "Use this variant of a slot; none leaves the slot out", 0},
+    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter; glint passes SLOT lists them", 0},
+    {"shader",  KEY_SHADER,  "SLOT=FILE",     0, "Compile the slot's shader from this file instead", 0},
+    {"all",     KEY_ALL,     NULL,            0, "Run every pass, even one that has nothing to do", 0},
+    {"skip",    KEY_SKIP,    "SLOT,...",      0, "Never run these", 0},
+    {"device",  'd',         "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"json",    'j',         NULL,            0, "Print JSON", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint stability street.exr", "how stable is this frame, and which pass makes it less so?"},
+    {"glint stability street.exr -o stable", "with pictures: stable/stability.png"},
+    {"glint view stable --image travelled -o worst.png", "the amplification of one image, large"},
+    {"glint stability street.exr --perturb gbuffer:depth", "what the depth buffer's precision does alone"},
+    {"glint stability street.exr --fail-above 1000 --fail-percent 0.1",
+     "a check for a script: exit 1 when more than one pixel in a thousand is worse"},
+    {0},
+};
+
+extern const struct command cmd_stability;
+
+static double positive(const char *option, const char *text, struct argp_state *state) {
+    double value;
+    arg_numbers(option, text, &value, 1, state);
+    if (!(value >= 0)) argp_error(state, "--%s %s: expected a number that is not negative", option, text);
+    return value;
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    static const char *const precisions[] = {"half", "float", NULL};
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case 'd':
+        a->device = arg;
+        return 0;
+    case KEY_SEEDS:
+        a->options.seeds = arg_uint("seeds", arg, 1, 255, state);
+        return 0;
+    case KEY_PERTURB:
+        list_split(&a->inputs, arg, state);
+        return 0;
+    case KEY_PRECISION:
+        a->options.half = arg_choice("precision", arg, precisions, state) == 0;
+        return 0;
+    case KEY_BOUND:
+        a->options.bound = positive("bound", arg, state);
+        return 0;
+    case KEY_FAIL_ABOVE:
+        a->fails = true;
+        a->fail_above = positive("fail-above", arg, state);
+        return 0;
+    case KEY_FAIL_PERCENT:
+        a->fail_percent = positive("fail-percent", arg, state);
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->capture) argp_error(state, "one capture at a time; %s is the second", arg);
+        a->capture = arg;
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->capture) argp_error(state, "which capture?");
+        if (a->fails && a->options.bound > 0) argp_error(state, "--bound and --fail-above are the same bound");
+        if (a->fails) a->options.bound = a->fail_above;
+        return 0;
+    }
+    return pipeline_args_parse(key, arg, state, &a->pipeline);
+}
+
+/* Which pass fails the check, said on stderr. */
+static enum status check(const struct arguments *a, const struct glint_stability *s) {
+    enum status status = STATUS_DONE;
+    for (size_t i = 0; a->fails && i < s->pass_count; i++) {
+        const struct glint_stability_summary *found = &s->passes[i].summary;
+        const double percent = found->compared ? 100 * (double)found->above / (double)found->compared : 0;
+        if (percent <= a->fail_percent) continue;
+        command_note(&cmd_stability, "%s: %.4g %% of the pixels are above %g, the worst at %.4g",
+                     s->passes[i].pass->slot, percent, s->bound, found->largest);
+        status = STATUS_CHECK;
+    }
+    return status;
+}
+
+static enum status report(const struct arguments *a, const struct stability_report *found) {
+    struct glint_error err = {0};
+    enum status status = STATUS_DONE;
+    if (a->out && !stability_write(a->out, found, &err)) return command_fail(&cmd_stability, &err);
+    if (a->json) status = print_json(stability_json(found));
+    else stability_print(found);
+    return status != STATUS_DONE ? status : check(a, found->stability);
+}
+
+static enum status measure(struct arguments *a, struct glint_device *device, const struct glint_pipeline *pipeline,
+                           const char *path, struct glint_error *err) {
+    struct glint_stability stability = {0};
+    struct progress progress;
+    struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    struct glint_replay *replay = capture ? glint_replay_create(device, err) : NULL;
+    a->options.inputs = list_or_null(&a->inputs);
+    a->options.all = a->pipeline.replay.all;
+    a->options.skip = list_or_null(&a->pipeline.skip);
+    progress_begin(&progress);
+    const bool ok = replay && glint_stability_measure(replay, capture, pipeline, &a->options, progress_report,
+                                                      &progress, &stability, err);
+    progress_end(&progress);
+    const struct stability_report found = {.stability = &stability,
+                                           .capture = a->capture,
+                                           .preset = glint_pipeline_name(pipeline),
+                                           .device = glint_device_get_info(device)->name,
+                                           .inputs = a->options.inputs,
+                                           .half = a->options.half};
+    const enum status status = ok ? report(a, &found) : command_fail(&cmd_stability, err);
+    glint_stability_finish(&stability);
+    if (replay) glint_replay_destroy(&replay);
+    glint_capture_close(&capture);
+    return status;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    struct glint_error err = {0};
+    struct pipe pipe;
+    command_parse(&cmd_stability, argc, argv, &a);
+    const struct glint_device_options select = {.select = a.device};
+    const char *path = pipe_input(&pipe, a.capture, &err);
+    struct glint_pipeline *pipeline = path ? pipeline_args_create(&a.pipeline, &err) : NULL;
+    struct glint_device *device = pipeline ? glint_device_create(&select, &err) : NULL;
+    const enum status status = device ? measure(&a, device, pipeline, path, &err) : command_fail(&cmd_stability, &err);
+    if (device) glint_device_destroy(&device);
+    if (pipeline) glint_pipeline_destroy(&pipeline);
+    pipe_finish(&pipe);
+    pipeline_args_finish(&a.pipeline);
+    list_free(&a.inputs);
+    return status;
+}
+
+const struct command cmd_stability = {
+    .name = "stability",
+    .arguments = "F [-o FOLDER]",
+    .summary = "how far the rounding of a capture's values moves each pixel, and in which pass that begins",
+    .description =
+        "Replays the capture as it is, and again with values that the engine may as well have had in mind: each is "
+        "moved "
+        "by half a step of its declared storage format, up or down at random. The relative change of a pixel is the "
+        "root "
+        "mean square, over these replays, of what it changes by: over its size for lengths and radiance (at least a "
+        "hundredth of the image's mean), as it is for everything else. The amplification of a pass is that over the "
+        "root "
+        "of the sum of squares of the relative changes, in the same place, of all that the pass depends on in the "
+        "capture "
+        "(of cube maps: over all their texels). Replays in which a pixel decides otherwise (why a ray ended, which "
+        "cube "
+        "map, which pixel was picked; for filters within 8 pixels) are counted as flips, and are in no change. Also "
+        "says "
+        "how far each image's largest value is from 65504, where half floats end. docs/stability.md has the details.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};
