@@ -14,6 +14,7 @@
 /* clang-format off */
 static const struct selftest_group *const groups[] = {
     &selftest_functions,
+    &selftest_geometry,
     &selftest_numbers,
     &selftest_garbage,
     &selftest_time,
@@ -135,7 +136,8 @@ static void for_each(const struct chosen *chosen, visit visit, void *user) {
     for (size_t g = 0; g < GROUPS; g++)
         for (size_t i = 0, count = groups[g]->count(); i < count; i++) {
             const struct selftest_case c = groups[g]->get(i);
-            if (chosen->cases[g][i]) visit(user, groups[g], &c, &chosen->findings[g][i]);
+            if (chosen->cases[g][i] && !chosen->findings[g][i].left_out)
+                visit(user, groups[g], &c, &chosen->findings[g][i]);
         }
 }
 
@@ -157,12 +159,13 @@ static void result_row(void *user, const struct selftest_group *group, const str
     table_cell(user, "%s", number_text(c->bound));
     table_cell(user, "%s", c->bound > 0 ? c->unit : "exact");
     table_cell(user, "%s", passes(c, finding) ? "pass" : "FAIL");
+    table_cell(user, finding->ties ? "%zu" : "%.0zu", finding->ties);
     table_cell(user, "%s", finding->worst > 0 ? finding->at : "");
 }
 
 static void print_table(const struct chosen *chosen, bool list) {
     static const char *const listed[] = {"<group", "<case", ">bound", "<", "<what", NULL};
-    static const char *const found[] = {"<case", ">worst", ">bound", "<", "<", "<worst at", NULL};
+    static const char *const found[] = {"<case", ">worst", ">bound", "<", "<", ">ties", "<worst at", NULL};
     struct table *table = table_create(list ? listed : found);
     for_each(chosen, list ? list_row : result_row, table);
     table_print(table, stdout);
@@ -172,12 +175,13 @@ static void print_table(const struct chosen *chosen, bool list) {
 struct report {
     bool list;
     json_t *cases;
-    size_t failed;
+    size_t count, failed;
 };
 
 static void add_case(void *user, const struct selftest_group *group, const struct selftest_case *c,
                      const struct selftest_finding *finding) {
     struct report *report = user;
+    report->count++;
     report->failed += !report->list && !passes(c, finding);
     if (!report->cases) return;
     json_t *object = json_pack("{s:s, s:s, s:s, s:s, s:f, s:s}", "group", group->name, "name", c->name, "what", c->what,
@@ -187,6 +191,7 @@ static void add_case(void *user, const struct selftest_group *group, const struc
         json_object_set_new(object, "pass", json_boolean(passes(c, finding)));
         json_object_set_new(object, "worst", json_number(finding->worst)); /* null: infinite */
         json_object_set_new(object, "values", json_integer((json_int_t)finding->values));
+        json_object_set_new(object, "ties", json_integer((json_int_t)finding->ties));
         if (finding->worst > 0) json_object_set_new(object, "worst_at", json_string(finding->at));
     }
     json_array_append_new(report->cases, object);
@@ -245,7 +250,7 @@ static enum status say(const struct arguments *a, const struct chosen *chosen, c
     }
     print_table(chosen, a->list);
     if (device)
-        printf("\n%s: %zu cases, %zu failed, %s\n", device->name, chosen->count, report.failed, time_text(seconds));
+        printf("\n%s: %zu cases, %zu failed, %s\n", device->name, report.count, report.failed, time_text(seconds));
     return report.failed ? STATUS_CHECK : STATUS_DONE;
 }
 

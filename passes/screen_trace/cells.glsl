@@ -84,7 +84,7 @@ bool joined(CellRay ray, float s, vec2 cell, float inverse, vec2 slopes, vec2 be
 }
 
 // What a ray has gone hidden behind surfaces, without a break of more than the texels that a stippled surface leaves out.
-const float STIPPLE = 4.5; // texels; no whole number, which rays along an axis would meet
+const float STIPPLE = 4.25; // texels; no whole number, which rays along an axis would meet, and no half one, from their start
 struct Hidden {
     float s_first, s_last;
 };

@@ -14,7 +14,7 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     vec3 view = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);
     precise vec3 direction = mirror_direction(view, mat3(frame.view_from_world) * normal);
     if (length_m <= 0.0) return Result(0.0, false, END_steps_exhausted, 0u, 0u);
-    if (dot(direction, -normalize(view)) > viewer_limit) return Result(0.0, false, END_faced_viewer, 0u, 0u);
+    if (viewer_limit < 1.0 && dot(direction, -normalize(view)) > viewer_limit) return Result(0.0, false, END_faced_viewer, 0u, 0u);
     ScreenRay ray = screen_ray(start, view, direction);
     float scale = reduction(frame.size);
     vec2 size = vec2(frame.size.zw);

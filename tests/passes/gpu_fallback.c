@@ -10,14 +10,9 @@
 #include <cmocka.h>
 
 #include "cocoon_walk.h"
+#include "ends.h"
 #include "gpu.h"
 #include "plain_capture.h"
-
-enum {
-#define REASON(name, ...) END_##name,
-#include "shared/end_reasons.h"
-#undef REASON
-};
 
 static const double radius = 3.2;
 static void sphere(uint32_t number, const double d[3], float out[5]) {

@@ -10,16 +10,10 @@
 
 #include <cmocka.h>
 
+#include "ends.h"
 #include "gpu.h"
 #include "plain_capture.h"
 #include "walk.h"
-
-/* The values of end reasons, as the diagnostics hold them. */
-enum {
-#define REASON(name, ...) END_##name,
-#include "shared/end_reasons.h"
-#undef REASON
-};
 
 struct traced {
     uint32_t width, height;

@@ -2,16 +2,10 @@
 #ifndef GLINT_TESTS_PASSES_MIRROR_BOX_H
 #define GLINT_TESTS_PASSES_MIRROR_BOX_H
 
+#include "ends.h"
 #include "gpu.h"
 
 extern const double mirror_box[3];
-
-/* The values of end reasons, as the diagnostics hold them. */
-enum {
-#define REASON(name, ...) END_##name,
-#include "shared/end_reasons.h"
-#undef REASON
-};
 
 /* One ray that starts on the mirror floor. */
 struct expected {

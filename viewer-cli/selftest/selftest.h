@@ -14,9 +14,10 @@ struct selftest_case {
 };
 
 struct selftest_finding {
-    double worst; /* error, in the case's unit; +inf for a NaN or a wrong decision */
-    size_t values;
-    char at[320]; /* input, found, expected */
+    double worst;        /* error, in the case's unit; +inf for a NaN or a wrong decision */
+    size_t values, ties; /* ties: decisions that rounding made */
+    char at[320];        /* input, found, expected */
+    bool left_out;       /* too long for a quick run */
 };
 
 struct selftest {
@@ -37,6 +38,7 @@ struct selftest_group {
 };
 
 extern const struct selftest_group selftest_functions;
+extern const struct selftest_group selftest_geometry;
 extern const struct selftest_group selftest_numbers;
 extern const struct selftest_group selftest_garbage;
 extern const struct selftest_group selftest_time;

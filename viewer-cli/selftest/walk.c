@@ -3,6 +3,9 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "ends.h"
+#include "noise.h"
+
 static double dot3(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -25,6 +28,10 @@ void walk_grid_init(struct walk_grid *grid, const struct glint_frame *frame, uin
 
 double walk_texel_angle(const struct walk_grid *grid) {
     return 1 / (fabs(grid->scale[0]) * grid->width);
+}
+
+double walk_rounding(const struct walk_grid *grid, double units, uint32_t number) {
+    return grid->rounding > 0 ? grid->rounding * units * (2 * noise(grid->way, number) - 1) : 0;
 }
 
 static void view_ray(const struct walk_grid *grid, double x, double y, double out[3]) {
@@ -84,10 +91,11 @@ void walk_slopes(const struct walk_grid *grid, uint32_t x, uint32_t y, double sl
         bool have[2] = {at[k] > 0, at[k] + 1 < size[k]};
         for (int i = 0; i < 2; ++i)
             if (have[i])
-                side[i] = (2 * i - 1) * (depth / depth_at(grid, x + (2 * i - 1) * dx, y + (2 * i - 1) * dy) - 1);
+                side[i] = (2 * i - 1) * (depth / depth_at(grid, x + (2 * i - 1) * dx, y + (2 * i - 1) * dy) - 1) +
+                          walk_rounding(grid, 0.3, (y * grid->width + x) * 4 + 2 + (uint32_t)i);
         if (!have[0] && !have[1]) continue;
         for (int i = 0; i < 2; ++i)
-            if (have[i] && fabs(side[i]) <= fabs(flatter)) flatter = side[i];
+            if (have[i] && fabs(side[i]) < fabs(flatter)) flatter = side[i];
         if (along < 0) by_normal = normal[k] / (grid->scale[k] * size[k]) / along;
         slopes[k] = fabs(flatter) <= 2 * fabs(by_normal) + 0.002 ? flatter : by_normal;
         slopes[k] = fmax(-1, fmin(1, slopes[k]));
@@ -109,16 +117,22 @@ static double gap_at(const struct walk_grid *grid, const struct walk_ray *ray, c
                      const double slopes[2], double t) {
     double place[2], depth;
     if (!walk_project(grid, ray, t, place, &depth)) return -1;
+    const double rounding =
+        walk_rounding(grid, cell->rise, (uint32_t)(cell->y * grid->width + cell->x) * 4 + (t != cell->t_in));
     double rise = 1 + slopes[0] * (place[0] - cell->x - 0.5) + slopes[1] * (place[1] - cell->y - 0.5);
-    return depth / cell->depth_m * rise - 1;
+    return depth / cell->depth_m * rise - 1 + rounding;
+}
+
+static double to_near_plane(const struct walk_grid *grid, const struct walk_ray *ray) {
+    const double toward = ray->direction[2] * grid->front;
+    return toward < 0 ? fmax(0, (ray->origin[2] * grid->front - grid->near_m) / -toward) : INFINITY;
 }
 
 double walk(const struct walk_grid *grid, const struct walk_ray *ray, double length_m,
             bool (*visit)(void *user, const struct walk_cell *cell), void *user) {
     int64_t at[2] = {ray->x, ray->y};
     const int64_t size[2] = {grid->width, grid->height};
-    double end = length_m, toward = ray->direction[2] * grid->front;
-    if (toward < 0) end = fmin(end, fmax(0, (ray->origin[2] * grid->front - grid->near_m) / -toward));
+    double end = fmin(length_m, to_near_plane(grid, ray)), toward = ray->direction[2] * grid->front;
     double vanishing[2], drift[2], depth = ray->origin[2] * grid->front;
     for (int k = 0; k < 2; ++k) { /* where the place moves: its derivative's sign does not change along a ray */
         vanishing[k] = ray->direction[k] - ray->origin[k] / depth * toward;
@@ -138,6 +152,8 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
             double slopes[2];
             walk_slopes(grid, cell.x, cell.y, slopes);
             cell.steep = fabs(slopes[0]) + fabs(slopes[1]);
+            cell.rise =
+                1 + fabs(slopes[0]) * fabs((double)cell.x - ray->x) + fabs(slopes[1]) * fabs((double)cell.y - ray->y);
             cell.gap_in = gap_at(grid, ray, &cell, slopes, t);
             cell.gap_out = gap_at(grid, ray, &cell, slopes, out);
         }
@@ -149,7 +165,7 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
     }
 }
 
-const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 0.01, 1, 0.0001, 1e5};
+const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 0.01, 1, 0.0001, 1e5, true};
 
 struct tracing {
     const struct walk_grid *grid;
@@ -158,7 +174,7 @@ struct tracing {
     double t_front, hit;
     double hidden_first, hidden_last;
     double before; /* 1/z of the ray less that of the texel before, where it leaves that */
-    bool found;
+    bool found, blocked;
 };
 
 /* Texels from one place to another on screen, along the axis of more. */
@@ -168,13 +184,6 @@ static double texels_between(const struct tracing *tracing, double from, double 
         !walk_project(tracing->grid, tracing->ray, to, b, &unused))
         return INFINITY;
     return fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1]));
-}
-
-/* Where the ray meets the plane of a texel that it is behind of at both ends: as a part of the way between them,
-   counted on screen, on which 1/z is linear; negative before the texel. */
-static double meeting(const struct walk_cell *cell, double z_in, double z_out) {
-    const double in = -cell->gap_in / z_in, out = -cell->gap_out / z_out; /* 1/z less the plane's */
-    return in / (in - out);
 }
 
 static bool decide(void *user, const struct walk_cell *cell) {
@@ -198,20 +207,52 @@ static bool decide(void *user, const struct walk_cell *cell) {
     const double thick = deep / (1 + deep) / cell->depth_m, reach = rules->seam * texel * (in - out);
     const bool joined = (fabs(in) + fabs(before)) * cell->depth_m <= rules->jump;
     if (out < in && in >= -thick - (joined ? reach : 0)) {
-        const double part = fmax(meeting(cell, z_in, z_out), -rules->seam * texel);
+        const double part = fmax(in / (in - out), -rules->seam * texel);
         const double inverse = (1 - part) / z_in + part / z_out; /* t over z is linear in the place too */
         tracing->hit = fmax(0, ((1 - part) * cell->t_in / z_in + part * cell->t_out / z_out) / inverse);
         tracing->found = true;
         return false;
     }
-    if (texels_between(tracing, tracing->hidden_last, cell->t_in) > 4.5) tracing->hidden_first = cell->t_in;
+    if (texels_between(tracing, tracing->hidden_last, cell->t_in) > 4.25) tracing->hidden_first = cell->t_in;
     tracing->hidden_last = cell->t_out;
-    return z_out - cell->depth_m >= rules->solid * (tracing->hidden_last - tracing->hidden_first);
+    tracing->blocked = !(z_out - cell->depth_m >= rules->solid * (tracing->hidden_last - tracing->hidden_first));
+    return !tracing->blocked;
+}
+
+/* Whether the ray goes on for ever within the picture, to where that shows the sky. */
+static bool ends_in_sky(const struct walk_grid *grid, const struct walk_ray *ray, double end) {
+    const double toward = ray->direction[2] * grid->front, size[2] = {grid->width, grid->height};
+    double place[2], depth, apart = 0, vanishing[2];
+    if (!(toward > 0) || !walk_project(grid, ray, end, place, &depth)) return false;
+    for (int k = 0; k < 2; ++k) {
+        vanishing[k] = size[k] * (ray->direction[k] / toward * grid->scale[k] + grid->shift[k]);
+        apart = hypot(apart, vanishing[k] - place[k]);
+        if (!(vanishing[k] >= 0 && vanishing[k] <= size[k])) return false;
+    }
+    const int64_t x = (int64_t)fmin(fmax(place[0], 0), size[0] - 0.5),
+                  y = (int64_t)fmin(fmax(place[1], 0), size[1] - 0.5);
+    return apart < 1 && !(depth_at(grid, x, y) < 3e38);
+}
+
+uint32_t walk_end(const struct walk_grid *grid, const struct walk_ray *ray, const struct walk_rules *rules, double *t) {
+    struct tracing tracing = {.grid = grid, .ray = ray, .rules = rules};
+    const double near_m = to_near_plane(grid, ray), end = walk(grid, ray, rules->length_m, decide, &tracing);
+    *t = tracing.found ? tracing.hit : tracing.t_front;
+    if (tracing.found) return END_hit;
+    if (tracing.blocked) return END_behind;
+    if (end < fmin(near_m, rules->length_m)) return END_left_screen;
+    if (near_m < rules->length_m) return END_faced_viewer;
+    if (!rules->sky || !ends_in_sky(grid, ray, end)) return END_steps_exhausted;
+    *t = INFINITY;
+    return END_sky;
 }
 
 bool walk_trace(const struct walk_grid *grid, const struct walk_ray *ray, const struct walk_rules *rules, double *t) {
-    struct tracing tracing = {.grid = grid, .ray = ray, .rules = rules};
-    walk(grid, ray, rules->length_m, decide, &tracing);
-    *t = tracing.found ? tracing.hit : tracing.t_front;
-    return tracing.found;
+    return walk_end(grid, ray, rules, t) == END_hit;
+}
+
+struct walk_ray walk_ray_rounded(const struct walk_ray *ray, double by, uint32_t way) {
+    struct walk_ray rounded = *ray;
+    for (uint32_t k = 0; k < 3; ++k) rounded.direction[k] += by * (2 * noise(way, k) - 1);
+    return rounded;
 }

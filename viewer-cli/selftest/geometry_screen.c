@@ -1,0 +1,168 @@
+/* Rays through the depth buffer, every one of a picture against a replay in double precision (walk.h, steps.h) of the depths
+   and normals that the pass read. Where the two part on a decision, the replay is made again with its ray and its gaps rounded
+   in other ways: a decision that one of these makes too was a tie, which is counted; otherwise the case fails. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clutter.h"
+#include "geometry.h"
+#include "stepped.h"
+#include "walk.h"
+
+enum { WIDE = 97, HIGH = 61, WAYS = 24 };
+#define TRACED "downsample=none downsample.jitter=false hiz=nearest screen_trace="
+#define DDA TRACED "dda screen_trace.cells=65536"
+#define HIZ TRACED "hiz screen_trace.cells=65536 screen_trace.cells_lq=65536"
+#define LINEAR TRACED "linear screen_trace.dither=false"
+/* Which side of its own surface a ray that runs within it sees, rounding says. */
+#define EITHER_SIDE LINEAR " screen_trace.back_faces=false"
+
+static const double direction_rounding = 5e-7, gap_rounding = 1e-6;
+
+/* What became of the rays. */
+struct traced {
+    uint32_t width, height;
+    float *travelled, *depth_m, *normal;
+    uint32_t *finished, *end;
+    struct walk_grid grid;
+    const struct step_rules *steps; /* NULL: texel by texel */
+};
+
+static bool traced_get(struct traced *traced, struct trial *trial) {
+    traced->travelled = trial_floats(trial, "screen_travelled", &traced->width, &traced->height);
+    traced->finished = trial_uints(trial, "screen_finished", NULL, NULL);
+    traced->end = trial_uints(trial, "screen_end", NULL, NULL);
+    traced->depth_m = trial_floats(trial, "depth_half", NULL, NULL);
+    traced->normal = trial_floats(trial, "normal_jittered", NULL, NULL);
+    if (trial->ok)
+        walk_grid_init(&traced->grid, glint_capture_frame(trial->capture), traced->width, traced->height,
+                       traced->depth_m, traced->normal);
+    return trial->ok;
+}
+
+static void traced_free(struct traced *traced) {
+    free(traced->travelled);
+    free(traced->finished);
+    free(traced->end);
+    free(traced->depth_m);
+    free(traced->normal);
+}
+
+/* One replay; way 0 is the exact one. */
+static uint32_t replayed(const struct traced *traced, const struct walk_ray *ray, uint32_t way, double *t) {
+    const struct walk_ray rounded = walk_ray_rounded(ray, way ? direction_rounding : 0, way);
+    struct walk_grid grid = traced->grid;
+    grid.rounding = way ? gap_rounding : 0;
+    grid.way = way;
+    return traced->steps ? stepped_end(&grid, &rounded, traced->steps, t)
+                         : walk_end(&grid, &rounded, &walk_rules_default, t);
+}
+
+/* How far apart two ends of a ray are in the picture: parts of its width, or of the start's inverse depth. */
+static double apart(const struct walk_grid *grid, const struct walk_ray *ray, double a, double b) {
+    double p[2], q[2], z[2];
+    if (a == b) return 0;
+    if (!(a < 3e38) || !(b < 3e38)) return INFINITY;
+    if (!walk_project(grid, ray, a, p, &z[0]) || !walk_project(grid, ray, b, q, &z[1])) return INFINITY;
+    const double start = fmin(fabs(ray->origin[2]), fmin(z[0], z[1]));
+    return fmax(hypot(p[0] - q[0], p[1] - q[1]) / grid->width, fabs(1 / z[0] - 1 / z[1]) * start);
+}
+
+/* Of replays that are rounded in other ways and end for the same reason, how far outside of what they span the ray ended;
+   infinite: none does. */
+static double outside(const struct traced *traced, const struct walk_ray *ray, uint32_t reason, double t) {
+    double low = INFINITY, high = -INFINITY, found;
+    for (uint32_t way = 1; way <= WAYS && !(low <= t && t <= high); way++) {
+        if (replayed(traced, ray, way, &found) != reason) continue;
+        low = fmin(low, found);
+        high = fmax(high, found);
+    }
+    if (!(low <= high)) return INFINITY;
+    return t < low ? apart(&traced->grid, ray, t, low) : t > high ? apart(&traced->grid, ray, t, high) : 0;
+}
+
+static void judge(const struct traced *traced, uint32_t i, double bound, struct selftest_finding *finding) {
+    const uint32_t x = i % traced->width, y = i / traced->width, reason = traced->end[i];
+    const double t = (double)traced->travelled[i];
+    struct walk_ray ray;
+    double expected = 0;
+    uint32_t because = END_not_traced;
+    const bool has_ray = walk_ray_init(&ray, &traced->grid, x, y);
+    if (has_ray) because = replayed(traced, &ray, 0, &expected);
+    double error = reason != because ? INFINITY : !has_ray ? t : apart(&traced->grid, &ray, t, expected);
+    if (has_ray && !(error <= bound)) {
+        const double beyond = outside(traced, &ray, reason, t);
+        finding->ties += reason != because && beyond <= bound;
+        error = fmin(error, beyond);
+    }
+    if ((traced->finished[i] != 0) != (reason == END_hit || reason == END_sky)) error = INFINITY;
+    compared(finding, error, "pixel %u,%u: ended for reason %u at %.9g m, expected %u at %.9g m", x, y, reason, t,
+             because, expected);
+}
+
+static void judge_all(struct trial *trial, const struct plain *plain, const struct trial_case *c,
+                      struct selftest_finding *finding) {
+    struct step_rules steps = step_rules_default;
+    struct traced traced = {.steps = strstr(c->use, "linear") ? &steps : NULL};
+    steps.back_faces = !strstr(c->use, "back_faces=false");
+    trial_run(trial, plain);
+    if (traced_get(&traced, trial))
+        for (uint32_t i = 0; i < traced.width * traced.height; i++) judge(&traced, i, c->bound, finding);
+    traced_free(&traced);
+}
+
+/* ---- Cases ---- */
+
+static void check_rays(struct trial *trial, const struct trial_case *c, struct selftest_finding *finding) {
+    for (uint32_t seed = 1; seed <= (trial->test->quick ? 1 : 3); seed++) {
+        const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .seed = 1000 * seed};
+        const struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
+        trial_use(trial, c->use);
+        judge_all(trial, &plain, c, finding);
+    }
+}
+
+static void check_rails(struct trial *trial, const struct trial_case *c, struct selftest_finding *finding) {
+    const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .rails = true, .seed = 1};
+    struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
+    trial_use(trial, c->use);
+    for (int frame = 0; frame < (trial->test->quick ? 2 : 6); frame++) {
+        plain.jitter_px[0] = frame / 6.0 - 0.45;
+        plain.jitter_px[1] = 0.45 - frame / 7.0;
+        judge_all(trial, &plain, c, finding);
+    }
+}
+
+static void check_stipples(struct trial *trial, const struct trial_case *c, struct selftest_finding *finding) {
+    const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .stipples = true, .seed = 1};
+    const struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
+    trial_use(trial, c->use);
+    judge_all(trial, &plain, c, finding);
+}
+
+/* clang-format off */
+#define UNIT "of the picture"
+#define REASON "a place is 2^-24 of the picture for each of some ten operations; where a ray closes in on a plane slowly this grows, and the replays rounded otherwise say by how much"
+#define TWO(name, what, check, rays) \
+    {name ", texel by texel",    what, UNIT, 5e-6, REASON, check, DDA,    rays, false}, \
+    {name ", in a pyramid",      what, UNIT, 5e-6, REASON, check, HIZ,    rays, false}
+#define THREE(name, what, check, rays) TWO(name, what, check, rays), \
+    {name ", in steps",          what, UNIT, 5e-6, REASON, check, LINEAR, rays, false}
+
+static const struct trial_case items[] = {
+    THREE("mirror rays",            "from boards at all angles: where and why each ends",              check_rays, RAYS_MIRROR),
+    THREE("rays of every direction", "between boards at all angles: where and why each ends",          check_rays, RAYS_ANY),
+    THREE("rays along axes",        "of the view, both ways",                                          check_rays, RAYS_AXES),
+    THREE("rays parallel to the screen", "depth does not change along them",                           check_rays, RAYS_PARALLEL),
+    THREE("rays to the camera",     "they go back where the view came from, to the near plane",        check_rays, RAYS_BACK),
+    TWO("rays along the view",      "the normal is at right angles to it: they stay in their pixel",   check_rays, RAYS_ON),
+    {"rays along the view, in steps", "they stay in their pixel", UNIT, 5e-6, REASON, check_rays, EITHER_SIDE, RAYS_ON, false},
+    THREE("grazing rays",           "cosines of 1e-1 to 1e-7 between normal and view",                 check_rays, RAYS_GRAZING),
+    THREE("rays past the camera",   "they cross the near plane",                                       check_rays, RAYS_NEAR),
+    THREE("rails",                  "a pixel wide, under moves of parts of a pixel",                   check_rails, RAYS_ANY),
+    THREE("stippled depth",         "checks, columns and rows of two depths",                          check_stipples, RAYS_ANY),
+};
+/* clang-format on */
+
+const struct trial_list geometry_screen = {items, sizeof items / sizeof *items};
