@@ -18,6 +18,7 @@ static const struct selftest_group *const groups[] = {
     &selftest_numbers,
     &selftest_garbage,
     &selftest_time,
+    &selftest_invariance,
 };
 /* clang-format on */
 enum { GROUPS = sizeof groups / sizeof *groups };

@@ -112,7 +112,7 @@ static void compare(const struct picture_of *clean, const struct picture_of *spo
     for (uint32_t i = 0; i < clean->width * clean->height; i++)
         for (uint32_t k = 0; k < 3; k++, finding->values++) {
             const uint32_t x = i % clean->width, y = i / clean->width;
-            const double e = (double)clean->rgba[4 * i + k], f = (double)spoiled->rgba[4 * i + k];
+            const double e = (double)clean->values[4 * i + k], f = (double)spoiled->values[4 * i + k];
             const double error = !isfinite(f) ? (double)INFINITY : is_near(x, y) ? 0 : fabs(f - e);
             if (error <= finding->worst) continue;
             finding->worst = error;
@@ -121,7 +121,7 @@ static void compare(const struct picture_of *clean, const struct picture_of *spo
         }
 }
 
-static bool spoiled_picture(const struct pictures *pictures, struct glint_capture *capture, const struct bad *bad,
+static bool spoiled_picture(struct pictures *pictures, struct glint_capture *capture, const struct bad *bad,
                             struct picture_of *out, struct glint_error *err) {
     char path[4096];
     snprintf(path, sizeof path, "%s/garbage.exr", pictures->test->folder);
@@ -143,9 +143,9 @@ static bool run(const struct selftest *test, const bool *chosen, struct selftest
         if (!chosen[i]) continue;
         ok = spoiled_picture(&pictures, capture, &bads[i], &spoiled, err);
         if (ok) compare(&clean, &spoiled, &findings[i]);
-        free(spoiled.rgba);
+        free(spoiled.values);
     }
-    free(clean.rgba);
+    free(clean.values);
     glint_capture_close(&capture);
     pictures_end(&pictures);
     return ok;

@@ -1,6 +1,7 @@
-/* Small captures through a short pipeline. */
+/* Small captures through a pipeline. */
 #include "picture.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -8,6 +9,13 @@
 
 const struct glint_sample_options pictures_sample = {
     .width = 96, .height = 64, .cube_size = 64, .probes_given = true, .probes = GLINT_PROBES_PERFECT};
+
+bool pictures_begin_preset(struct pictures *pictures, const struct selftest *test, const char *preset,
+                           struct glint_error *err) {
+    *pictures = (struct pictures){.test = test};
+    return (pictures->replay = glint_replay_create(test->device, err)) &&
+           (pictures->pipeline = glint_pipeline_create(preset, err));
+}
 
 bool pictures_begin(struct pictures *pictures, const struct selftest *test, const char *slots,
                     struct glint_error *err) {
@@ -21,31 +29,66 @@ bool pictures_begin(struct pictures *pictures, const struct selftest *test, cons
     char path[4096], text[1024];
     snprintf(path, sizeof path, "%s/pictures.json", test->folder);
     snprintf(text, sizeof text, preset, slots);
-    *pictures = (struct pictures){.test = test};
-    return text_file_write(path, text, err) && (pictures->replay = glint_replay_create(test->device, err)) &&
-           (pictures->pipeline = glint_pipeline_create(path, err));
+    return text_file_write(path, text, err) && pictures_begin_preset(pictures, test, path, err);
+}
+
+static void unload(struct pictures *pictures) {
+    if (pictures->replay) glint_replay_load(pictures->replay, NULL, NULL);
+    glint_capture_close(&pictures->capture);
 }
 
 void pictures_end(struct pictures *pictures) {
+    unload(pictures);
     glint_pipeline_destroy(&pictures->pipeline);
     glint_replay_destroy(&pictures->replay);
 }
 
-bool pictures_compose(const struct pictures *pictures, const char *path, struct picture_of *out,
-                      struct glint_error *err) {
-    const struct glint_replay_options options = {.float_precision = true};
-    struct glint_replay *replay = pictures->replay;
-    struct glint_capture *capture = glint_capture_open(path, NULL, err);
-    bool ok =
-        capture && glint_replay_load(replay, capture, err) &&
-        glint_replay_run(replay, pictures->pipeline, &options, pictures->test->progress, pictures->test->user, err);
-    const struct glint_image *image = ok ? glint_replay_find_image(replay, "composed") : NULL;
-    if (ok && !image) ok = glint_fail(err, GLINT_ERROR_DEVICE, "self-test: the replay made no picture");
-    if (ok) *out = (struct picture_of){NULL, image->width, image->height};
-    if (ok && !(out->rgba = malloc((size_t)out->width * out->height * 4 * sizeof *out->rgba)))
-        ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    ok = ok && glint_replay_read_image(replay, image, GLINT_F32, out->rgba, err);
-    glint_replay_load(replay, NULL, NULL);
-    glint_capture_close(&capture);
-    return ok;
+bool pictures_replay(struct pictures *pictures, const char *path, const struct glint_replay_options *options,
+                     struct glint_error *err) {
+    const struct selftest *test = pictures->test;
+    unload(pictures);
+    return (pictures->capture = glint_capture_open(path, NULL, err)) &&
+           glint_replay_load(pictures->replay, pictures->capture, err) &&
+           glint_replay_run(pictures->replay, pictures->pipeline, options, test->progress, test->user, err);
+}
+
+bool pictures_court(struct pictures *pictures, const struct court *court, struct glint_error *err) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/court.exr", pictures->test->folder);
+    unload(pictures);
+    return court_write(court, path, err) &&
+           pictures_replay(pictures, path, &(struct glint_replay_options){.float_precision = true}, err);
+}
+
+bool pictures_read(const struct pictures *pictures, const char *name, struct picture_of *out, struct glint_error *err) {
+    const struct glint_image *image = glint_replay_find_image(pictures->replay, name);
+    if (!image) return glint_fail(err, GLINT_ERROR_DEVICE, "self-test: the replay made no image %s", name);
+    const bool whole = image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;
+    *out = (struct picture_of){{NULL}, image->width, image->height, image->components};
+    if (!(out->values = malloc((size_t)out->width * out->height * out->components * sizeof *out->values)))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (glint_replay_read_image(pictures->replay, image, whole ? GLINT_U32 : GLINT_F32, out->values, err)) return true;
+    free(out->values);
+    out->values = NULL;
+    return false;
+}
+
+bool pictures_compose(struct pictures *pictures, const char *path, struct picture_of *out, struct glint_error *err) {
+    return pictures_replay(pictures, path, &(struct glint_replay_options){.float_precision = true}, err) &&
+           pictures_read(pictures, "composed", out, err);
+}
+
+void pictures_compare(const struct picture_of *expected, const struct picture_of *found, const bool *skip,
+                      struct selftest_finding *finding) {
+    for (size_t i = 0; i < (size_t)expected->width * expected->height; i++)
+        for (size_t k = 0; k < expected->components && !(skip && skip[i]); k++) {
+            const double e = (double)expected->values[expected->components * i + k],
+                         f = (double)found->values[expected->components * i + k];
+            const double error = isfinite(e) && isfinite(f) ? fabs(f - e) : e == f ? 0 : (double)INFINITY;
+            finding->values++;
+            if (error <= finding->worst) continue;
+            finding->worst = error;
+            snprintf(finding->at, sizeof finding->at, "pixel %zu,%zu channel %c: found %.9g, expected %.9g",
+                     i % expected->width, i / expected->width, "RGBA"[k], f, e);
+        }
 }

@@ -1,29 +1,46 @@
-/* Small captures through a short pipeline. */
+/* Small captures through a pipeline, and the images that come of them. */
 #ifndef GLINT_VIEWER_SELFTEST_PICTURE_H
 #define GLINT_VIEWER_SELFTEST_PICTURE_H
 
+#include "court.h"
 #include "glint/samples.h"
 #include "selftest.h"
 
 struct picture_of {
-    float *rgba; /* the caller frees */
-    uint32_t width, height;
+    union {
+        float *values; /* the caller frees */
+        uint32_t *whole;
+    };
+    uint32_t width, height, components;
 };
 
 struct pictures {
     const struct selftest *test;
     struct glint_replay *replay;
     struct glint_pipeline *pipeline;
+    struct glint_capture *capture; /* of the last replay */
 };
 
 /* 96 x 64, with cube maps of the very scene. */
 extern const struct glint_sample_options pictures_sample;
 
-/* slots: more of them, as in a preset, each with a comma after it. */
+/* The shortest pipeline, with more slots, as in a preset, each with a comma after it. */
 bool pictures_begin(struct pictures *pictures, const struct selftest *test, const char *slots, struct glint_error *err);
+/* A preset by its name. */
+bool pictures_begin_preset(struct pictures *pictures, const struct selftest *test, const char *preset,
+                           struct glint_error *err);
 void pictures_end(struct pictures *pictures);
+/* Replays a capture. Its images are there until the next one; images in half where options say so. */
+bool pictures_replay(struct pictures *pictures, const char *path, const struct glint_replay_options *options,
+                     struct glint_error *err);
+bool pictures_court(struct pictures *pictures, const struct court *court, struct glint_error *err);
+bool pictures_read(const struct pictures *pictures, const char *image, struct picture_of *out, struct glint_error *err);
 /* The composed picture of a capture, in floats. */
-bool pictures_compose(const struct pictures *pictures, const char *path, struct picture_of *out,
-                      struct glint_error *err);
+bool pictures_compose(struct pictures *pictures, const char *path, struct picture_of *out, struct glint_error *err);
+
+/* The largest difference of two pictures' components, in absolute values: into a finding. Components that are infinite in
+   both agree. skip: pixels that are not compared; NULL: all are. */
+void pictures_compare(const struct picture_of *expected, const struct picture_of *found, const bool *skip,
+                      struct selftest_finding *finding);
 
 #endif

@@ -42,5 +42,6 @@ extern const struct selftest_group selftest_geometry;
 extern const struct selftest_group selftest_numbers;
 extern const struct selftest_group selftest_garbage;
 extern const struct selftest_group selftest_time;
+extern const struct selftest_group selftest_invariance;
 
 #endif
