@@ -78,11 +78,12 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
                         .help_filter = filter};
     char *first = argv[0];
     argv[0] = name;
-    error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &parsing);
+    if (command->usage_status) argp_err_exit_status = command->usage_status;
+    error_t failed = argp_parse(&argp, argc, argv, command->one_dash ? ARGP_LONG_ONLY : 0, NULL, &parsing);
     argv[0] = first;
     if (failed) {
         fprintf(stderr, "glint %s: %s\n", command->name, strerror(failed));
-        exit(STATUS_USAGE);
+        exit(argp_err_exit_status);
     }
 }
 

@@ -19,6 +19,8 @@ struct command {
     const char *summary;     /* one line for the list of commands */
     const char *description; /* a paragraph or two */
     const struct argp_option *options;
+    bool one_dash;    /* long options may begin with one dash too */
+    int usage_status; /* of a usage error; 0: STATUS_USAGE */
     argp_parser_t parse;
     const struct example *examples; /* ends with a NULL line */
     /* Text that is known only at run time (names of encodings, scenes, views), appended to an option's help; malloc'd,

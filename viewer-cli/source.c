@@ -264,24 +264,33 @@ static bool read_run(struct source *source, const struct source_choice *choice, 
 
 /* ---- Paths ---- */
 
-bool source_open(struct source *source, const struct source_choice *choice, struct glint_error *err) {
-    struct source_choice c = *choice;
+char *source_split(const char *text, char **part, char **layer) {
     struct stat info;
-    *source = (struct source){0};
-    char *path = strdup(choice->path);
-    if (!path) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    char *path = strdup(text);
+    *part = *layer = NULL;
     /* A colon cuts only where the text before it is there and the whole is not. */
-    for (char *colon = strchr(path, ':'); colon && stat(choice->path, &info) != 0; colon = strchr(colon + 1, ':')) {
+    for (char *colon = path ? strchr(path, ':') : NULL; colon && stat(text, &info) != 0;
+         colon = strchr(colon + 1, ':')) {
         *colon = '\0';
         if (stat(path, &info) == 0) {
-            char *layer = strchr(colon + 1, ':');
-            if (layer) *layer++ = '\0';
-            if (!c.part && colon[1]) c.part = colon + 1;
-            if (!c.layer) c.layer = layer;
+            *layer = strchr(colon + 1, ':');
+            if (*layer) *(*layer)++ = '\0';
+            if (colon[1]) *part = colon + 1;
             break;
         }
         *colon = ':';
     }
+    return path;
+}
+
+bool source_open(struct source *source, const struct source_choice *choice, struct glint_error *err) {
+    struct source_choice c = *choice;
+    struct stat info;
+    *source = (struct source){0};
+    char *part, *layer, *path = source_split(choice->path, &part, &layer);
+    if (!path) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (!c.part) c.part = part;
+    if (!c.layer) c.layer = layer;
     c.path = path;
     bool folder = stat(path, &info) == 0 && S_ISDIR(info.st_mode);
     if (!folder && c.image && !c.part) c.part = c.image;

@@ -24,6 +24,8 @@ struct source {
     float *texels;
 };
 
+/* The path of "PATH[:PART[:LAYER]]", malloc'd, and what follows it, inside it; NULL for what is not there. */
+char *source_split(const char *text, char **part, char **layer);
 bool source_open(struct source *source, const struct source_choice *choice, struct glint_error *err);
 void source_finish(struct source *source);
 /* The place of a channel, -1 when there is none. */

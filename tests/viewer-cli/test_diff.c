@@ -1,0 +1,232 @@
+/* glint diff, as a user runs it: beside idiff on the same files, on runs, on the engine's intermediates. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glint/exr.h"
+
+enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
+
+static void write_image(const char *name, const char *part, uint32_t width, size_t channels, const float *values) {
+    static const char *const names[] = {"R", "G", "B", "A"};
+    struct glint_error err = {0};
+    struct glint_exr_channel list[4];
+    for (size_t k = 0; k < channels; k++)
+        list[k] = (struct glint_exr_channel){.name = names[k],
+                                             .stored = GLINT_STORED_FLOAT,
+                                             .data = values + k,
+                                             .x_stride_bytes = 4 * channels,
+                                             .y_stride_bytes = 4 * channels * width};
+    const struct glint_exr_part file = {
+        .name = part, .width = width, .height = PIXELS / width, .channels = list, .channel_count = channels};
+    if (!glint_exr_write(in_folder(name), &file, 1, 0, &err)) fail_msg("%s", err.message);
+}
+
+static float values[4 * PIXELS], others[4 * PIXELS];
+
+static void write_pair(void) {
+    for (size_t i = 0; i < 3 * PIXELS; i++) others[i] = values[i] = 0.1F + 0.05F * (float)(i % 17);
+    values[3 * 77] = others[3 * 77] = NAN;
+    values[3 * 78] = others[3 * 78] = INFINITY;
+    for (size_t i = 200; i < 220; i++) others[3 * i + 1] += 1e-3F;
+    others[3 * (9 * WIDTH + 7) + 2] += 0.25F;
+    write_image("a.exr", "a", WIDTH, 3, values);
+    write_image("b.exr", "b", WIDTH, 3, others);
+}
+
+/* "Mean error = 0.1" */
+static double figure_of(const char *text, const char *name) {
+    const char *at = strstr(text, name);
+    if (!at) fail_msg("idiff says nothing of %s: %s", name, text);
+    return atof(strchr(at, '=') + 1);
+}
+
+/* Catches: a limit that is read for another, counted by values instead of pixels, or met instead of exceeded. */
+static void verdicts_are_idiffs(void **state) {
+    static const char *const limits[] = {
+        "-fail 1e-6",
+        "-fail 0.01",
+        "-fail 0.3 -warn 0.3",
+        "-fail 0.01 -failpercent 0.08 -warn 1",
+        "-fail 0.01 -failpercent 0.09 -warn 1",
+        "-fail 0.01 -failpercent 0.09",
+        "-fail 0.0001 -failpercent 1.7 -warn 1",
+        "-fail 0.0001 -failpercent 1.8 -warn 1",
+        "-fail 0.0001 -failpercent 5 -hardfail 0.2 -warn 1",
+        "-fail 0.0001 -failpercent 5 -hardfail 0.3 -warn 1",
+        "-fail 0.0001 -failpercent 5 -warn 0.0001 -warnpercent 5",
+        "-fail 0.0001 -failpercent 5 -warn 0.0001 -warnpercent 1",
+        "-fail 0.0001 -failpercent 5 -warn 1 -hardwarn 0.2",
+        "-failrelative 0.1",
+        "-failrelative 2 -warnrelative 2",
+        "-allowfailures 20",
+        "-allowfailures 21",
+        "-fail 0.01 -allowfailures 1 -hardfail 0.1",
+    };
+    char line[512];
+    (void)state;
+    write_pair();
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        snprintf(line, sizeof line, "idiff %s \"$0\" \"$1\"", limits[i]);
+        struct outcome theirs = run_program("sh", "-c", line, in_folder("a.exr"), in_folder("b.exr"), NULL);
+        snprintf(line, sizeof line, "\"$GLINT\" diff %s \"$0\" \"$1\"", limits[i]);
+        struct outcome ours = run_program("sh", "-c", line, in_folder("a.exr"), in_folder("b.exr"), NULL);
+        if (ours.status != theirs.status)
+            fail_msg("%s: idiff ends with %d, glint diff with %d\n%s", limits[i], theirs.status, ours.status, ours.out);
+        outcome_free(&theirs);
+        outcome_free(&ours);
+    }
+}
+
+static void figures_are_idiffs(void **state) {
+    (void)state;
+    struct outcome theirs = run_program("idiff", in_folder("a.exr"), in_folder("b.exr"), NULL);
+    struct outcome ours = glint("diff", in_folder("a.exr"), in_folder("b.exr"), "--json", NULL);
+    json_t *json = parse_json(ours.out);
+    const json_t *image = json_array_get(json_object_get(json, "images"), 0);
+    const json_t *largest = json_object_get(image, "largest");
+    assert_true(fabs(number(image, "mean") / figure_of(theirs.out, "Mean error") - 1) < 1e-4);
+    assert_true(fabs(number(image, "rms") / figure_of(theirs.out, "RMS error") - 1) < 1e-4);
+    assert_true(fabs(number(image, "psnr") / figure_of(theirs.out, "Peak SNR") - 1) < 1e-4);
+    assert_true(fabs(number(largest, "by") / figure_of(theirs.out, "Max error") - 1) < 1e-4);
+    assert_contains(theirs.out, "@ (7, 9, B)");
+    assert_contains(theirs.out, "21 pixels");
+    assert_true(number(largest, "x") == 7 && number(largest, "y") == 9);
+    assert_string_equal(json_string_value(json_object_get(largest, "channel")), "B");
+    assert_true(number(image, "failed") == 21 && number(image, "differing") == 21);
+    /* 20 of a thousandth, give or take a rounding, one of a quarter */
+    double counted = 0;
+    for (size_t i = 0; i < json_array_size(json_object_get(image, "histogram")); i++)
+        counted += number(json_array_get(json_object_get(image, "histogram"), i), "values");
+    assert_true(counted == 3 * PIXELS);
+    outcome_free(&theirs);
+    outcome_free(&ours);
+    json_decref(json);
+}
+
+static void status_is(int status, const char *first, const char *second, const char *says) {
+    struct outcome found = glint("diff", in_folder(first), in_folder(second), NULL);
+    if (found.status != status) fail_msg("%s, %s: %d\n%s%s", first, second, found.status, found.out, found.err);
+    assert_contains(status >= 4 ? found.err : found.out, says);
+    outcome_free(&found);
+}
+
+/* What idiff's codes name, and where idiff itself takes what is missing for black. */
+static void what_cannot_be_compared_has_its_own_code(void **state) {
+    (void)state;
+    write_image("wide.exr", "a", 2 * WIDTH, 3, values);
+    write_image("four.exr", "a", WIDTH, 4, values);
+    write_image("nan.exr", "a", WIDTH, 3, values);
+    status_is(0, "a.exr", "a.exr", "PASS");
+    status_is(3, "a.exr", "wide.exr", "80 x 15");
+    status_is(2, "a.exr", "four.exr", "channel A");
+    status_is(4, "a.exr", "nowhere.exr", "nowhere.exr");
+    others[3 * 77] = 0.5F;
+    write_image("nan.exr", "a", WIDTH, 3, others);
+    status_is(2, "a.exr", "nan.exr", "∞"); /* a NaN on one side alone, whatever is allowed */
+    struct outcome found = glint("diff", "-fail", "1e9", in_folder("a.exr"), in_folder("nan.exr"), NULL);
+    assert_int_equal(found.status, 2);
+    outcome_free(&found);
+    found = glint("diff", in_folder("a.exr"), NULL);
+    assert_int_equal(found.status, 5);
+    outcome_free(&found);
+    /* What idiff 2.4 does not come to when no pixel fails. */
+    found = glint("diff", "-fail", "1", in_folder("a.exr"), in_folder("b.exr"), NULL);
+    assert_int_equal(found.status, 1);
+    outcome_free(&found);
+    found = glint("diff", "-fail", "1", "-hardfail", "0.2", in_folder("a.exr"), in_folder("b.exr"), NULL);
+    assert_int_equal(found.status, 2);
+    outcome_free(&found);
+}
+
+static json_t *diff_of(int status, const char *a, const char *b) {
+    struct outcome found = glint("diff", in_folder(a), in_folder(b), "--json", NULL);
+    if (found.status != status) fail_msg("%s, %s: %d\n%s", a, b, found.status, found.err);
+    json_t *json = parse_json(found.out);
+    outcome_free(&found);
+    return json;
+}
+
+static void runs_name_what_differs_first(void **state) {
+    (void)state;
+    free(glint_ok("sample", "mirror_box", "-o", in_folder("box.exr"), "--size=48x27", "--cube-size=16"));
+    free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("one"), "--diagnostics"));
+    free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("same"), "--diagnostics"));
+    free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("other"), "--diagnostics",
+                  "--set=cubemap_trace.steps_hq=5", "--use=temporal_sharp=none"));
+    json_t *json = diff_of(0, "one", "same");
+    assert_int_equal(json_array_size(json_object_get(json, "settings")), 0);
+    assert_true(json_array_size(json_object_get(json, "images")) > 20);
+    json_decref(json);
+    json = diff_of(2, "one", "other");
+    const json_t *setting = named(json_object_get(json, "settings"), "what", "cubemap_trace.steps_hq");
+    assert_true(number(setting, "a") == 24 && number(setting, "b") == 5);
+    assert_string_equal(json_string_value(json_object_get(json_object_get(json, "first"), "slot")), "cubemap_trace");
+    const json_t *images = json_object_get(json, "images"), *lost = named(images, "name", "reflection_stable");
+    assert_contains(json_string_value(json_object_get(lost, "note")), "the second has no such image");
+    assert_true(number(named(images, "name", "screen_travelled"), "differing") == 0);
+    assert_true(number(named(images, "name", "cubemap_end"), "differing") > 0);
+    json_decref(json);
+    struct outcome found =
+        glint("diff", in_folder("one"), in_folder("other"), "-o", in_folder("heat.png"), "--metrics=rmse", NULL);
+    assert_int_equal(found.status, 2);
+    assert_contains(found.out, "cubemap_trace: travelled is the first that differs");
+    outcome_free(&found);
+    struct pixels heat = read_png(in_folder("heat.png"));
+    assert_true(heat.width > 480);
+    free(heat.rgb);
+}
+
+/* The engine's own image under its slot's name; what it did not dump is not missed. */
+static void a_run_is_compared_with_the_engine(void **state) {
+    static const char *const rgba[] = {"R", "G", "B", "A"};
+    static const float gbuffer[1];
+    static float image[48 * 27 * 4];
+    struct glint_error err = {0};
+    (void)state;
+    struct outcome found = glint("diff", in_folder("one"), in_folder("box.exr"), NULL);
+    assert_int_equal(found.status, 4);
+    assert_contains(found.err, "engine.SLOT.IMAGE, found none");
+    outcome_free(&found);
+    struct outcome files = run_program("sh", "-c", "ls \"$0\"/*compose.exr", in_folder("one"), NULL);
+    files.out[strcspn(files.out, "\n")] = '\0';
+    struct glint_exr *exr = glint_exr_open(files.out, NULL, &err);
+    assert_non_null(exr);
+    assert_true(glint_exr_read(exr, 0, rgba, 4, GLINT_F32, image, 0, &err));
+    glint_exr_close(&exr);
+    outcome_free(&files);
+    for (int changed = 0; changed < 2; changed++) {
+        struct glint_exr_channel channels[4];
+        image[4 * (48 * 3 + 5) + 1] += changed ? 0.5F : 0;
+        for (size_t k = 0; k < 4; k++)
+            channels[k] = (struct glint_exr_channel){
+                .name = rgba[k], .stored = GLINT_STORED_FLOAT, .data = image + k, .x_stride_bytes = 16};
+        const struct glint_exr_channel depth = {.name = "depth.Z", .stored = GLINT_STORED_FLOAT, .data = gbuffer};
+        const struct glint_exr_part parts[] = {
+            {.name = "gbuffer", .width = 1, .height = 1, .channels = &depth, .channel_count = 1},
+            {.name = "engine.compose.composed", .width = 48, .height = 27, .channels = channels, .channel_count = 4}};
+        if (!glint_exr_write(in_folder("dumped.exr"), parts, 2, 0, &err)) fail_msg("%s", err.message);
+        json_t *json = diff_of(changed ? 2 : 0, "one", "dumped.exr");
+        const json_t *only = json_array_get(json_object_get(json, "images"), 0);
+        assert_int_equal(json_array_size(json_object_get(json, "images")), 1);
+        assert_true(number(only, "failed") == changed);
+        if (changed) assert_true(number(json_object_get(only, "largest"), "x") == 5);
+        json_decref(json);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(verdicts_are_idiffs),
+        cmocka_unit_test(figures_are_idiffs),
+        cmocka_unit_test(what_cannot_be_compared_has_its_own_code),
+        cmocka_unit_test(runs_name_what_differs_first),
+        cmocka_unit_test(a_run_is_compared_with_the_engine),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,84 @@
+/* glint diff: two sides, each a list of images, and what is found of each pair of them. */
+#ifndef GLINT_VIEWER_DIFF_H
+#define GLINT_VIEWER_DIFF_H
+
+#include <jansson.h>
+
+#include "glint/difference.h"
+#include "glint/exr.h"
+#include "glint/metrics.h"
+#include "glint/replay.h"
+
+/* idiff's, in the order of how bad they are. */
+enum diff_status { DIFF_SAME = 0, DIFF_WARN = 1, DIFF_FAIL = 2, DIFF_SIZE = 3, DIFF_FILE = 4, DIFF_USAGE = 5 };
+
+/* ---- Sides: diff_side.c ---- */
+
+enum { DIFF_CHANNELS = 64 };
+struct diff_image {
+    char *name;
+    const char *slot, *variant, *unit; /* of a run's; "" where that is not known */
+    uint32_t width, height;
+    const char **channels; /* DIFF_CHANNELS at most */
+    bool *integers;        /* beside them */
+    size_t channel_count;
+    size_t part;                       /* of the file */
+    const struct glint_run_image *run; /* NULL: of a file */
+};
+struct diff_side {
+    const char *text; /* as it was given */
+    char *path, *part, *layer;
+    struct glint_exr *exr; /* one of these two */
+    struct glint_run *run;
+    json_t *json;    /* of the run */
+    bool is_capture; /* a file that holds a G-buffer */
+    struct diff_image *images;
+    size_t count;
+};
+/* Lists the images; a capture beside a run gives the engine's intermediates, named as the run's images are. */
+bool diff_sides_open(struct diff_side sides[2], const char *const paths[2], struct glint_error *err);
+void diff_side_finish(struct diff_side *side);
+/* Values of some channels, interleaved: uint32_t where they are whole numbers, else float. */
+bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
+                    bool integers, void *out, struct glint_error *err);
+
+/* ---- Pairs: diff_pairs.c ---- */
+
+struct diff_pair {
+    const struct diff_image *a, *b; /* one of them may be missing */
+    enum diff_status status;
+    char note[160]; /* why, where no value says it */
+    struct glint_difference difference;
+    struct glint_metric_table metrics; /* no rows: none were asked for, or there are no figures of this image */
+    float *heat;                       /* a pixel: its largest difference; NULL unless asked for */
+};
+struct diff_options {
+    struct glint_difference_limits limits;
+    struct glint_metric_options metrics; /* metrics == 0: none */
+    bool heat;
+};
+struct diff {
+    struct diff_side sides[2];
+    struct diff_options options;
+    struct diff_pair *pairs;
+    size_t count;
+    json_t *settings; /* what two runs say differently of themselves: [{"what", "a", "b"}] */
+    enum diff_status status;
+};
+bool diff_compare(struct diff *diff, glint_progress progress, void *user, struct glint_error *err);
+void diff_finish(struct diff *diff);
+const struct diff_image *diff_pair_image(const struct diff_pair *pair); /* whichever is there */
+/* The pair whose pass, in the order of the run, is the first that differs; diff->count when none does. */
+size_t diff_first(const struct diff *diff);
+
+/* diff_settings.c */
+json_t *diff_settings(const json_t *a, const json_t *b);
+
+/* diff_report.c */
+json_t *diff_json(const struct diff *diff);
+void diff_print(const struct diff *diff, bool verbose);
+
+/* diff_picture.c: heat maps of what differs. */
+bool diff_write_heat(const char *path, const struct diff *diff, struct glint_error *err);
+
+#endif
