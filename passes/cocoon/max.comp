@@ -102,6 +102,7 @@ void main() {
     else if (cap_sky)
         distance_m = seen(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_at);
     else return;
+    if (!(distance_m < LARGEST)) distance_m = INFINITE; // filtered, it may be NaN
     if (level < cocoon_at && distance_m < LARGEST) distance_m = -distance_m;
     imageStore(cocoon_distance, at, vec4(distance_m));
 }

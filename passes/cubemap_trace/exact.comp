@@ -236,8 +236,14 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
             change_view(walk, origin, direction, low, high, result.fetches);
         }
     }
-    if (walk.seen) end_at(result, walk.t, walk.view.place, END_steps_exhausted);
-    else end_at(result, INFINITE, best, END_shadow_region);
+    if (!walk.seen) {
+        end_at(result, INFINITE, best, END_shadow_region);
+        return result;
+    }
+    result.fetches++; // a ray that is left in front of the sky ends in it
+    bool in_sky = !(seen_distance(at(walk.view, direction, walk.t), walk.view.place) < LARGEST);
+    if (in_sky) end_at(result, INFINITE, place_of_sky(walk.view.place), END_sky);
+    else end_at(result, walk.t, walk.view.place, END_steps_exhausted);
     return result;
 }
 

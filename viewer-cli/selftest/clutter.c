@@ -7,6 +7,8 @@
 
 static const double degrees = 70;
 
+const double clutter_eye[3] = {3.108, -0.356, -0.06};
+
 /* A rotation about all axes, then a place that is no round number. */
 static const double *turned_camera(void) {
     static const double rows[16] = {0.48, 0.64, -0.6, -1.3, -0.8, 0.6, 0, 2.7, 0.36, 0.48, 0.8, -0.9, 0, 0, 0, 1};
@@ -65,6 +67,11 @@ static struct surface surface_of(const struct plain *plain, const struct clutter
     const uint32_t x = i % plain->width, y = i / plain->width;
     const double part[2] = {(x + 0.5) / plain->width, (y + 0.5) / plain->height};
     struct surface s = {.depth_m = INFINITY, .normal = {0, 0, 1}};
+    if (clutter->flat_m[0] > 0) {
+        const double part_of = noise(clutter->seed + 300, i);
+        s.depth_m = clutter->flat_m[0] * pow(clutter->flat_m[1] / clutter->flat_m[0], part_of);
+        return s;
+    }
     put(&s, view, floor, -1.1);
     put(&s, view, side, -4);
     if (part[1] > 0.3 || part[0] < 0.4) put(&s, view, wall, -11); /* above it, to the right: sky */
@@ -96,6 +103,14 @@ static void wanted_ray(const struct clutter *clutter, uint32_t i, const double v
         ray[2] = 0;
     } else if (clutter->rays == RAYS_BACK) {
         for (int k = 0; k < 3; k++) ray[k] = -unit[k];
+    } else if (clutter->rays == RAYS_CORNERS) {
+        const double *camera = turned_camera(), beside = i % 4 ? pow(10, -2.0 - 2 * (double)(i % 4)) : 0;
+        double world[3] = {0};
+        uint32_t ways = 1 + (uint32_t)(26 * noise(clutter->seed + 400, i)); /* of 27 without the one that is none */
+        if (ways >= 14) ways++;
+        for (uint32_t k = 0; k < 3; k++, ways /= 3) world[k] = (double)(ways % 3) - 1 + beside * random[k];
+        if (world[0] == 0 && world[1] == 0 && world[2] == 0) world[0] = 1;
+        for (int r = 0; r < 3; r++) ray[r] = dot(camera + 4 * r, world);
     } else if (clutter->rays == RAYS_NEAR) { /* to a place beside the camera */
         for (int k = 0; k < 3; k++) ray[k] = 0.3 * random[k] - 3 * unit[k];
     }

@@ -13,6 +13,7 @@ enum clutter_rays {
     RAYS_ON,       /* along the view direction: the normal is at right angles to it */
     RAYS_GRAZING,  /* the cosine between normal and view is 1e-1 to 1e-7 */
     RAYS_NEAR,     /* past the camera, through the near plane */
+    RAYS_CORNERS, /* to the corners, the edges and the faces of a cube along the world's axes, some beside them by a little */
 };
 
 struct clutter {
@@ -20,7 +21,11 @@ struct clutter {
     bool rails, stipples; /* these alone before the walls */
     uint32_t seed;
     double roughness;
+    double flat_m[2]; /* not 0: all surfaces are somewhere between these depths instead */
 };
+
+/* Where the camera is. */
+extern const double clutter_eye[3];
 
 /* jitter_px is the caller's to set. */
 struct plain clutter_capture(const struct clutter *clutter, uint32_t width, uint32_t height);

@@ -1,7 +1,8 @@
 /* The group "geometry": rays that are hard on arithmetic, against closed forms and replays in double precision. */
 #include "geometry.h"
 
-static const struct trial_list *const lists[] = {&geometry_screen};
+static const struct trial_list *const lists[] = {&geometry_surfaces, &geometry_screen, &geometry_cubes,
+                                                 &geometry_hulls};
 enum { LISTS = sizeof lists / sizeof *lists };
 
 static size_t count(void) {

@@ -4,6 +4,6 @@
 
 #include "trial.h"
 
-extern const struct trial_list geometry_screen;
+extern const struct trial_list geometry_surfaces, geometry_screen, geometry_cubes, geometry_hulls;
 
 #endif
