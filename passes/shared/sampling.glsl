@@ -81,12 +81,14 @@ float filling_cone(float spread, float whole, float cosine, float threshold) {
 }
 
 // Mean of 1 - cos 2θ over half-vectors ∝ cosⁿ above cos θ = c; logarithm: of c^(n + 1), 0 when all but the normal is cut.
+// With t = 2/(n + 1) and x = -logarithm it is 2 (t - e^-x (1 - e^-tx)/(1 - e^-x))/(1 + t), a small difference for small x. Of
+// e^x only what is beyond its tangent is left of it: 2 (t rest(x) + rest(-tx))/((e^x - 1)(1 + t)), and that is a sum.
 float blinn_phong_spread(float roughness, float logarithm) {
     float r2 = roughness * roughness, r4 = r2 * r2;
-    float twice = 2.0 * r4 / (2.0 - r4); // 2/(n+1)
-    if (!(logarithm < 0.0)) return 0.0;
-    float part = exp(logarithm) * expm1(twice * logarithm) / expm1(logarithm); // both are negative
-    return max(2.0 * (twice - part) / (1.0 + twice), 0.0);
+    float t = 2.0 * r4 / (2.0 - r4), x = -logarithm;
+    if (!(x > 0.0)) return 0.0;
+    float inside = x < 1.0 ? (t * expm1_rest(x) + expm1_rest(-t * x)) / expm1(x) : t + expm1(-t * x) / expm1(x);
+    return 2.0 * inside / (1.0 + t);
 }
 float blinn_phong_cone(float roughness, float share, float threshold, float cosine) {
     float r2 = roughness * roughness, r4 = r2 * r2;

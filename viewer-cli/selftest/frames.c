@@ -6,15 +6,9 @@
 #include <string.h>
 
 #include "../text_file.h"
+#include "noise.h"
 
 /* ---- What is in a frame ---- */
-
-/* D. Stafford's mix13 of 64 bits. */
-static float noise(uint64_t number) {
-    number = (number ^ number >> 30) * 0xBF58476D1CE4E5B9u;
-    number = (number ^ number >> 27) * 0x94D049BB133111EBu;
-    return (float)((double)(number >> 41) * 0x1p-22);
-}
 
 static void camera_at(struct glint_camera *camera, const double place[3], double turn) {
     const double c = cos(turn), s = sin(turn), near = 0.125, far = 1024;
@@ -43,13 +37,13 @@ void frame_ordinary(struct frame *frame, uint32_t number) {
     static const double origin[3] = {0};
     *frame = (struct frame){.info = {.number = number}};
     frame_cameras(frame, origin, origin, 0, 0);
-    for (size_t i = 0; i < FRAME_PIXELS; i++) {
+    for (uint32_t i = 0; i < FRAME_PIXELS; i++) {
         frame->depth[i] = (float)frame_wall_m;
         frame->normal[2][i] = 1;
         frame->roughness[i] = 0.5f;
         frame->travelled[i] = 1;
         frame->color[3][i] = 1;
-        for (size_t k = 0; k < 3; k++) frame->color[k][i] = noise(((uint64_t)number * 4 + k + 1) << 20 | i);
+        for (uint32_t k = 0; k < 3; k++) frame->color[k][i] = (float)(2 * noise(number * 4 + k, i));
     }
 }
 
@@ -69,14 +63,6 @@ void frame_position(const struct frame *frame, double x, double y, double depth_
 
 /* ---- The capture that holds it ---- */
 
-struct planes {
-    const char *name;
-    uint32_t width, height;
-    const char *channels[12];
-    const void *data[12];
-    enum glint_type type;
-};
-
 static bool add_part(struct glint_writer *writer, const struct planes *planes, struct glint_error *err) {
     struct glint_channel list[12] = {{0}};
     size_t count = 0;
@@ -87,7 +73,8 @@ static bool add_part(struct glint_writer *writer, const struct planes *planes, s
                                     .width = planes->width,
                                     .height = planes->height,
                                     .channels = list,
-                                    .channel_count = count};
+                                    .channel_count = count,
+                                    .cubemap = planes->cubemap};
     return glint_writer_add_part(writer, &part, err);
 }
 
@@ -105,7 +92,8 @@ static bool add_sky(struct glint_writer *writer, struct glint_error *err) {
         for (size_t k = 0; k < 3; k++) values[k][i] = (float)(2 * d[k] * d[k] / (1 + u * u + v * v));
     }
     return add_part(
-        writer, &(struct planes){"sky", SKY, 6 * SKY, {"R", "G", "B"}, {values[0], values[1], values[2]}, GLINT_F32},
+        writer,
+        &(struct planes){"sky", SKY, 6 * SKY, {"R", "G", "B"}, {values[0], values[1], values[2]}, GLINT_F32, NULL},
         err);
 }
 
@@ -118,17 +106,19 @@ static bool write_parts(struct glint_writer *writer, const struct frame *f, stru
     const struct planes parts[] = {
         {"gbuffer", FRAME_WIDTH, FRAME_HEIGHT,
          {"depth.Z", "normal.X", "normal.Y", "normal.Z", "material.roughness", "material.metalness", "material.specular", "albedo.R", "albedo.G", "albedo.B", "motion.X", "motion.Y"},
-         {f->depth, f->normal[0], f->normal[1], f->normal[2], f->roughness, zero, f->roughness, zero, zero, zero, f->motion[0], f->motion[1]}, GLINT_F32},
-        {"lit", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B"}, {zero, zero, zero}, GLINT_F32},
-        {"engine.resolve.reflection_half", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32},
-        {"engine.upscale.reflection", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32},
-        {"engine.cubemap_trace.travelled", FRAME_WIDTH, FRAME_HEIGHT, {"Z"}, {f->travelled}, GLINT_F32},
-        {"engine.cubemap_trace.cubemap_index", FRAME_WIDTH, FRAME_HEIGHT, {"place"}, {nowhere}, GLINT_U32},
-        {"engine.screen_trace.screen_finished", FRAME_WIDTH, FRAME_HEIGHT, {"finished"}, {not_finished}, GLINT_U32},
+         {f->depth, f->normal[0], f->normal[1], f->normal[2], f->roughness, zero, f->roughness, zero, zero, zero, f->motion[0], f->motion[1]}, GLINT_F32, NULL},
+        {"lit", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B"}, {zero, zero, zero}, GLINT_F32, NULL},
+        {"engine.resolve.reflection_half", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32, NULL},
+        {"engine.upscale.reflection", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32, NULL},
+        {"engine.cubemap_trace.travelled", FRAME_WIDTH, FRAME_HEIGHT, {"Z"}, {f->travelled}, GLINT_F32, NULL},
+        {"engine.cubemap_trace.cubemap_index", FRAME_WIDTH, FRAME_HEIGHT, {"place"}, {nowhere}, GLINT_U32, NULL},
+        {"engine.screen_trace.screen_finished", FRAME_WIDTH, FRAME_HEIGHT, {"finished"}, {not_finished}, GLINT_U32, NULL},
     };
     /* clang-format on */
     bool ok = glint_writer_set_frame(writer, &f->info, err) && add_sky(writer, err);
-    for (size_t i = 0; ok && i < sizeof parts / sizeof *parts; i++) ok = add_part(writer, &parts[i], err);
+    for (size_t i = 0; ok && i < (f->bare ? 2 : sizeof parts / sizeof *parts); i++)
+        ok = add_part(writer, &parts[i], err);
+    for (size_t i = 0; ok && i < f->more_count; i++) ok = add_part(writer, &f->more[i], err);
     return ok && glint_writer_finish(writer, err);
 }
 
@@ -165,21 +155,34 @@ bool frames_pipeline(struct frames *frames, const char *const *passes, const cha
     return ok;
 }
 
-bool frames_run(struct frames *frames, const struct frame *frame, struct glint_error *err) {
+bool frames_shader(struct frames *frames, const char *slot, const char *text, struct glint_error *err) {
+    char path[4096], assignment[4200];
+    snprintf(path, sizeof path, "%s/%s.comp", frames->test->folder, slot);
+    snprintf(assignment, sizeof assignment, "%s=%s", slot, path);
+    return text_file_write(path, text, err) && glint_pipeline_shader(frames->pipeline, assignment, err);
+}
+
+bool frames_run_capture(struct frames *frames, const char *path, struct glint_error *err) {
     const struct glint_replay_options options = {
         .passes = frames->passes, .all = !frames->planned, .float_precision = !frames->half};
-    const struct glint_writer_options plain = {.compression = GLINT_NONE, .threads = 1};
-    char path[4096];
-    snprintf(path, sizeof path, "%s/frame.exr", frames->test->folder);
-    struct glint_writer *writer = glint_writer_create(path, &plain, err);
-    const bool written = writer && write_parts(writer, frame, err);
-    glint_writer_destroy(&writer);
     glint_replay_load(frames->replay, NULL, NULL);
     glint_capture_close(&frames->capture);
-    return written && (frames->capture = glint_capture_open(path, NULL, err)) &&
+    return (frames->capture = glint_capture_open(path, NULL, err)) &&
            glint_replay_load(frames->replay, frames->capture, err) &&
            glint_replay_run(frames->replay, frames->pipeline, &options, frames->test->progress, frames->test->user,
                             err);
+}
+
+bool frames_run(struct frames *frames, const struct frame *frame, struct glint_error *err) {
+    const struct glint_writer_options plain = {.compression = GLINT_NONE, .threads = 1};
+    char path[4096];
+    snprintf(path, sizeof path, "%s/frame.exr", frames->test->folder);
+    glint_replay_load(frames->replay, NULL, NULL);
+    glint_capture_close(&frames->capture);
+    struct glint_writer *writer = glint_writer_create(path, &plain, err);
+    const bool written = writer && write_parts(writer, frame, err);
+    glint_writer_destroy(&writer);
+    return written && frames_run_capture(frames, path, err);
 }
 
 bool frames_read(struct frames *frames, const char *image, float *out, struct glint_error *err) {

@@ -6,12 +6,25 @@
 
 enum { FRAME_WIDTH = 64, FRAME_HEIGHT = 32, FRAME_PIXELS = FRAME_WIDTH * FRAME_HEIGHT };
 
+/* A part of the capture: planes of width x height values. */
+struct planes {
+    const char *name;
+    uint32_t width, height;
+    const char *channels[12];
+    const void *data[12];
+    enum glint_type type;
+    const struct glint_cubemap *cubemap; /* of a cubemap.NNN, else NULL */
+};
+
 /* One frame: full resolution is the pipeline's, so that a pixel is a texel. */
 struct frame {
     struct glint_frame info;
     float depth[FRAME_PIXELS], normal[3][FRAME_PIXELS], roughness[FRAME_PIXELS], motion[2][FRAME_PIXELS];
     float color[4][FRAME_PIXELS];  /* of reflection_half, and of reflection */
     float travelled[FRAME_PIXELS]; /* of the rays that found it */
+    const struct planes *more;     /* further parts */
+    size_t more_count;
+    bool bare; /* without images of passes: they are among `more` */
 };
 
 /* Where the wall of frame_ordinary() is, and how wide its pixels are there: powers of two, so that a move by a pixel is exact. */
@@ -42,8 +55,12 @@ void frames_end(struct frames *frames);
 /* Another pipeline. settings: "slot=variant" or "slot.parameter=value", NULL-terminated. */
 bool frames_pipeline(struct frames *frames, const char *const *passes, const char *const *settings,
                      struct glint_error *err);
+/* The pass of a slot becomes this shader. */
+bool frames_shader(struct frames *frames, const char *slot, const char *text, struct glint_error *err);
 bool frames_run(struct frames *frames, const struct frame *frame, struct glint_error *err);
-/* FRAME_PIXELS times the image's components. */
+/* The same of a capture that is there already. */
+bool frames_run_capture(struct frames *frames, const char *path, struct glint_error *err);
+/* FRAME_PIXELS times the image's components, where it has the size of a frame. */
 bool frames_read(struct frames *frames, const char *image, float *out, struct glint_error *err);
 
 #endif

@@ -7,15 +7,23 @@
 #include <string.h>
 
 #include "../text_file.h"
-#include "selftest.h"
+#include "images.h"
 
-enum { COLUMNS = 256, LISTS = 3 };
+enum { COLUMNS = 256, LISTS = 4, IMAGE_LISTS = 3 };
 
-static const struct function_list *const lists[LISTS] = {&functions_elementary, &functions_geometry, &functions_lobes};
+static const struct function_list *const lists[LISTS] = {&functions_elementary, &functions_patterns,
+                                                         &functions_geometry, &functions_lobes};
 
-static size_t count(void) {
+static const struct image_list *const image_lists[IMAGE_LISTS] = {&images_surfaces, &images_lists, &images_cubes};
+
+static size_t tabled(void) {
     size_t sum = 0;
     for (size_t i = 0; i < LISTS; i++) sum += lists[i]->count;
+    return sum;
+}
+static size_t count(void) {
+    size_t sum = tabled();
+    for (size_t i = 0; i < IMAGE_LISTS; i++) sum += image_lists[i]->count;
     return sum;
 }
 
@@ -25,7 +33,14 @@ static const struct function *function(size_t i) {
     return &lists[list]->items[i];
 }
 
+static const struct image_case *image_case(size_t i) {
+    size_t list = 0;
+    while (i >= image_lists[list]->count) i -= image_lists[list++]->count;
+    return &image_lists[list]->items[i];
+}
+
 static struct selftest_case get(size_t i) {
+    if (i >= tabled()) return image_case(i - tabled())->about;
     const struct function *f = function(i);
     return (struct selftest_case){f->name,  f->what,  f->glsl, f->measure == ULP ? "ULP" : "absolute",
                                   f->bound, f->reason};
@@ -87,9 +102,11 @@ static const char head[] = "#version 460\n"
 static const char *const shared[] = {"constants",  "stable",     "random", "bayer", "blue_noise", "brdf",     "camera",
                                      "cone",       "cubemap",    "edges",  "facet", "fog",        "sampling", "levels",
                                      "cube_chain", "paraboloid", "plus",   "reuse", "steps"};
-static const char helpers[] = "mat2x3 frame_of(vec3 n) { vec3 t, b; tangent_frame(n, t, b); return mat2x3(t, b); }\n";
+static const char helpers[] = "mat2x3 frame_of(vec3 n) { vec3 t, b; tangent_frame(n, t, b); return mat2x3(t, b); }\n"
+                              "vec4 halves(uvec4 v) { uvec2 w = v.xz ^ v.yw; return vec4(w.x >> 16u, w.x & 0xFFFFu, "
+                              "w.y >> 16u, w.y & 0xFFFFu); }\n";
 static const char tail[] =
-    "    return vec4(0.0);\n"
+    "    return y;\n" /* one for all: a device may nest what follows a return, and some count how deep */
     "}\n"
     "void main() {\n"
     "    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
@@ -107,9 +124,10 @@ static bool write_shader(const bool *chosen, size_t rows, const char *path, stru
     for (size_t i = 0; i < sizeof shared / sizeof *shared; i++)
         fprintf(file, "#include \"shared/%s.glsl\"\n", shared[i]);
     fputs(helpers, file);
-    fprintf(file, "const int ROWS = %zu;\nvec4 evaluate(int number, vec4 a, vec4 b) {\n", rows);
-    for (size_t i = 0; i < count(); i++)
-        if (chosen[i]) fprintf(file, "    if (number == %zu) return vec4(%s);\n", row++, function(i)->glsl);
+    fprintf(file, "const int ROWS = %zu;\nvec4 evaluate(int number, vec4 a, vec4 b) {\n    vec4 y = vec4(0.0);\n",
+            rows);
+    for (size_t i = 0; i < tabled(); i++)
+        if (chosen[i]) fprintf(file, "    if (number == %zu) y = vec4(%s);\n", row++, function(i)->glsl);
     fputs(tail, file);
     bool ok =
         fclose(file) == 0 ? text_file_write(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -229,21 +247,22 @@ static void judge(const struct function *f, const float x[ARGUMENTS], const floa
     }
 }
 
-static bool run(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
-                struct glint_error *err) {
+static bool run_tables(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
+                       struct glint_error *err) {
     static const char preset[] = "{\"name\": \"selftest\", \"title\": \"Functions\", \"source\": \"glint\", "
                                  "\"slots\": {\"upscale\": \"bilinear\", \"compose\": \"brdf\"}, \"set\": {}}\n";
     char paths[3][4096];
     static const char *const names[3] = {"functions.exr", "functions.comp", "functions.json"};
     for (int i = 0; i < 3; i++) snprintf(paths[i], sizeof paths[i], "%s/%s", test->folder, names[i]);
     size_t cases = 0, place = 0;
-    for (size_t i = 0; i < count(); i++) cases += chosen[i];
+    for (size_t i = 0; i < tabled(); i++) cases += chosen[i];
+    if (!cases) return true;
     const size_t rows = test->quick ? 4 : 64, points = rows * COLUMNS, texels = cases * points;
     float *x[ARGUMENTS] = {NULL}, *all = calloc(texels * (ARGUMENTS + VALUES), sizeof *all);
     if (!all) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t k = 0; k < ARGUMENTS; k++) x[k] = all + k * texels;
     float *out = all + ARGUMENTS * texels, one[ARGUMENTS];
-    for (size_t i = 0; i < count(); i++)
+    for (size_t i = 0; i < tabled(); i++)
         for (size_t p = 0; chosen[i] && p < points; p++, place++) {
             fill_arguments(function(i), p, points, one);
             for (size_t k = 0; k < ARGUMENTS; k++) x[k][place] = one[k];
@@ -252,12 +271,24 @@ static bool run(const struct selftest *test, const bool *chosen, struct selftest
               write_capture(paths[0], x, (uint32_t)(cases * rows), err) &&
               evaluate(test, paths[0], paths[1], paths[2], out, err);
     place = 0;
-    for (size_t i = 0; ok && i < count(); i++)
+    for (size_t i = 0; ok && i < tabled(); i++)
         for (size_t p = 0; chosen[i] && p < points; p++, place++) {
             for (size_t k = 0; k < ARGUMENTS; k++) one[k] = x[k][place];
             judge(function(i), one, out + VALUES * place, &findings[i]);
         }
     free(all);
+    return ok;
+}
+
+static bool run(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
+                struct glint_error *err) {
+    struct frames frames = {0};
+    bool ok = run_tables(test, chosen, findings, err) && frames_begin(&frames, test, err);
+    for (size_t i = tabled(); ok && i < count(); i++) {
+        const struct image_case *c = image_case(i - tabled());
+        if (chosen[i]) ok = c->check(&frames, c, &findings[i], err);
+    }
+    frames_end(&frames);
     return ok;
 }
 

@@ -1,7 +1,5 @@
-/* Cases of stable.glsl, steps.glsl, cone.glsl, fog.glsl, random.glsl and the patterns. */
+/* Cases of stable.glsl, steps.glsl, cone.glsl and fog.glsl. */
 #include "functions.h"
-
-#include <stdint.h>
 
 /* Of base-2 exponentials and logarithms, and what follows from them; their factors to base e are in it. */
 #define EXP "exp is 3 + 2|x| ULP off (Vulkan)"
@@ -14,6 +12,17 @@ static void expect_expm1(const double *x, double *y) {
 }
 static void expect_expm1_below(const double *x, double *y) {
     y[0] = expm1(-x[0]);
+}
+/* Where x is small e^x - 1 has too few digits for it, in double too: the series, from its far end. */
+static void expect_expm1_rest(const double *x, double *y) {
+    y[0] = 1;
+    for (int k = 30; k > 2; k--) y[0] = 1 + x[0] / k * y[0];
+    y[0] *= x[0] * x[0] / 2;
+}
+static void expect_rests(const double *x, double *y) {
+    const double below = -2 * x[0];
+    expect_expm1_rest(x, &y[0]);
+    expect_expm1_rest(&below, &y[1]);
 }
 static void expect_log1p(const double *x, double *y) {
     y[0] = log1p(x[0]);
@@ -34,6 +43,18 @@ static void expect_angle_from_versine(const double *x, double *y) {
 }
 static void expect_versine(const double *x, double *y) {
     y[0] = 2 * pow(sin(x[0] / 2), 2);
+}
+static void expect_tangent(const double *x, double *y) {
+    y[0] = tan(x[0]);
+}
+static void vector_of_any_length(float *x) {
+    const float size = x[3];
+    for (int k = 0; k < 3; k++) x[k] *= size;
+}
+static void expect_unit(const double *x, double *y) {
+    const double most = fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2])));
+    const double v[3] = {x[0] / most, x[1] / most, x[2] / most}, l = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int k = 0; k < 3; k++) y[k] = v[k] / l;
 }
 static void expect_finite(const double *x, double *y) {
     y[0] = isfinite(x[0]) && fabs(x[0]) < 3e38;
@@ -115,43 +136,6 @@ static void expect_even_fog(const double *x, double *y) {
     y[0] = x[0] <= 0 || x[1] <= 0 ? 0 : x[0] * x[1];
 }
 
-/* ---- random.glsl, blue_noise.glsl, bayer.glsl, plus.glsl ---- */
-
-/* pcg4d as the paper prints it. */
-static void expect_random(const double *x, double *y) {
-    uint32_t v[4];
-    for (int i = 0; i < 4; i++) v[i] = (uint32_t)x[i] * 1664525u + 1013904223u;
-    v[0] += v[1] * v[3], v[1] += v[2] * v[0], v[2] += v[0] * v[1], v[3] += v[1] * v[2];
-    for (int i = 0; i < 4; i++) v[i] ^= v[i] >> 16;
-    v[0] += v[1] * v[3], v[1] += v[2] * v[0], v[2] += v[0] * v[1], v[3] += v[1] * v[2];
-    for (int i = 0; i < 4; i++) y[i] = ((double)(v[i] / 512) + 0.5) / 8388608;
-}
-/* Radical inverse in base 2, and the Gray-code construction of Sobol's second dimension: Pascal's triangle modulo 2. */
-static void expect_sobol(const double *x, double *y) {
-    const uint32_t index = (uint32_t)x[0];
-    y[0] = y[1] = 0;
-    for (int row = 0; row < 24; row++) {
-        unsigned bit = 0;
-        for (int column = row; column < 24; column++) /* C(column, row) is odd when row's bits are among column's */
-            bit ^= (index >> column & 1) & ((row & column) == row);
-        y[0] += ldexp(index >> row & 1, -1 - row);
-        y[1] += ldexp(bit, -1 - row);
-    }
-}
-static void expect_spread_bits(const double *x, double *y) {
-    y[0] = 0;
-    for (int bit = 0; bit < 12; bit++) y[0] += ldexp((uint32_t)x[0] >> bit & 1, 2 * bit);
-}
-/* The recursive definition: a quarter of the 2x2 matrix [0 2; 3 1] inside four times itself. */
-static void expect_bayer(const double *x, double *y) {
-    static const int cell[2][2] = {{0, 2}, {3, 1}};
-    const int px = (int)x[0], py = (int)x[1];
-    y[0] = (4 * cell[py & 1][px & 1] + cell[py >> 1 & 1][px >> 1 & 1]) / 16.0;
-}
-static void expect_plus(const double *x, double *y) {
-    y[0] = fmod(x[0] + 2 * x[1] + x[2], 5);
-}
-
 /* clang-format off */
 static const struct function list[] = {
     {"expm1 near zero", "e^x - 1 keeps its digits where e^x is near 1", "expm1(a.x)", "x", {{LOG, 1e-30, 1, ZERO | NEGATIVE}}, NULL,
@@ -160,6 +144,8 @@ static const struct function list[] = {
      expect_expm1, 1, ULP, 165, EXP ": 163 at 80"},
     {"expm1 far below zero", "e^x - 1 tends to -1", "expm1(-a.x)", "-x", {{LOG, 1, 1e30, ENDLESS}}, NULL,
      expect_expm1_below, 1, ULP, 6, EXP ": below 0.4 of an ULP of the result's 0.6 at -1, and less farther down"},
+    {"expm1 beyond its tangent", "e^x - 1 - x, of which next to nothing is left near zero", "expm1_rest(a.x), expm1_rest(-2.0 * a.x), 0.0, 0.0", "x", {{LOG, 1e-15, 1, ZERO}}, NULL,
+     expect_rests, 2, ULP, 16, "thirteen divisions, 2.5 ULP each (Vulkan), but what the k-th leaves shrinks with 2/k: 2/3 of the first, 1/3 of the second, and roundings"},
     {"log1p near zero", "log(1 + x) keeps its digits where 1 + x does not", "log1p(a.x)", "x", {{LOG, 1e-30, 0.5, ZERO | NEGATIVE}}, NULL,
      expect_log1p, 1, ULP, 6, "two divisions, 2.5 ULP each (Vulkan), and roundings that shrink with the series"},
     {"log1p far from zero", "log(1 + x) of large arguments", "log1p(a.x)", "x", {{LOG, 0.5, 1e30, 0}}, NULL,
@@ -172,6 +158,11 @@ static const struct function list[] = {
      expect_angle_from_versine, 1, ULP, 10, "arc's, and the sine's root"},
     {"versine", "1 - cos of tiny angles up to a right one", "versine(a.x)", "angle", {{LOG, 1e-18, 1.5707963, ZERO}}, NULL,
      expect_versine, 1, ULP, 4, "a product of sums that the first term rules"},
+    {"tangent", "of angles up to next to a right one", "tangent(a.x)", "angle", {{LOG, 1e-30, 1.57, ZERO}}, NULL,
+     expect_tangent, 1, ULP, 8, "a quotient of polynomials and its inverse, 2.5 ULP each (Vulkan)"},
+    {"unit vectors", "of vectors as short and as long as floats are", "unit(a.xyz), 0.0", "x y z length",
+     {{LOG, 1e-3, 1, ZERO | NEGATIVE}, {LOG, 1e-3, 1, NEGATIVE}, {LINEAR, 0.1, 1, 0}, {LOG, 1e-35, 3e38, 0}}, vector_of_any_length,
+     expect_unit, 3, ABSOLUTE, 5e-7, "a division, 2.5 ULP, an inverse root, 2 ULP (Vulkan), of numbers up to 1"},
     {"finite colours", "which values may take part in a mean", "finite(vec4(0.0, a.x, 0.0, 1.0))", "x nan",
      {{LOG, 1e-38, 3.39e38, ZERO | ENDLESS | NEGATIVE}, {LINEAR, 0, 1, 0}}, sometimes_nan, expect_finite, 1, ABSOLUTE, 0, "a decision"},
 
@@ -204,15 +195,6 @@ static const struct function list[] = {
      {{LOG, 1e-6, 1, ZERO}, {LOG, 1e-3, 1e6, ZERO | NEGATIVE}}, NULL, expect_even_fog, 1, ULP, 1, "one product"},
     {"fog factor", "share that fog takes, thin to opaque", "fog_factor(a.x)", "depth", {{LOG, 1e-30, 1e30, ZERO | ENDLESS}}, NULL,
      expect_fog_factor, 1, ULP, 12, EXP ", of which 2.4 times as much is left where the series ends"},
-
-    {"random numbers", "the hash's very bits, pixel by pixel and frame by frame", "random4(uvec2(a.xy), uint(a.z), uint(a.w))", "x y frame dimension",
-     {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, {WHOLE, 0, 16777215, 0}, {WHOLE, 0, 4096, 0}}, NULL, expect_random, 4, ABSOLUTE, 0, "integers, and a conversion that is exact"},
-    {"low-discrepancy points", "Sobol's first two dimensions", "vec2(sobol2(uint(a.x)) >> 8u) / 16777216.0, 0.0, 0.0", "index", {{WHOLE, 0, 16777215, 0}}, NULL,
-     expect_sobol, 2, ABSOLUTE, 0, "24 bits fit a float"},
-    {"spread bits", "Z-order's bits two places apart", "float(spread_bits(uint(a.x)))", "x", {{WHOLE, 0, 4095, 0}}, NULL, expect_spread_bits, 1, ABSOLUTE, 0, "integers"},
-    {"ordered dither", "Bayer's matrix as its recursion makes it", "bayer4(ivec2(a.xy))", "x y", {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}}, NULL, expect_bayer, 1, ABSOLUTE, 0, "sixteenths"},
-    {"plus pattern", "classes of pixels, large frame numbers too", "float(plus_class(uvec2(a.xy), uint(a.z)))", "x y shift",
-     {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, {WHOLE, 0, 16777215, 0}}, NULL, expect_plus, 1, ABSOLUTE, 0, "integers"},
 };
 /* clang-format on */
 

@@ -53,6 +53,15 @@ static void expect_texel(const double *x, double *y) {
     y[1] = x[1];
     y[2] = 18 + x[2]; /* of cube map 3 */
 }
+/* A texel's centre, and the cube map that its layer is of. */
+static void expect_texel_direction(const double *x, double *y) {
+    const double u = 2 * (x[0] + 0.5) / x[3] - 1, v = 2 * (x[1] + 0.5) / x[3] - 1;
+    const int face = (int)x[2] % 6;
+    /* The specification's table, read backwards. */
+    const double d[6][3] = {{1, -v, -u}, {-1, -v, u}, {u, 1, v}, {u, -1, -v}, {u, -v, 1}, {-u, -v, -1}};
+    for (int k = 0; k < 3; k++) y[k] = d[face][k];
+    y[3] = floor(x[2] / 6);
+}
 static void expect_texel_angle(const double *d, double *y) {
     y[0] = 2 / 256.0 * largest(d) / length(d);
 }
@@ -94,7 +103,23 @@ static void expect_picked(const double *x, double *y) {
     y[1] = 2 * x[1] + (x[2] < 4 ? floor(x[2] / 2) + 0.5 : 1);
 }
 
+/* Full resolutions, odd ones too, and what half of them is, rounded up; in some, all is full. */
+static void sizes_of(float *x) {
+    for (int k = 0; k < 2; k++) x[k] = floorf(x[k] * (x[3 + k] - 1) / 2 + 0.5f);
+    for (int k = 0; k < 2; k++) x[5 + k] = x[7] == 0 ? x[3 + k] : floorf((x[3 + k] + 1) / 2);
+}
+static void expect_picked_uv(const double *x, double *y) {
+    const int full = x[7] == 0;
+    y[0] = (full ? x[0] + 0.5 : 2 * x[0] + (x[2] < 4 ? fmod(x[2], 2) + 0.5 : 1)) / x[3];
+    y[1] = (full ? x[1] + 0.5 : 2 * x[1] + (x[2] < 4 ? floor(x[2] / 2) + 0.5 : 1)) / x[4];
+    y[2] = full ? 1 : 2;
+}
+
 /* ---- facet.glsl ---- */
+
+static void expect_rise(const double *x, double *y) {
+    y[0] = (fabs(x[0]) + fabs(x[1])) / 2;
+}
 
 /* Slope of a plane's inverse depth over one texel: 1/z = n·(uv·xy + zw, front) / (n·p). */
 static void expect_slopes(const double *x, double *y) {
@@ -184,6 +209,16 @@ static void expect_paraboloid(const double *d, double *y) {
 static void expect_same(const double *d, double *y) {
     for (int k = 0; k < 3; k++) y[k] = d[k] / length(d);
 }
+static void expect_place(const double *x, double *y) {
+    const double reach = x[3] / fmax(x[3] - 1, 1);
+    for (int k = 0; k < 2; k++) y[k] = (2 * x[k] / x[2] - 1) * reach;
+    y[2] = reach;
+}
+static void texels_of_level(float *x) {
+    x[3] = exp2f(x[3]);
+    x[2] = fminf(exp2f(x[2]), x[3]);
+    for (int k = 0; k < 2; k++) x[k] *= x[2];
+}
 static void expect_solid_angle(const double *x, double *y) {
     y[0] = 4 / pow(1 + x[0] * x[0] + x[1] * x[1], 2);
 }
@@ -209,6 +244,8 @@ static const struct function list[] = {
      expect_round_trip, 3, ABSOLUTE, 4.8e-7, DIVISION ", twice as wide"},
     {"texel of a direction", "a texel's centre leads back to it, faces of 1 to 2048", "face_texel(direction_from_face(vec3((a.xy + 0.5) / a.w, a.z)), 3u, int(a.w)), 0", "x y face size",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 5, 0}, {WHOLE, 0, 4, 0}}, texel_of_size, expect_texel, 3, ABSOLUTE, 0, "a centre is half a texel from the next"},
+    {"centre of a texel", "its direction and its cube map, faces of 1 to 2048", "texel_direction(ivec2(a.xy), int(a.w), int(a.z))", "x y layer size",
+     {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 23, 0}, {WHOLE, 0, 4, 0}}, texel_of_size, expect_texel_direction, 4, ABSOLUTE, 3e-7, DIVISION},
     {"width of a texel", "angle that a texel spans, tiny and huge vectors", "texel_angle(a.xyz, 256.0)", "x y z", {CUBE, LENGTH}, direction,
      expect_texel_angle, 1, ULP, 8, "a division and an inverse root, 2.5 and 2 ULP (Vulkan), of a sum of squares"},
 
@@ -224,10 +261,15 @@ static const struct function list[] = {
     {"picked positions", "where a texel's sample lies", "picked_position(ivec2(a.xy), uint(a.z), uvec4(32768u, 32768u, 16384u, 16384u)), 0.0, 0.0", "x y pick",
      {{WHOLE, 0, 16383, 0}, {WHOLE, 0, 16383, 0}, {WHOLE, 0, 4, 0}}, NULL, expect_picked, 2, ABSOLUTE, 0, "halves of integers below 2^16"},
 
+    {"picked uv", "where a texel's sample lies in the picture, of odd sizes too, at half and at full resolution", "picked_uv(ivec2(a.xy), uint(a.z), uvec4(a.w, b.xyz)), reduction(uvec4(a.w, b.xyz)), 0.0", "x y pick width height half_width half_height halved",
+     {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 4, 0}, {WHOLE, 2, 4096, 0}, {WHOLE, 2, 4096, 0}, {WHOLE, 0, 0, 0}, {WHOLE, 0, 0, 0}, {WHOLE, 0, 1, 0}}, sizes_of, expect_picked_uv, 3, ABSOLUTE, 3.6e-7, "a division, 2.5 ULP (Vulkan) of up to 1"},
+
     {"facet of a normal", "slopes of inverse depth on a plane", "slopes_of_normal(a.xyz, vec2(a.w, b.x), vec2(1.0 / 256.0), vec4(2.0, 2.0, -1.0, -1.0), -1.0), 0.0, 0.0", "nx ny nz u v",
      {{LINEAR, -0.45, 0.45, ZERO}, {LINEAR, -0.45, 0.45, ZERO}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}}, facing, expect_slopes, 2, ABSOLUTE, 2e-7, "the normal's dot product keeps a tenth of its terms"},
     {"facet of depths", "slope between neighbours, the sky and all but equal depths among them", "facet_slope(a.x, a.y, a.z, LARGEST)", "depth before after",
      {{LOG, 1e-3, 1e6, 0}, {LOG, 0.5, 2, ENDLESS}, {LOG, 0.5, 2, ENDLESS}}, neighbours_of_depth, expect_facet_slope, 1, ABSOLUTE, 3e-7, "parts of an inverse depth that itself is rounded by 6e-8; a division of 2.5 ULP (Vulkan)"},
+
+    {"rise of a facet", "over its centre, within the texel", "facet_rise(a.xy)", "x y", {{LOG, 1e-6, 1, ZERO | NEGATIVE}, {LOG, 1e-6, 1, ZERO | NEGATIVE}}, NULL, expect_rise, 1, ULP, 1, "one sum"},
 
     {"footprint of a texel", "exact shares of two or three finer texels, odd sizes", "footprint(int(a.x), int(a.y), int(a.z)).share.xy, footprint(int(a.x), int(a.y), int(a.z)).first, footprint(int(a.x), int(a.y), int(a.z)).count", "texel size finer",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 1, 4096, 0}}, odd_or_even, expect_footprint, 4, ABSOLUTE, 1.6e-7, "one division, 2.5 ULP of up to 1"},
@@ -245,6 +287,8 @@ static const struct function list[] = {
     {"place on a paraboloid", "poles, the rim and what lies between", "paraboloid_uv(a.xyz, 256.0), 0.0", "x y z", {CUBE}, unit_direction, expect_paraboloid, 3, ABSOLUTE, 3e-7, DIVISION "; the direction is unit to 6e-8"},
     {"direction of a paraboloid", "a direction leads back to itself", "paraboloid_direction((2.0 * paraboloid_uv(a.xyz, 256.0).xy - 1.0) * paraboloid_reach(256.0), a.z >= 0.0), 0.0", "x y z", {CUBE}, unit_direction,
      expect_same, 3, ABSOLUTE, 1.2e-6, "three divisions, 2.5 ULP each, and a place that spans 2"},
+    {"texel on a paraboloid", "the outermost texels of any level lie where the rim of the finest does", "paraboloid_place(a.xy, a.z, a.w), paraboloid_reach(a.w), 0.0", "x y size widest",
+     {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 11, 0}, {WHOLE, 0, 11, 0}}, texels_of_level, expect_place, 3, ABSOLUTE, 1.5e-6, "two divisions, 2.5 ULP each (Vulkan), of up to 2"},
     {"solid angle on a paraboloid", "of a piece of its plane", "paraboloid_solid_angle(a.xy)", "x y", {{LINEAR, -1, 1, ZERO}, {LINEAR, -1, 1, ZERO}}, NULL, expect_solid_angle, 1, ULP, 7, "a division, 2.5 ULP, of a square"},
     {"level of a paraboloid", "level of a cone at any height", "paraboloid_level(a.x, a.y, a.z, 3.5)", "tangent height size", {{LOG, 1e-6, 1255, ZERO}, {LINEAR, -1, 1, ZERO}, {LOG, 2, 2048, 0}}, NULL,
      expect_paraboloid_level, 1, ABSOLUTE, 5e-6, "log2 is 3 ULP off (Vulkan), 2.9e-6 of 11"},

@@ -88,6 +88,22 @@ static void expect_filling(const double *x, double *y) {
     const double m = fmax((1 - 2 * lacking), (double)0.01f) / lacking * 2 / (1 + x[2] * x[2]);
     y[0] = fmin(2 * asin(sqrt(-expm1(log(threshold) / m) / 2)), (double)1.45f);
 }
+/* GGX: of the visible normals' cap, what reflects above the horizon (Eto and Tokuyoshi), of which a tenth at most is left out;
+   and what the cut keeps of all. */
+static void expect_ggx_cone(const double *x, double *y) {
+    const double a2 = fmin(x[0] * x[0], (double)0.999f), c = x[2], s = 1 + sqrt(fmax(1 - c * c, 0));
+    const double z = c / sqrt(a2 * (1 - c * c) + c * c), k = (1 - a2) * s * s / (s * s + a2 * c * c);
+    const double held = fmin((double)0.9f, (1 + k * z) / (1 + z)), t2 = pow(cut_tangent(x[0], x[1]), 2);
+    const double kept = x[1] >= 1 ? 1 : t2 <= 0 ? 0 : t2 / (x[0] * x[0] + t2);
+    const double of_kept[2] = {a2, kept}, of_held[2] = {a2, held};
+    double filling[3] = {0, 0, c};
+    y[0] = 0;
+    if (!(kept < held)) return;
+    expect_ggx_spread(of_kept, &filling[0]);
+    expect_ggx_spread(of_held, &filling[1]);
+    expect_filling(filling, y);
+    y[0] *= y[0];
+}
 static void wider(float *x) {
     x[1] = x[0] + x[1] * (0.5f - x[0]);
 }
@@ -132,6 +148,33 @@ static void expect_grazing(const double *x, double *y) {
 static void expect_mirror(const double *x, double *y) {
     const double s = pow(1 - x[1], 5);
     y[0] = x[0] * (1 - s) + fmin(50 * x[0], 1) * s;
+}
+/* Split sum of GGX with Smith's height-correlated masking and Schlick's Fresnel: x scales F0, y the rest. Midpoints in u over
+   visible normals, whose weight is G2/G1; half discs as the stretched view sees them (Heitz 2018). */
+static void expect_environment(const double *x, double *y) {
+    enum { N = 24 };
+    const double alpha = fmax(x[0] * x[0], 1e-4), a2 = alpha * alpha, cosine = x[1], sine = sqrt(1 - cosine * cosine);
+    const double l = hypot(alpha * sine, cosine), vx = alpha * sine / l, vz = cosine / l, s = 0.5 * (1 + vz);
+    for (int i = 0; i < N * N; i++) {
+        const double u = (i % N + 0.5) / N, phi = 2 * pi * (i / N + 0.5) / N;
+        const double p1 = sqrt(u) * cos(phi), p2 = (1 - s) * sqrt(1 - p1 * p1) + s * sqrt(u) * sin(phi);
+        const double p3 = sqrt(fmax(0, 1 - p1 * p1 - p2 * p2));
+        double hx = alpha * (-vz * p2 + vx * p3), hz = fmax(0, vx * p2 + vz * p3);
+        const double length = sqrt(hx * hx + alpha * p1 * alpha * p1 + hz * hz);
+        hx /= length, hz /= length;
+        const double vh = sine * hx + cosine * hz, lz = 2 * vh * hz - cosine;
+        if (lz <= 0) continue;
+        const double lambda_v = 0.5 * (sqrt(1 + a2 * (1 / (cosine * cosine) - 1)) - 1);
+        const double lambda_l = 0.5 * (sqrt(1 + a2 * (1 / (lz * lz) - 1)) - 1);
+        const double weight = (1 + lambda_v) / (1 + lambda_v + lambda_l) / (N * N), fresnel = pow(1 - vh, 5);
+        y[0] += weight * (1 - fresnel);
+        y[1] += weight * fresnel;
+    }
+}
+static void expect_environment_grazing(const double *x, double *y) {
+    double both[2] = {0, 0};
+    expect_environment(x, both);
+    y[0] = both[1];
 }
 static void two_normals(float *x) {
     const double turn = (double)x[2], about = (double)x[3];
@@ -183,17 +226,21 @@ static const struct function list[] = {
      {{LINEAR, 0, 0.9999, 0}, {LINEAR, 1e-6, 0.999999, 0}, {LOG, 1e-3, 1, 0}, {LOG, 1e-4, 1, ZERO}}, NULL, expect_visible, 3, ABSOLUTE, 2e-5, "the half-vector of a view and a point opposite to it is a small difference"},
     {"GGX's spread", "mean spread of rays, a kept part of 0 to 1", "ggx_spread(a.x, a.y)", "alpha2 kept", {{LOG, 1e-12, 0.999, 0}, {LINEAR, 0, 0.9, 0}}, NULL, expect_ggx_spread, 1, ULP, 40, "log is absolute 2^-21 off near 1 (Vulkan): 16 ULP, 2.6 times of which remain at 0.5"},
     {"GGX's spread, narrow", "the same where next to nothing is kept", "ggx_spread(a.x, a.y)", "alpha2 kept", {{LOG, 1e-12, 0.999, 0}, {LOG, 1e-9, 0.5, 0}}, NULL, expect_ggx_spread, 1, ULP, 12, "a series"},
-    {"Blinn-Phong's spread", "mean spread of rays, powers from infinite to 0", "blinn_phong_spread(a.x, a.y)", "roughness logarithm", {{LOG, 1e-6, 1, ZERO}, {LINEAR, -20, -0.05, 0}}, NULL, expect_phong_spread, 1, ULP, 160, EXP ", and a difference that keeps a fortieth where next to nothing of the lobe is left"},
+    {"Blinn-Phong's spread", "mean spread of rays, powers from infinite to 0, next to nothing of the lobe to all of it", "blinn_phong_spread(a.x, a.y)", "roughness logarithm", {{LOG, 1e-6, 1, ZERO}, {LOG, 1e-6, 60, NEGATIVE}}, NULL, expect_phong_spread, 1, ULP, 34, EXP ": 12 of e^x - 1, 16 beyond its tangent, and divisions; at 1, where the sum begins to be a difference, 22 of which it makes 31"},
     {"cone that fills a lobe", "filter whose mean cosine is what a cut lobe lacks", "filling_cone(a.x, a.y, a.z, 0.1)", "spread whole cosine", {{LOG, 1e-6, 0.4, ZERO}, {LINEAR, 0.02, 1, 0}, {LINEAR, 0, 1, 0}}, wider, expect_filling, 1, ULP, 60, "a difference of floats that keeps a fiftieth, halved by a root; exp and arc"},
 
     {"cone of a cut lobe", "what the cut leaves of a Blinn-Phong lobe, mirrors to rough", "blinn_phong_cone(a.x, a.y, 0.1, a.z)", "roughness share cosine", {{LOG, 1e-3, 0.7, 0}, {LINEAR, 0.05, 0.5, 0}, {LINEAR, 0, 1, 0}}, NULL,
      expect_phong_cone, 1, ULP, 60, EXP " in either spread; their difference keeps a third and more, and a root halves it"},
-    {"tangent frames", "orthonormal and right-handed, at the poles and next to them", "dot(frame_of(a.xyz)[0], frame_of(a.xyz)[0]), dot(frame_of(a.xyz)[1], frame_of(a.xyz)[1]), dot(frame_of(a.xyz)[0], frame_of(a.xyz)[1]), "
+    {"cone of a cut GGX lobe", "the same of GGX: what the cut leaves of nine tenths of what reflects upwards", "ggx_cone(a.x, a.y, 0.1, a.z) * ggx_cone(a.x, a.y, 0.1, a.z)", "alpha share cosine", {{LOG, 1e-3, 0.7, ZERO}, {LINEAR, 0.05, 0.9, 0}, {LINEAR, 0.01, 1, 0}}, NULL,
+     expect_ggx_cone, 1, ABSOLUTE, 1.5e-5, "the angle's square, for it is the root of a difference that goes to 0: of two spreads, 40 ULP of up to 0.4 each, times 4.6"},
+    {"tangent frames", "orthonormal and right-handed, at the poles and next to them", "/* tangent_frame(n, t, b) */ dot(frame_of(a.xyz)[0], frame_of(a.xyz)[0]), dot(frame_of(a.xyz)[1], frame_of(a.xyz)[1]), dot(frame_of(a.xyz)[0], frame_of(a.xyz)[1]), "
      "dot(cross(frame_of(a.xyz)[0], frame_of(a.xyz)[1]), a.xyz)", "x y z", {{LOG, 1e-12, 1, ZERO | NEGATIVE}, {LOG, 1e-12, 1, ZERO | NEGATIVE}, {LINEAR, -1, 1, ZERO}}, normal, expect_frame, 4, ABSOLUTE, 2e-6, "a normal is unit to 2e-7, and 1/(1 + z) at most doubles it"},
 
     {"reflectance of glass", "Fresnel's equations, facing to grazing", "face_reflectance(a.x, a.y)", "cosine index", {{LINEAR, 0, 1, 0}, {LINEAR, 1.2, 2.5, 0}}, NULL, expect_fresnel, 1, ABSOLUTE, 6e-7, "divisions and a root, 2.5 ULP each (Vulkan), squared"},
     {"reflectance at normal incidence", "dielectrics and metals", "reflectance_at_normal(vec3(a.x), a.y, a.z).x", "albedo metalness specular", {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}}, NULL, expect_normal_reflectance, 1, ABSOLUTE, 1.2e-7, "a mix in [0, 1]"},
     {"reflectance at grazing incidence", "fades below 2 %, the largest component stands for all", "reflectance_at_grazing(vec3(a.x, 0.5 * a.x, 0.0)), reflectance_at_grazing(vec3(0.0, a.x, 0.0)), reflectance_at_grazing(vec3(0.1 * a.x, 0.0, a.x)), 0.0", "f0", {{LOG, 1e-6, 1, ZERO}}, NULL, expect_grazing, 3, ULP, 1, "a product"},
+    {"environment BRDF", "what scales F0: the fit against its integral, mirrors to rough, facing to grazing", "environment_brdf(a.x, a.y), 0.0, 0.0", "roughness cosine", {{LINEAR, 0, 1, 0}, {LINEAR, 0.03, 1, 0}}, NULL, expect_environment, 1, ABSOLUTE, 0.025, "how far the fit is off"},
+    {"environment BRDF at grazing angles", "what scales F90", "environment_brdf(a.x, a.y).yx, 0.0, 0.0", "roughness cosine", {{LINEAR, 0, 1, 0}, {LINEAR, 0.03, 1, 0}}, NULL, expect_environment_grazing, 1, ABSOLUTE, 0.016, "how far the fit is off"},
     {"environment of a mirror", "roughness 0 is Schlick's Fresnel", "environment_reflectance(vec3(a.x), 0.0, a.y).x", "f0 cosine", {{LINEAR, 0, 1, 0}, {LOG, 1e-4, 1, 0}}, NULL, expect_mirror, 1, ABSOLUTE, 6e-7, "a fifth power, and sums in [0, 1]"},
 
     {"agreement of lobes", "any roughness, equal normals to opposite ones", "lobe_agreement(vec4(a.xyz, b.z), vec4(a.w, b.x, b.y, b.w), 0.1)", "x y z x2 y2 z2 roughness roughness2",

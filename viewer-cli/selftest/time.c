@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "trial.h"
+
 enum { LISTS = 3 };
 static const struct shot_list *const lists[LISTS] = {&time_surfaces, &time_views, &time_sharp};
 
@@ -15,9 +17,10 @@ static size_t shots(void) {
     for (size_t i = 0; i < LISTS; i++) sum += lists[i]->count;
     return sum;
 }
-static const struct shot *shot(size_t i) {
+static const struct shot *shot(size_t i, const char **source) {
     size_t list = 0;
     while (i >= lists[list]->count) i -= lists[list++]->count;
+    *source = lists[list]->source;
     return &lists[list]->items[i];
 }
 static size_t count(void) {
@@ -25,8 +28,9 @@ static size_t count(void) {
 }
 static struct selftest_case get(size_t i) {
     if (i >= shots()) return time_noise[i - shots()];
-    const struct shot *s = shot(i);
-    return (struct selftest_case){s->name, s->what, NULL, "absolute", s->bound, s->reason};
+    const char *source;
+    const struct shot *s = shot(i, &source);
+    return (struct selftest_case){s->name, s->what, source, "absolute", s->bound, s->reason};
 }
 
 void past_at(struct past *past, double x, double y) {
@@ -74,16 +78,10 @@ static void expect_pixel(const struct shot *s, const struct frame *frame, int n,
     }
 }
 
-static void compare(const struct shot *s, int n, size_t pixel, int value, double found, double expected,
-                    struct selftest_finding *finding) {
-    const double error = isfinite(found) ? fabs(found - expected) : (double)INFINITY;
-    finding->values++;
-    if (error <= finding->worst) return;
-    finding->worst = error;
-    snprintf(finding->at, sizeof finding->at, "frame %d, pixel %zu,%zu, %s%c: found %.9g, expected %.9g", n,
+static void compare(int n, size_t pixel, int value, double found, double expected, struct selftest_finding *finding) {
+    compared(finding, fabs(found - expected), "frame %d, pixel %zu,%zu, %s%c: found %.9g, expected %.9g", n,
              pixel % FRAME_WIDTH, pixel / FRAME_WIDTH, value < 4 ? "channel " : "samples",
              value < 4 ? "RGBA"[value] : ' ', found, expected);
-    (void)s;
 }
 
 struct bench {
@@ -104,8 +102,8 @@ static bool run_frame(const struct shot *s, struct bench *bench, int n, struct s
     for (size_t i = 0; i < FRAME_PIXELS; i++) {
         double *color = bench->expected.color[i], *age = &bench->expected.age[i];
         expect_pixel(s, &bench->frame, n, i, &bench->before, color, age);
-        for (int k = 0; k < 4; k++) compare(s, n, i, k, (double)bench->color[4 * i + (size_t)k], color[k], finding);
-        if (!s->sharp) compare(s, n, i, 4, (double)bench->age[i], *age, finding);
+        for (int k = 0; k < 4; k++) compare(n, i, k, (double)bench->color[4 * i + (size_t)k], color[k], finding);
+        if (!s->sharp) compare(n, i, 4, (double)bench->age[i], *age, finding);
         if (s->summed) continue;
         for (size_t k = 0; k < 4; k++) color[k] = (double)bench->color[4 * i + k];
         if (!s->sharp) *age = (double)bench->age[i];
@@ -117,7 +115,7 @@ static bool run_frame(const struct shot *s, struct bench *bench, int n, struct s
 static bool run_shot(const struct shot *s, struct bench *bench, struct selftest_finding *finding,
                      struct glint_error *err) {
     static const char *const half[] = {"downsample", "temporal", NULL}, *const full[] = {"temporal_sharp", NULL};
-    const int most = !bench->frames.test->quick ? s->frames : s->summed ? 16 : 6;
+    const int most = bench->frames.test->quick ? 20 : s->frames;
     bool ok = frames_pipeline(&bench->frames, s->sharp ? full : half, s->settings, err);
     for (int n = 1; ok && n <= s->frames && n <= most; n++) ok = run_frame(s, bench, n, finding, err);
     return ok;
@@ -127,8 +125,9 @@ static bool run(const struct selftest *test, const bool *chosen, struct selftest
                 struct glint_error *err) {
     struct bench *bench = calloc(1, sizeof *bench);
     bool ok = bench ? frames_begin(&bench->frames, test, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    const char *source;
     for (size_t i = 0; ok && i < shots(); i++)
-        if (chosen[i]) ok = run_shot(shot(i), bench, &findings[i], err);
+        if (chosen[i]) ok = run_shot(shot(i, &source), bench, &findings[i], err);
     ok = ok && time_noise_run(&bench->frames, chosen + shots(), findings + shots(), err);
     if (bench) frames_end(&bench->frames);
     free(bench);

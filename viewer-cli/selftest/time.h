@@ -31,6 +31,7 @@ struct shot {
 struct shot_list {
     const struct shot *items;
     size_t count;
+    const char *source; /* what all of them evaluate of passes/shared, beside the pass itself; or NULL */
 };
 extern const struct shot_list time_surfaces, time_views, time_sharp;
 

@@ -6,6 +6,7 @@
 
 #include "glint/samples.h"
 #include "time.h"
+#include "trial.h"
 
 /* Statistics of 2,048 pixels whose rays are independent: of a variance the relative standard deviation is
    sqrt((kurtosis - 1)/2048), 3.1 % for normal noise and 3.5 % for a kurtosis of 3.5, of a mean sigma/45. */
@@ -23,13 +24,11 @@ const struct selftest_case time_noise[NOISE_CASES] = {
 };
 /* clang-format on */
 
-static void found(struct selftest_finding *finding, double error, size_t values, const char *what, int n, double value,
-                  double expected) {
-    finding->values += values;
-    if (!(error <= finding->worst)) {
-        finding->worst = isfinite(error) ? error : (double)INFINITY;
-        snprintf(finding->at, sizeof finding->at, "%s %d: found %.6g, expected %.6g", what, n, value, expected);
-    }
+/* A figure that so many values made. */
+static void figure(struct selftest_finding *finding, double error, size_t values, const char *what, int n, double value,
+                   double expected) {
+    compared(finding, error, "%s %d: found %.6g, expected %.6g", what, n, value, expected);
+    finding->values += values - 1;
 }
 
 /* ---- Rays into a sky from a wall that mirrors where it is steepest, seen under a tenth of a degree ---- */
@@ -83,12 +82,12 @@ static bool still_camera(struct frames *shot, struct bench *bench, struct selfte
     }
     for (int n = 2; n <= 15; n++) {
         const double part = bench->mean[n - 1].variance / all.variance;
-        found(&findings[CURVE], fabs(part * n - 1), FRAME_PIXELS, "variance after frames:", n, part, 1.0 / n);
+        figure(&findings[CURVE], fabs(part * n - 1), FRAME_PIXELS, "variance after frames:", n, part, 1.0 / n);
     }
     for (int n = 48; n < frames; n++) floor += bench->mean[n].variance / all.variance / (frames - 48);
-    found(&findings[FLOOR], fabs(31 * floor - 1), FRAME_PIXELS, "variance up to frame", frames, floor, 1 / 31.0);
+    figure(&findings[FLOOR], fabs(31 * floor - 1), FRAME_PIXELS, "variance up to frame", frames, floor, 1 / 31.0);
     for (int n = frames - 32; n < frames; n++) last.mean += bench->mean[n].mean / 32;
-    found(&findings[DRIFT], fabs(last.mean - all.mean), FRAME_PIXELS, "mean at frame", frames, last.mean, all.mean);
+    figure(&findings[DRIFT], fabs(last.mean - all.mean), FRAME_PIXELS, "mean at frame", frames, last.mean, all.mean);
     return ok;
 }
 
@@ -109,7 +108,7 @@ static bool frame_numbers(struct frames *frames, struct bench *bench, struct sel
                 both += ((double)bench->others[a][4 * i] - each[a].mean) *
                         ((double)bench->others[b][4 * i] - each[b].mean) / FRAME_PIXELS;
             both /= sqrt(each[a].variance * each[b].variance);
-            found(finding, fabs(both), FRAME_PIXELS, "correlation of pair", 4 * a + b, both, 0);
+            figure(finding, fabs(both), FRAME_PIXELS, "correlation of pair", 4 * a + b, both, 0);
         }
     return ok;
 }
@@ -193,8 +192,8 @@ static bool cut_leaves_no_trace(const struct selftest *test, struct selftest_fin
                 in_shot.bytes[i] != alone.bytes[i] || memcmp(in_shot.values[i], alone.values[i], alone.bytes[i]) != 0;
         const int expected = cut ? 0 : IMAGES;
         if (ok)
-            found(finding, abs(differing - expected), alone.bytes[IMAGES - 1] / sizeof(float),
-                  "images that differ, cuts:", cut, differing, expected);
+            figure(finding, abs(differing - expected), alone.bytes[IMAGES - 1] / sizeof(float),
+                   "images that differ, cuts:", cut, differing, expected);
         drop(&in_shot), drop(&alone);
     }
     glint_pipeline_destroy(&pipeline);

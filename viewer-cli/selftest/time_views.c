@@ -155,4 +155,6 @@ static const struct shot list[] = {
 };
 /* clang-format on */
 
-const struct shot_list time_views = {list, sizeof list / sizeof *list};
+const struct shot_list time_views = {
+    list, sizeof list / sizeof *list,
+    "reproject(uv, position, full_pixel, travelled_m), history_limit(longest, roughness, turned)"};

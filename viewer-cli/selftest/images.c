@@ -1,0 +1,45 @@
+#include "images.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "trial.h"
+
+void image_compare(struct selftest_finding *finding, double found, double expected, double otherwise,
+                   const char *format, ...) {
+    double error = fmin(fabs(found - expected), fabs(found - otherwise));
+    if (found == expected || found == otherwise) error = 0; /* infinite ones, too */
+    char place[200] = "";
+    if (!(error <= finding->worst)) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(place, sizeof place, format, arguments);
+        va_end(arguments);
+    }
+    compared(finding, error, "%s: found %.9g, expected %.9g", place, found, expected);
+}
+
+char *image_shader(const char *variant, const char *format, ...) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    va_list arguments;
+    if (!file) return NULL;
+    fprintf(file,
+            "#version 460\n"
+            "#extension GL_GOOGLE_include_directive : require\n"
+            "#extension GL_EXT_samplerless_texture_functions : require\n"
+            "#include \"shared/bindings.glsl\"\n"
+            "#include \"%s.pass.h\"\n"
+            "#include \"shared/push_begin.glsl\"\n"
+            "#include \"%s.pass.h\"\n"
+            "};\n",
+            variant, variant);
+    va_start(arguments, format);
+    vfprintf(file, format, arguments);
+    va_end(arguments);
+    fclose(file);
+    return text;
+}

@@ -1,0 +1,37 @@
+/* Cases of functions that read images or work as a workgroup: a pass, or a stand-in for one, is run, and what it stores is
+   compared texel by texel. They are the second half of the group "functions". */
+#ifndef GLINT_VIEWER_SELFTEST_IMAGES_H
+#define GLINT_VIEWER_SELFTEST_IMAGES_H
+
+#include "frames.h"
+
+struct image_case {
+    struct selftest_case about;
+    bool (*check)(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
+                  struct glint_error *err);
+    const char *glsl; /* what a stand-in evaluates; NULL: a pass as it is */
+    const void *with; /* for `check` */
+};
+
+struct image_list {
+    const struct image_case *items;
+    size_t count;
+};
+extern const struct image_list images_surfaces, images_lists, images_cubes;
+
+/* found and expected may be either of two where a decision is a tie. */
+void image_compare(struct selftest_finding *finding, double found, double expected, double otherwise,
+                   const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 5, 6)))
+#endif
+    ;
+
+/* A shader of a pass with its declaration included, and what `format` says as the rest of it. */
+char *image_shader(const char *variant, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
+#endif

@@ -1,0 +1,180 @@
+/* Cases of compact.glsl and work_list.glsl: lists of pixels, and the pixels that invocations take from them. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "images.h"
+#include "noise.h"
+#include "plain_capture.h"
+
+/* ---- Pictures whose every pixel's class is drawn: sky, smooth or rough, in patches of 1 to all ---- */
+
+struct kind {
+    uint32_t width, height;
+    double sky, smooth;
+};
+static const struct kind kinds[] = {
+    {1, 1, 0, 1},        {7, 3, 0.3, 0.5}, {64, 64, 0, 0},  {65, 33, 0.9, 0.1}, {100, 70, 0.5, 0.5},
+    {257, 40, 0.1, 0.9}, {300, 260, 0, 1}, {40, 130, 1, 0}, /* more blocks than a workgroup has invocations; nothing */
+};
+enum { KINDS = sizeof kinds / sizeof *kinds, CLASSES = 2, ITEMS = 256 };
+static const uint32_t no_item = 0xFFFFFFFF;
+
+static int class_of(const struct kind *kind, uint32_t x, uint32_t y) {
+    if (noise(1, y << 16 | x) < kind->sky) return CLASSES;
+    return noise(2, y << 16 | x) < kind->smooth ? 0 : 1;
+}
+
+static void paint(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < pixels; i++) {
+        const int class = class_of(plain->user, (uint32_t)(i % plain->width), (uint32_t)(i / plain->width));
+        values[PLAIN_DEPTH * pixels + i] = class == CLASSES ? INFINITY : 5;
+        values[PLAIN_ROUGHNESS * pixels + i] = class == 0 ? 0.1f : 0.11f;
+    }
+}
+
+static bool run(struct frames *frames, const struct kind *kind, const char *const *passes, const char *const *settings,
+                const char *shader, struct glint_error *err) {
+    const struct plain plain = {.width = kind->width,
+                                .height = kind->height,
+                                .fov_y_degrees = 60,
+                                .spoil = paint,
+                                .compression = GLINT_NONE,
+                                .user = kind};
+    char path[4096];
+    snprintf(path, sizeof path, "%s/list.exr", frames->test->folder);
+    return plain_write(path, &plain, err) && frames_pipeline(frames, passes, settings, err) &&
+           (!shader || frames_shader(frames, "screen_trace", shader, err)) && frames_run_capture(frames, path, err);
+}
+
+static void *read(struct frames *frames, const char *name, enum glint_type type, size_t *values,
+                  struct glint_error *err) {
+    const struct glint_image *image = glint_replay_find_image(frames->replay, name);
+    *values = image ? (size_t)image->width * image->height * image->components : 0;
+    void *out = image ? malloc(*values * sizeof(uint32_t)) : NULL;
+    if (!image) glint_fail(err, GLINT_ERROR_DEVICE, "self-test: the replay made no %s", name);
+    else if (!out) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    else if (!glint_replay_read_image(frames->replay, image, type, out, err)) free(out), out = NULL;
+    return out;
+}
+
+/* ---- The list by its definition ---- */
+
+static uint32_t even_bits(uint32_t i) {
+    return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4);
+}
+
+struct items {
+    uint32_t *item;
+    size_t count;
+};
+static void fill_up(struct items *items, size_t count) {
+    while (items->count < count) items->item[items->count++] = no_item;
+}
+/* Pixels of a class in blocks of 32 x 32, there in squares of 4 x 4 in Morton order. */
+static void add_class(const struct kind *kind, int class, uint32_t first, uint32_t last, struct items *items) {
+    const uint32_t across = (kind->width + 31) / 32;
+    for (uint32_t i = first * 1024; i < last * 1024; i++) {
+        const uint32_t block = i / 1024, square = i / 16 % 64;
+        const uint32_t x = block % across * 32 + 4 * even_bits(square) + i % 4;
+        const uint32_t y = block / across * 32 + 4 * even_bits(square >> 1) + i / 4 % 4;
+        if (x < kind->width && y < kind->height && class_of(kind, x, y) == class)
+            items->item[items->count++] = y << 16 | x;
+    }
+}
+static bool make(const struct kind *kind, bool by_block, struct items *items, struct glint_error *err) {
+    const uint32_t blocks = (kind->width + 31) / 32 * ((kind->height + 31) / 32);
+    *items = (struct items){calloc((size_t)blocks * 1024 + 128, sizeof *items->item), 0};
+    if (!items->item) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (uint32_t block = 0; by_block && block < blocks; block++) {
+        for (int class = 0; class < CLASSES; class ++) add_class(kind, class, block, block + 1, items);
+        fill_up(items, (size_t)(block + 1) * 1024);
+    }
+    for (int class = 0; !by_block && class < CLASSES; class ++) {
+        add_class(kind, class, 0, blocks, items);
+        fill_up(items, (items->count + 63) / 64 * 64);
+    }
+    return true;
+}
+
+static const char *const with_tiles[] = {"classify=tiles", "downsample.jitter=false", NULL};
+static const char *const with_blocks[] = {"classify=blocks", "downsample.jitter=false", NULL};
+static const char *const without[] = {"downsample.jitter=false", NULL};
+
+static bool check_list(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
+                       struct glint_error *err) {
+    static const char *const passes[] = {"downsample", "classify", NULL};
+    const bool by_block = which->with == with_blocks;
+    bool ok = true;
+    for (size_t k = 0; ok && k < KINDS; k++) {
+        struct items items = {NULL, 0};
+        size_t room = 0;
+        ok = make(&kinds[k], by_block, &items, err) && run(frames, &kinds[k], passes, which->with, NULL, err);
+        uint32_t *list = ok ? read(frames, "screen_list", GLINT_U32, &room, err) : NULL;
+        ok = list && (ITEMS + items.count <= room ||
+                      glint_fail(err, GLINT_ERROR_DEVICE, "self-test: a list of %zu words is too short", room));
+        const uint32_t tiles = (kinds[k].width + 7) / 8 * ((kinds[k].height + 7) / 8),
+                       groups = (uint32_t)items.count / 64;
+        const uint32_t header[4] = {groups > tiles ? groups : tiles, 1, 1, (uint32_t)items.count};
+        for (size_t i = 0; ok && i < 4; i++)
+            image_compare(finding, list[i], header[i], header[i], "picture %zu, word %zu", k, i);
+        for (size_t i = 0; ok && i < items.count; i++)
+            image_compare(finding, list[ITEMS + i], items.item[i], items.item[i], "picture %zu, item %zu", k, i);
+        free(list);
+        free(items.item);
+    }
+    return ok;
+}
+
+/* ---- Which pixels the invocations take: each once, with a list and without one ---- */
+
+#define TAKES                                                                                                          \
+    "ivec2 size = imageSize(screen_travelled), pixel = own_pixel(size);\n"                                             \
+    "    bool has = inside(pixel, size) && texelFetch(depth_half, pixel, 0).x < 1e30;\n"                               \
+    "    if (!has && inside(pixel, size)) imageStore(screen_travelled, pixel, vec4(-1.0));\n"                          \
+    "    if (has_list()) pixel = listed_pixel(screen_list), has = inside(pixel, size);\n"                              \
+    "    uint item = item_of(pixel);\n"                                                                                \
+    "    if (has) imageStore(screen_travelled, pixel, vec4(float(item & 0xFFFFu) + 4096.0 * float(item >> 16u)))"
+
+static bool check_pixels(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
+                         struct glint_error *err) {
+    static const char *const all[] = {"downsample", "classify", "screen_trace", NULL};
+    static const char *const two[] = {"downsample", "screen_trace", NULL};
+    char *shader =
+        image_shader("linear", "#include \"shared/work_list.glsl\"\nvoid main() {\n    %s;\n}\n", which->glsl);
+    bool ok = shader || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t k = 0; ok && k < KINDS; k++) {
+        size_t count = 0;
+        ok = run(frames, &kinds[k], which->with == without ? two : all, which->with, shader, err);
+        float *found = ok ? read(frames, "screen_travelled", GLINT_F32, &count, err) : NULL;
+        ok = found != NULL;
+        for (size_t i = 0; ok && i < count; i++) {
+            const uint32_t x = (uint32_t)i % kinds[k].width, y = (uint32_t)i / kinds[k].width;
+            const double expected = class_of(&kinds[k], x, y) < CLASSES ? x + 4096.0 * y : -1;
+            image_compare(finding, (double)found[i], expected, expected, "picture %zu, pixel %u,%u", k, x, y);
+        }
+        free(found);
+    }
+    free(shader);
+    return ok;
+}
+
+#define COMPACT                                                                                                        \
+    "compact(marked, list): mark_block(list), place_block(marked, list), add_up(marked), write_header(list, total), "  \
+    "gather_items(marks), marks_of_square(), count_of(marks), pack(counts), unpack(counts), square_corner(), "         \
+    "class_of(pixel), counts_place(block), marks_place(block), block_count(), workgroup_index()"
+#define BLOCKS "list_block(list): gather_items(marks_of_square()), write_header(list, total)"
+
+/* clang-format off */
+static const struct image_case list[] = {
+    {{"compacted list", "eight pictures from 1 x 1, empty ones too: class by class in the order of blocks and squares, filled up", COMPACT, "words", 0, "integers"}, check_list, NULL, with_tiles},
+    {{"list of blocks", "the same block by block", BLOCKS, "words", 0, "integers"}, check_list, NULL, with_blocks},
+    {{"pixels without a list", "each invocation its own", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, without},
+    {{"pixels of a compacted list", "every one that is listed once, and the others by their own place", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, with_tiles},
+    {{"pixels of a list of blocks", "the same, with room between the blocks", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, with_blocks},
+};
+/* clang-format on */
+
+const struct image_list images_lists = {list, sizeof list / sizeof *list};
