@@ -26,6 +26,8 @@ struct blame_sum {
 struct blame {
     const char *out; /* NULL: nothing is kept */
     struct list captures;
+    bool shot;          /* the captures are frames one after the other, and the last is blamed */
+    struct list before; /* of the shot: what each pipeline runs first */
     struct glint_pipeline *base;
     struct glint_players *players;
     struct glint_device *device;

@@ -10,6 +10,7 @@ struct work {
     struct blame *blame;
     size_t capture;
     struct glint_judge *judge;
+    struct glint_capture *open, **before; /* as many as blame->before */
     size_t done, total;
     char label[64];
 };
@@ -56,12 +57,25 @@ static json_t *look_json(const struct blame *blame, const struct glint_verdict *
                      verdict->run_seconds, "metric_seconds", verdict->metric_seconds);
 }
 
+/* The frames before in a shot, so that the pipeline finds there what it left itself. */
+static bool run_before(struct work *work, const struct glint_pipeline *pipeline, struct glint_error *err) {
+    struct glint_replay *replay = glint_judge_replay(work->judge);
+    const struct glint_replay_options options = {.all = work->blame->all};
+    const size_t count = work->blame->before.count;
+    for (size_t i = 0; i < count; i++)
+        if (!glint_replay_load(replay, work->before[i], err) ||
+            !glint_replay_run(replay, pipeline, &options, report, work, err))
+            return false;
+    return !count || glint_replay_load(replay, work->open, err);
+}
+
 static bool look(struct work *work, uint32_t coalition, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_players_pipeline(work->blame->players, coalition, err);
     struct glint_verdict verdict = {0};
     struct glint_error own = {0};
     if (!pipeline) return false;
-    bool ok = glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
+    bool ok =
+        run_before(work, pipeline, &own) && glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
     if (ok && work->blame->against.truth && verdict.no_truth.code != GLINT_OK)
         ok = glint_fail(&own, verdict.no_truth.code, "%s", verdict.no_truth.message);
     for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++)
@@ -96,7 +110,8 @@ static bool play(void *user, uint32_t coalition, double *values, struct glint_er
 static bool time_one(struct work *work, uint32_t coalition, uint32_t round, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_players_pipeline(work->blame->players, coalition, err);
     struct glint_cost cost;
-    bool ok = pipeline && glint_judge_time(work->judge, pipeline, 0, false, &cost, report, work, err);
+    bool ok = pipeline && run_before(work, pipeline, err) &&
+              glint_judge_time(work->judge, pipeline, 0, work->blame->shot, &cost, report, work, err);
     if (ok) {
         ok = place_line(work, coalition, cost_json(&cost, round), err);
         glint_cost_finish(&cost);
@@ -142,6 +157,26 @@ static bool find_answer(struct work *work, struct glint_error *err) {
                                                             &error, progress_report, work->blame->progress, err);
 }
 
+/* Frames that do not follow each other, or follow a cut, leave no history. */
+static bool open_shot(struct work *work, struct glint_error *err) {
+    const struct list *before = &work->blame->before;
+    const struct glint_capture *last = NULL;
+    if (!(work->before = calloc(before->count + 1, sizeof *work->before)))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i <= before->count; i++) {
+        if (i < before->count && !(work->before[i] = glint_capture_open(before->items[i], NULL, err))) return false;
+        const struct glint_capture *now = i < before->count ? work->before[i] : work->open;
+        const struct glint_frame *frame = glint_capture_frame(now);
+        const uint64_t number = last ? glint_capture_frame(last)->number + 1u : frame->number;
+        if (frame->number != number || (last && frame->cut))
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected frame %llu of the shot, found %s%llu",
+                              glint_capture_path(now), (unsigned long long)number, frame->cut ? "a cut at " : "",
+                              (unsigned long long)frame->number);
+        last = now;
+    }
+    return true;
+}
+
 static bool on_capture(struct work *work, struct glint_error *err) {
     struct blame *blame = work->blame;
     const size_t c = work->capture;
@@ -149,12 +184,15 @@ static bool on_capture(struct work *work, struct glint_error *err) {
     options.truth = true;
     options.all = blame->all;
     options.metrics = blame->metrics;
-    struct glint_capture *capture = glint_capture_open(blame->captures.items[c], NULL, err);
-    const bool ok = capture && (work->judge = glint_judge_create(blame->device, &options, err)) &&
-                    glint_judge_load(work->judge, capture, err) && find_answer(work, err) && find_shares(work, err) &&
-                    take_turns(work, err);
+    const bool ok = (work->open = glint_capture_open(blame->captures.items[c], NULL, err)) && open_shot(work, err) &&
+                    (work->judge = glint_judge_create(blame->device, &options, err)) &&
+                    glint_judge_load(work->judge, work->open, err) && find_answer(work, err) &&
+                    find_shares(work, err) && take_turns(work, err);
     if (work->judge) glint_judge_destroy(&work->judge);
-    if (capture) glint_capture_close(&capture);
+    for (size_t i = 0; work->before && i < blame->before.count; i++)
+        if (work->before[i]) glint_capture_close(&work->before[i]);
+    free(work->before);
+    if (work->open) glint_capture_close(&work->open);
     return ok;
 }
 
@@ -187,21 +225,22 @@ static bool keep(void *user, json_t *line) {
 /* All that lines depend on. How many permutations are drawn is none of it: they share coalitions. */
 static json_t *define(const struct blame *blame, const struct list *shaders, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
-    json_t *captures = captures_json(&blame->captures, err), *sources = captures ? shaders_json(shaders, err) : NULL,
-           *players = json_array();
+    json_t *captures = captures_json(&blame->captures, err), *before = captures_json(&blame->before, err),
+           *sources = captures && before ? shaders_json(shaders, err) : NULL, *players = json_array();
     for (size_t p = 0; p < blame->count; p++)
         json_array_append_new(players, json_string(glint_player_change(blame->players, p)));
     if (!sources) {
         json_decref(captures);
+        json_decref(before);
         json_decref(players);
         return NULL;
     }
-    json_t *json = json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:I, s:b, s:I, s:[ss]}", "format", 1, "glint",
-                             GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(blame->base), "shaders",
-                             sources, "players", players, "reference", blame->against.truth ? "truth" : "computed",
-                             "reference_runs", strings_json(blame->against.references.items), "reference_rays",
-                             (json_int_t)blame->against.rays, "all", blame->all, "metrics", (json_int_t)blame->metrics,
-                             "device", device->name, device->driver_version);
+    json_t *json = json_pack(
+        "{s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:s, s:o, s:I, s:b, s:I, s:[ss]}", "format", 1, "glint", GLINT_VERSION,
+        "captures", captures, "before", before, "pipeline", pipeline_json(blame->base), "shaders", sources, "players",
+        players, "reference", blame->against.truth ? "truth" : "computed", "reference_runs",
+        strings_json(blame->against.references.items), "reference_rays", (json_int_t)blame->against.rays, "all",
+        blame->all, "metrics", (json_int_t)blame->metrics, "device", device->name, device->driver_version);
     if (!json) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     return json;
 }

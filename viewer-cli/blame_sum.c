@@ -144,5 +144,6 @@ void blame_finish(struct blame *blame) {
     if (blame->players) glint_players_destroy(&blame->players);
     if (blame->base) glint_pipeline_destroy(&blame->base);
     list_free(&blame->captures);
+    list_free(&blame->before);
     answer_args_finish(&blame->against);
 }

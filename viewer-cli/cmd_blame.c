@@ -15,7 +15,7 @@ struct arguments {
     bool json;
 };
 
-enum { KEY_SEED = 256, KEY_REPEAT, KEY_PLAYER_RAYS, KEY_METRIC, KEY_EXACT, KEY_INTERVAL, KEY_PERMUTATIONS };
+enum { KEY_SEED = 256, KEY_REPEAT, KEY_PLAYER_RAYS, KEY_METRIC, KEY_SHOT, KEY_EXACT, KEY_INTERVAL, KEY_PERMUTATIONS };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -26,6 +26,8 @@ static const struct argp_option options[] = {
                                                      "(default: a reference traced once, kept in the folder; the truth is reported beside it)", 0},
     {"rays",      KEY_RAYS,      "N",             0, "Rays a pixel of the reference that is traced (default 64)", 0},
     {"player-rays", KEY_PLAYER_RAYS, "N",         0, "Rays a pixel of pipelines whose rays are exchanged (default: those of the preset reference)", 0},
+    {"shot",      KEY_SHOT,      NULL,            0, "The captures are frames of a shot, one after the other: the last is blamed, and each pipeline runs those "
+                                                     "before it first, so that what remembers frames has a history", 0},
     {"exact",     KEY_EXACT,     "N",             0, "Up to N players all pipelines are run, 2^N at most, and shares are exact (default 8)", 0},
     {"interval",  KEY_INTERVAL,  "PERCENT",       0, "With more players: permutations are drawn until no share's 95 % interval is wider than ± this part "
                                                      "of what is shared out (default 2)", 0},
@@ -48,6 +50,8 @@ static const struct example examples[] = {
     {"glint blame street.exr --repeat 0", "no times, nothing kept: the table alone"},
     {"glint blame street.exr --metric relative_mse --reference truth",
      "against the path tracer, what is missing included"},
+    {"glint blame --shot street.0001.exr street.0002.exr street.0003.exr",
+     "the third frame of a shot, with its history"},
     {"glint blame street.exr -o quick --exact 0 --interval 5", "permutations until shares are known to ± 5 %"},
     {"glint blame street.exr -o blame --interval 1", "the same folder again: only what is new is run"},
     {"glint passes screen_trace", "what the reference of a slot is"},
@@ -56,12 +60,24 @@ static const struct example examples[] = {
 
 extern const struct command cmd_blame;
 
+static void split_shot(struct blame *blame, struct argp_state *state) {
+    const struct list all = blame->captures;
+    if (all.count < 2) argp_error(state, "--shot: expected the frames before as well");
+    blame->captures = (struct list){0};
+    list_add(&blame->captures, all.items[all.count - 1], state);
+    blame->before = all;
+    blame->before.items[--blame->before.count] = NULL;
+}
+
 static error_t parse_more(int key, char *arg, struct argp_state *state, struct arguments *a) {
     struct blame *blame = &a->blame;
     switch (key) {
     case KEY_REFERENCE:
     case KEY_RAYS:
         return answer_args_parse(key, arg, state, &blame->against);
+    case KEY_SHOT:
+        blame->shot = true;
+        return 0;
     case KEY_PLAYER_RAYS:
         blame->player_rays = arg_uint("player-rays", arg, 1, 1024, state);
         return 0;
@@ -70,6 +86,7 @@ static error_t parse_more(int key, char *arg, struct argp_state *state, struct a
         return 0;
     case ARGP_KEY_END:
         if (!blame->captures.count) argp_error(state, "which capture?");
+        if (blame->shot) split_shot(blame, state);
         answer_args_check(&blame->against, blame->captures.count, state);
         return 0;
     }
@@ -192,7 +209,7 @@ const struct command cmd_blame = {
         "that "
         "shares are, too. Slots that cannot be exchanged alone are one player, and the output says why. Fog is off, "
         "which "
-        "the truth lacks. Captures are taken each by itself, without the history of a shot.",
+        "the truth lacks. Captures are taken each by itself, without the history of a shot; --shot gives it one.",
     .options = options,
     .parse = parse,
     .examples = examples,

@@ -24,6 +24,7 @@ enum {
     KEY_VARY,
     KEY_UNSEEN,
     KEY_BASELINE,
+    KEY_OVER,
     KEY_TRIES,
     KEY_SEED,
     KEY_ROUNDS,
@@ -47,7 +48,10 @@ static const struct argp_option options[] = {
                                                     "and another budget of the same start finds its points again", 0},
     {"unseen",    KEY_UNSEEN,    "F",            0, "A capture to measure what was found on, and not to tune on; may be repeated", 0},
     {"baseline",  KEY_BASELINE,  "scale",        0, "Measure beside it what is found without a search: all counts of steps, cells, samples, taps and rays "
-                                                    "times one factor, at the same cost", 0},
+                                                    "that may move and cost something, times the largest factor that keeps the limit. A budget becomes what that "
+                                                    "costs, on each capture, and the search knows it from the start", 0},
+    {"over",      KEY_OVER,      "mean|worst",   0, "Of several captures: the means count, or the one that errs most, and the one that costs most, in parts "
+                                                    "of what the baseline does there, without one of what the start does (default mean)", 0},
     {"tries",     KEY_TRIES,     "N",            0, "Points to try at most (default 150, and 3 for each parameter)", 0},
     {"seed",      KEY_SEED,      "N",            0, "Of the search's new starts (default 1)", 0},
     {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of a point, each in turn with the start (default 3)", 0},
@@ -160,7 +164,8 @@ static void check_arguments(struct arguments *a, struct argp_state *state) {
 }
 
 static error_t parse(int key, char *arg, struct argp_state *state) {
-    static const char *const costs[] = {"ms", "fetches", NULL}, *const baselines[] = {"scale", NULL};
+    static const char *const costs[] = {"ms", "fetches", NULL}, *const baselines[] = {"scale", NULL},
+                             *const overs[] = {"mean", "worst", NULL};
     struct arguments *a = state->input;
     struct tune *tune = &a->tune;
     switch (key) {
@@ -188,6 +193,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_BASELINE:
         tune->baseline = arg_choice("baseline", arg, baselines, state) == 0;
+        return 0;
+    case KEY_OVER:
+        tune->worst = arg_choice("over", arg, overs, state) == 1;
         return 0;
     case KEY_FOLDER:
         tune->folder = arg;
@@ -231,18 +239,6 @@ static bool begin(struct arguments *a, struct glint_error *err) {
     return tune_open(tune, err);
 }
 
-/* What no point reaches, with the least that was found. */
-static bool check_within(const struct tune *tune, struct glint_error *err) {
-    const struct glint_search_point *least = &tune->found.points[tune->found.least];
-    if (tune->found.within) return true;
-    return glint_fail(
-        err, GLINT_ERROR_UNSUPPORTED,
-        "no point reaches %s of %.4g %s: the least of %zu points is %.4g, with %s of %.4g; no preset was written",
-        tune->by_error ? "an error" : "a cost", tune->within,
-        tune->by_error ? glint_metric(tune->metric)->title : tune_cost_unit(tune), tune->found.count,
-        least->figures.limited, tune->by_error ? "a cost" : "an error", least->figures.wanted);
-}
-
 /* An interrupted search leaves its best so far. */
 static enum status interrupted(const struct tune *tune) {
     struct glint_error err = {0};
@@ -254,9 +250,8 @@ static enum status interrupted(const struct tune *tune) {
 }
 
 static bool work(struct tune *tune, struct glint_error *err) {
-    return tune_search(tune, err) && check_within(tune, err) && tune_choose(tune, err) &&
-           (!tune->baseline || tune_find_scale(tune, err)) && tune_confirm(tune, err) && tune_write_preset(tune, err) &&
-           tune_write_page(tune, err);
+    return tune_search(tune, err) && (tune->found.within || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
+           tune_confirm(tune, err) && tune_write_preset(tune, err) && tune_write_page(tune, err);
 }
 
 void tune_finish(struct tune *tune) {
@@ -272,6 +267,7 @@ void tune_finish(struct tune *tune) {
     free(tune->measured);
     free(tune->subjects);
     free(tune->axes);
+    free(tune->scaling);
     free(tune->left);
     if (tune->base) glint_pipeline_destroy(&tune->base);
     if (tune->device) glint_device_destroy(&tune->device);

@@ -23,16 +23,19 @@ struct tune_axis {
 struct tune_left {
     char name[128], why[224];
 };
+/* Of one pipeline on a capture, or over those that it is tuned on. */
+struct tune_figures {
+    double error, cost;
+};
 struct tune_subject {
     const char *path;
     bool unseen; /* looked at in the end alone */
     struct glint_capture *capture;
     struct glint_judge *judge;
     double start_ms; /* what times are relative to; 0: not measured yet */
-};
-/* Of one pipeline over the captures it is tuned on. */
-struct tune_figures {
-    double error, cost;
+    struct tune_figures
+        yard;      /* what --over worst and --baseline measure others by here: the baseline's, else the start's */
+    double factor; /* of TUNE_SCALED here: the least at which it costs no less than what was tuned */
 };
 
 /* A median with the interval that holds the true one with 95 %. */
@@ -44,7 +47,8 @@ enum { TUNE_START, TUNE_TUNED, TUNE_SCALED, TUNE_CONTENDERS };
 struct tune_measured {
     struct glint_metric_table errors;
     double steps_px, fetches_px;
-    struct tune_median ms; /* NAN: not timed */
+    struct tune_median ms;   /* NAN: not timed */
+    struct tune_median part; /* of its time that the tuned one takes, round by round */
 };
 
 struct tune {
@@ -52,7 +56,7 @@ struct tune {
     struct list captures, unseen, vary, slots, shaders;
     struct answer_args against;
     const char *command_line;
-    bool all, fetches, by_error, baseline;
+    bool all, fetches, by_error, baseline, worst;
     double limit; /* of cost, or of error */
     bool part;    /* the limit is a part of the start's figure */
     uint32_t tries, seed, rounds, repeat;
@@ -76,11 +80,14 @@ struct tune {
 
     struct glint_search_result found;
     struct tune_figures start;
-    double within; /* the limit in the figure's own unit */
+    double asked,
+        within;    /* the limit in the figure's own unit; what is searched for: the baseline's cost, if that is less */
     size_t chosen; /* of found.points */
     bool confirmed, confirmed_within;
-    double factor; /* that all counts are scaled by, for TUNE_SCALED */
+    double factor;   /* that all counts are scaled by, for TUNE_SCALED */
+    double *scaling; /* the values there */
     struct tune_figures scaled;
+    bool scaled_within; /* else no factor keeps the limit, and it is the one that comes nearest */
     struct glint_pipeline *contenders[TUNE_CONTENDERS]; /* NULL: none */
     struct tune_measured *measured;                     /* subject · TUNE_CONTENDERS + contender */
 };
@@ -94,8 +101,8 @@ bool tune_make_axes(struct tune *tune, struct glint_error *err);
 void tune_value_text(const struct tune_axis *axis, double value, char text[TUNE_TEXT]);
 /* The start with these values. */
 struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *values, struct glint_error *err);
-/* The start with all its counts of steps, cells, samples, taps and rays times a factor. */
-struct glint_pipeline *tune_scaled(const struct tune *tune, double factor, struct glint_error *err);
+/* The start's values, with all counts that may move and cost something times a factor; false: there are none. */
+bool tune_scale(const struct tune *tune, double factor, double *values);
 
 /* tune_try.c */
 /* Opens and uploads the captures that are tuned on, and runs the start once on each. */
@@ -107,17 +114,43 @@ void tune_unload_subject(struct tune *tune, size_t subject);
 bool tune_open(struct tune *tune, struct glint_error *err);
 /* Finds tune->found. What was found until an error stays. */
 bool tune_search(struct tune *tune, struct glint_error *err);
-/* Finds the smallest factor that costs as much as the chosen point. */
-bool tune_find_scale(struct tune *tune, struct glint_error *err);
-/* The part of a frame's cost that counts: of all slots or of those of --slots. */
-double tune_frame_ms(const struct tune *tune, const struct glint_cost *cost);
+/* Goes on from its best point when the chosen one was measured to take these parts of the baseline's time on the captures: the
+   search's times are corrected by that. */
+bool tune_search_again(struct tune *tune, const double *parts, struct glint_error *err);
+/* Of these values, tried now or found in the journal. */
+bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err);
+/* Others are measured by these values' figures from now on. They must have been evaluated. */
+void tune_set_yard(struct tune *tune, const double *values);
+/* Whether the time of a slot counts: all do, or those of --slots. */
+bool tune_slot_counts(const struct tune *tune, const char *slot);
+/* One round of what counts of a frame; `whole`: in one piece. */
+bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
+               double *ms, struct glint_error *err);
 bool tune_report(void *user, const char *what, double done); /* a glint_progress; user: the tune */
 
+/* tune_baseline.c */
+/* Finds the largest factor that keeps the budget, or the smallest that keeps the error, and makes its figures the yard. A
+   budget becomes what it costs, so that both take the same. */
+bool tune_find_scale(struct tune *tune, struct glint_error *err);
+/* Sets a subject's factor, from the baseline's own upwards. */
+bool tune_match_scale(struct tune *tune, size_t subject, struct glint_error *err);
+
 /* tune_confirm.c */
+/* Sorts the values. */
+struct tune_median tune_median(double *values, size_t count);
+struct tune_times {
+    struct tune_median ms, part; /* NAN without rounds */
+};
+/* Rounds of all pipelines that are not NULL, in turns, each in one piece. */
+bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
+                        struct tune_times times[TUNE_CONTENDERS], struct glint_error *err);
 /* Chooses the point that keeps the limit when it is measured again. */
 bool tune_choose(struct tune *tune, struct glint_error *err);
 /* Measures start, tuned and scaled on all captures, in turns. */
 bool tune_confirm(struct tune *tune, struct glint_error *err);
+
+/* tune_least.c: what no point reaches, with the least that was found, and which passes take that. Returns false. */
+bool tune_fail_least(struct tune *tune, struct glint_error *err);
 
 /* tune_preset.c: a preset with its provenance. */
 bool tune_write_preset(const struct tune *tune, struct glint_error *err);
@@ -125,8 +158,9 @@ json_t *tune_json(const struct tune *tune);
 
 /* tune_report.c */
 void tune_print(const struct tune *tune);
-/* "less", "more", "equal" with the interval of how much more b errs than a. */
+/* "less", "more", "equal" with the interval of how much more b errs than a; of the part of its time that the tuned one takes. */
 const char *tune_verdict(const struct glint_figure *difference);
+const char *tune_part_verdict(const struct tune_median *part);
 bool tune_difference(const struct tune *tune, size_t subject, int a, int b, size_t row,
                      struct glint_figure *difference);
 

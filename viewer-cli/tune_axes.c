@@ -57,33 +57,28 @@ struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *valu
     return pipeline;
 }
 
-static bool is_count(const struct glint_row *row) {
+/* A number of something that each takes its time; taps are no fetches of a trace. */
+static bool is_count(const struct tune *tune, const struct tune_axis *axis) {
     static const char *const units[] = {"steps", "cells", "samples", "taps"};
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (row_is_parameter(row) && row->type != GLINT_VALUE_FLOAT && !strcmp(row->unit, units[i])) return true;
+    char slot[128];
+    if (axis->texts || axis->other) return false;
+    if (is_rays(axis->name)) return true;
+    snprintf(slot, sizeof slot, "%.*s", (int)strcspn(axis->name, "."), axis->name);
+    if (!axis->row || !axis->axis.whole || !tune_slot_counts(tune, slot)) return false;
+    for (size_t i = 0; i < sizeof units / sizeof *units - tune->fetches; i++)
+        if (!strcmp(axis->row->unit, units[i])) return true;
     return false;
 }
 
-struct glint_pipeline *tune_scaled(const struct tune *tune, double factor, struct glint_error *err) {
-    struct glint_pipeline *pipeline = glint_pipeline_copy(tune->base, err);
-    char assignment[200];
-    bool ok = pipeline != NULL;
-    for (size_t i = 0; ok && i < glint_pipeline_pass_count(pipeline); i++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        for (size_t r = 0; ok && r < pass->row_count; r++) {
-            const struct glint_row *row = &pass->rows[r];
-            if (!is_count(row)) continue;
-            const double value = round(glint_pipeline_value(tune->base, pass, row) * factor);
-            snprintf(assignment, sizeof assignment, "%s.%s=%.0f", pass->slot, row->name,
-                     fmin(fmax(value, row->lowest), row->highest));
-            ok = glint_pipeline_set(pipeline, assignment, err);
-        }
+bool tune_scale(const struct tune *tune, double factor, double *values) {
+    bool some = false;
+    for (size_t a = 0; a < tune->axis_count; a++) {
+        const struct glint_search_axis *axis = &tune->axes[a].axis;
+        const bool count = is_count(tune, &tune->axes[a]);
+        values[a] = count ? fmin(fmax(round(axis->start * factor), axis->lowest), axis->highest) : axis->start;
+        some |= count;
     }
-    const double rays = ok ? round(glint_pipeline_rays(tune->base) * factor) : 1;
-    snprintf(assignment, sizeof assignment, "pipeline.rays=%.0f", fmin(fmax(rays, 1), 1024));
-    ok = ok && glint_pipeline_set(pipeline, assignment, err);
-    if (!ok && pipeline) glint_pipeline_destroy(&pipeline);
-    return pipeline;
+    return some;
 }
 
 /* ---- Why a parameter is left alone ---- */

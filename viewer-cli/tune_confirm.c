@@ -17,7 +17,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* Order statistics between which the true median lies with 95 %, whatever the distribution: each value is below it with a half. */
-static struct tune_median median_of(double *values, size_t count) {
+struct tune_median tune_median(double *values, size_t count) {
     if (!count) return (struct tune_median){NAN, NAN, NAN};
     qsort(values, count, sizeof *values, ascending);
     double probability = exp2(-(double)count), below = probability;
@@ -32,97 +32,157 @@ static struct tune_median median_of(double *values, size_t count) {
                                 values[count - 1 - low]};
 }
 
-/* Rounds of all pipelines in turns, each in one piece. ms[pipeline] is NAN without rounds. */
-static bool time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
-                          struct tune_median ms[TUNE_CONTENDERS], struct glint_error *err) {
+/* Who is first changes from round to round. */
+bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
+                        struct tune_times times[TUNE_CONTENDERS], struct glint_error *err) {
     const size_t rounds = tune->repeat;
-    double *values = calloc(TUNE_CONTENDERS * rounds + 1, sizeof *values);
+    double *values = calloc((TUNE_CONTENDERS + 1) * rounds + 1, sizeof *values),
+           *parts = values + TUNE_CONTENDERS * rounds;
     bool ok = values || no_memory(err);
     for (uint32_t r = 0; ok && r < rounds; r++) {
         snprintf(tune->label, sizeof tune->label, "measured again, round %u", r + 1);
         glint_judge_next_round(subject->judge);
-        for (size_t k = 0; ok && k < TUNE_CONTENDERS; k++) {
-            struct glint_cost cost;
-            if (!pipelines[k]) continue;
-            if (!(ok = glint_judge_time(subject->judge, pipelines[k], 0, true, &cost, tune_report, tune, err))) break;
-            values[k * rounds + r] = tune_frame_ms(tune, &cost);
-            glint_cost_finish(&cost);
+        for (size_t turn = 0; ok && turn < TUNE_CONTENDERS; turn++) {
+            const size_t k = (turn + r) % TUNE_CONTENDERS;
+            ok = !pipelines[k] || tune_time(tune, subject, pipelines[k], true, &values[k * rounds + r], err);
         }
     }
-    for (size_t k = 0; ok && k < TUNE_CONTENDERS; k++)
-        ms[k] = median_of(values + k * rounds, pipelines[k] ? rounds : 0);
+    for (size_t k = 0; ok && k < TUNE_CONTENDERS; k++) {
+        for (size_t r = 0; r < rounds; r++) parts[r] = values[TUNE_TUNED * rounds + r] / values[k * rounds + r];
+        times[k].part = tune_median(parts, pipelines[k] ? rounds : 0);
+        if (k != TUNE_TUNED) times[k].ms = tune_median(values + k * rounds, pipelines[k] ? rounds : 0);
+    }
+    if (ok) times[TUNE_TUNED].ms = tune_median(values + TUNE_TUNED * rounds, rounds);
     free(values);
     return ok;
 }
 
-/* Mean over the captures that are tuned on, of a point and of the start beside it. */
-static bool time_point(struct tune *tune, size_t point, double *own, double *start, struct glint_error *err) {
-    struct glint_pipeline *pipelines[TUNE_CONTENDERS] = {
-        tune->base, tune_pipeline(tune, tune->found.points[point].values, err), NULL};
-    bool ok = pipelines[TUNE_TUNED] != NULL;
-    *own = *start = 0;
+/* How much of what it may take a point takes: beside the baseline, of its time where that is most and as much as the interval
+   leaves open; else of the budget, mean over the captures. parts[capture]: of the baseline's time; NULL: not asked. */
+static bool time_point(struct tune *tune, struct glint_pipeline *scaled, size_t point, double *part, double *parts,
+                       struct glint_error *err) {
+    struct glint_pipeline *own = tune_pipeline(tune, tune->found.points[point].values, err);
+    struct glint_pipeline *const pipelines[TUNE_CONTENDERS] = {tune->base, own, scaled};
+    double sum = 0, start = 0, most = 0;
+    bool ok = own != NULL;
     for (size_t s = 0; ok && s < tune->captures.count; s++) {
-        struct tune_median ms[TUNE_CONTENDERS];
-        ok = time_in_turns(tune, &tune->subjects[s], pipelines, ms, err);
-        *own += ok ? ms[TUNE_TUNED].value / (double)tune->captures.count : 0;
-        *start += ok ? ms[TUNE_START].value / (double)tune->captures.count : 0;
+        struct tune_times times[TUNE_CONTENDERS];
+        if (!(ok = tune_time_in_turns(tune, &tune->subjects[s], pipelines, times, err))) break;
+        sum += times[TUNE_TUNED].ms.value / (double)tune->captures.count;
+        start += times[TUNE_START].ms.value / (double)tune->captures.count;
+        if (scaled) most = fmax(most, times[TUNE_SCALED].part.high);
+        if (parts) parts[s] = times[TUNE_SCALED].part.high;
     }
-    if (pipelines[TUNE_TUNED]) glint_pipeline_destroy(&pipelines[TUNE_TUNED]);
+    *part = scaled ? most : sum / (tune->part ? tune->limit * start : tune->limit);
+    if (own) glint_pipeline_destroy(&own);
+    return ok;
+}
+
+static bool is_baseline(const struct tune *tune, size_t point) {
+    return tune->scaled_within &&
+           !memcmp(tune->found.points[point].values, tune->scaling, tune->axis_count * sizeof *tune->scaling);
+}
+
+/* The best that has not been passed over; of none the least, or the baseline, which keeps its own time. */
+static bool next_best(struct tune *tune, const bool *passed, double limit) {
+    bool some = false;
+    for (size_t p = 0; p < tune->found.count; p++) {
+        const struct glint_search_figures *figures = &tune->found.points[p].figures;
+        if (passed[p] || !(figures->limited <= limit)) continue;
+        if (!some || glint_search_better(figures, &tune->found.points[tune->chosen].figures, limit)) tune->chosen = p;
+        some = true;
+    }
+    if (!some) tune->chosen = tune->found.least;
+    for (size_t p = 0; !some && p < tune->found.count; p++)
+        if (is_baseline(tune, p)) tune->chosen = p;
+    return some;
+}
+
+/* Passes over what luck alone brought below the limit. Where one was over it others may be: half of that is taken off. */
+static bool choose(struct tune *tune, struct glint_pipeline *scaled, bool *passed, struct glint_error *err) {
+    enum { TRIES = 20 };
+    double limit = tune->within;
+    for (int i = 0; i < TRIES; i++) {
+        double part = 1;
+        const bool some = next_best(tune, passed, limit);
+        if (!is_baseline(tune, tune->chosen) && !time_point(tune, scaled, tune->chosen, &part, NULL, err)) return false;
+        if ((tune->confirmed_within = part <= 1) || !some) return true;
+        limit /= (1 + part) / 2;
+        passed[tune->chosen] = true;
+    }
+    next_best(tune, passed, 0);
+    tune->confirmed_within = is_baseline(tune, tune->chosen);
+    return true;
+}
+
+/* Times of a few rounds, and of a baseline that was measured once, are off by some per cent: what that is on each capture shows
+   where the best point is measured beside the baseline. */
+static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct glint_error *err) {
+    enum { TIMES = 2 };
+    double *parts = calloc(tune->captures.count, sizeof *parts), part = 0;
+    bool ok = parts || no_memory(err);
+    for (int i = 0; ok && i < TIMES && !is_baseline(tune, tune->chosen); i++) {
+        ok = time_point(tune, scaled, tune->chosen, &part, parts, err);
+        if (!ok || part <= 1) break;
+        ok = tune_search_again(tune, parts, err);
+    }
+    free(parts);
     return ok;
 }
 
 /* A search that tries many noisy times ends at one that was lucky. */
 bool tune_choose(struct tune *tune, struct glint_error *err) {
-    enum { TRIES = 5 };
-    tune->chosen = tune->found.best;
+    struct glint_pipeline *scaled = NULL;
+    bool *passed = NULL, ok = true;
     tune->confirmed_within = tune->found.within;
     if (tune->fetches || tune->by_error || !tune->repeat || !tune->found.within) return true;
-    double strict = tune->within;
-    for (int i = 0; i < TRIES; i++) {
-        double own, start;
-        if (!time_point(tune, tune->chosen, &own, &start, err)) return false;
-        const double limit = tune->part ? tune->limit * start : tune->limit;
-        tune->confirmed_within = own <= limit;
-        if (tune->confirmed_within) return true;
-        strict = fmin(strict, tune->found.points[tune->chosen].figures.limited) * limit / own;
-        size_t next = tune->found.least;
-        for (size_t p = 0; p < tune->found.count; p++)
-            if (glint_search_better(&tune->found.points[p].figures, &tune->found.points[next].figures, strict))
-                next = p;
-        if (next == tune->chosen) return true;
-        tune->chosen = next;
-    }
-    return true;
+    if (tune->scaled_within) ok = (scaled = tune_pipeline(tune, tune->scaling, err)) && correct(tune, scaled, err);
+    ok = ok && ((passed = calloc(tune->found.count, sizeof *passed)) != NULL || no_memory(err));
+    ok = ok && choose(tune, scaled, passed, err);
+    if (scaled) glint_pipeline_destroy(&scaled);
+    free(passed);
+    return ok;
 }
 
 static bool make_contenders(struct tune *tune, struct glint_error *err) {
     return (tune->contenders[TUNE_START] = glint_pipeline_copy(tune->base, err)) &&
            (tune->contenders[TUNE_TUNED] = tune_pipeline(tune, tune->found.points[tune->chosen].values, err)) &&
-           (!tune->baseline || (tune->contenders[TUNE_SCALED] = tune_scaled(tune, tune->factor, err)));
+           (!tune->baseline || (tune->contenders[TUNE_SCALED] = tune_pipeline(tune, tune->scaling, err)));
+}
+
+static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err) {
+    const enum glint_answer answer = answer_args_kind(&tune->against);
+    struct tune_measured *measured = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
+    struct glint_verdict verdict;
+    snprintf(tune->label, sizeof tune->label, "%s, measured again", tune_contenders[k]);
+    if (!glint_judge_look(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
+        return false;
+    measured->errors = verdict.errors[answer];
+    measured->steps_px = verdict.steps_px;
+    measured->fetches_px = verdict.fetches_px;
+    verdict.errors[answer] = (struct glint_metric_table){0};
+    const struct glint_error no_truth = verdict.no_truth;
+    glint_verdict_finish(&verdict);
+    if (tune->against.truth && no_truth.code != GLINT_OK) return glint_fail(err, no_truth.code, "%s", no_truth.message);
+    return glint_metrics_valid(&measured->errors, tune->subjects[s].path, err);
+}
+
+/* The baseline of this capture: its factor here. */
+static bool match(struct tune *tune, size_t s, struct glint_error *err) {
+    if (!tune->contenders[TUNE_SCALED]) return true;
+    if (!tune_match_scale(tune, s, err) || !tune_scale(tune, tune->subjects[s].factor, tune->scaling)) return false;
+    glint_pipeline_destroy(&tune->contenders[TUNE_SCALED]);
+    return (tune->contenders[TUNE_SCALED] = tune_pipeline(tune, tune->scaling, err)) != NULL;
 }
 
 static bool measure(struct tune *tune, size_t s, struct glint_error *err) {
-    const enum glint_answer answer = answer_args_kind(&tune->against);
     struct tune_measured *measured = tune->measured + s * TUNE_CONTENDERS;
-    struct tune_median ms[TUNE_CONTENDERS];
-    for (int k = 0; k < TUNE_CONTENDERS; k++) {
-        struct glint_verdict verdict;
-        if (!tune->contenders[k]) continue;
-        snprintf(tune->label, sizeof tune->label, "%s, measured again", tune_contenders[k]);
-        if (!glint_judge_look(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
-            return false;
-        measured[k].errors = verdict.errors[answer];
-        measured[k].steps_px = verdict.steps_px;
-        measured[k].fetches_px = verdict.fetches_px;
-        verdict.errors[answer] = (struct glint_metric_table){0};
-        const struct glint_error no_truth = verdict.no_truth;
-        glint_verdict_finish(&verdict);
-        if (tune->against.truth && no_truth.code != GLINT_OK)
-            return glint_fail(err, no_truth.code, "%s", no_truth.message);
-        if (!glint_metrics_valid(&measured[k].errors, tune->subjects[s].path, err)) return false;
-    }
-    if (!time_in_turns(tune, &tune->subjects[s], tune->contenders, ms, err)) return false;
-    for (int k = 0; k < TUNE_CONTENDERS; k++) measured[k].ms = ms[k];
+    struct tune_times times[TUNE_CONTENDERS];
+    if (!match(tune, s, err)) return false;
+    for (int k = 0; k < TUNE_CONTENDERS; k++)
+        if (tune->contenders[k] && !look_at(tune, s, k, err)) return false;
+    if (!tune_time_in_turns(tune, &tune->subjects[s], tune->contenders, times, err)) return false;
+    for (int k = 0; k < TUNE_CONTENDERS; k++) measured[k].ms = times[k].ms, measured[k].part = times[k].part;
     return true;
 }
 
@@ -149,4 +209,8 @@ bool tune_difference(const struct tune *tune, size_t subject, int a, int b, size
 
 const char *tune_verdict(const struct glint_figure *difference) {
     return difference->high < 0 ? "less" : difference->low > 0 ? "more" : "equal";
+}
+
+const char *tune_part_verdict(const struct tune_median *part) {
+    return part->high < 1 ? "less" : part->low > 1 ? "more" : "equal";
 }

@@ -100,12 +100,12 @@ static void add_contenders(const struct tune *tune, size_t s, json_t *document) 
     for (size_t r = 0; r < rows->count; r++)
         page_column(table, r ? rows->rows[r].name : glint_metric(tune->metric)->title, "");
     page_column(table, "fetches", "per pixel");
-    if (tune->repeat) page_column(table, "GPU time", "ms");
+    if (tune->repeat) page_column(table, "GPU time", "ms"), page_column(table, "tuned takes", "parts of it");
     for (int k = 0; k < TUNE_CONTENDERS; k++) {
         if (!tune->contenders[k]) continue;
         json_t *row = json_array();
         char name[64];
-        snprintf(name, sizeof name, "all steps × %.3g", tune->factor);
+        snprintf(name, sizeof name, "all steps × %.3g", tune->subjects[s].factor);
         json_array_append_new(row, json_string(k == TUNE_SCALED ? name : tune_contenders[k]));
         for (size_t r = 0; r < rows->count; r++) {
             const struct glint_figure figure = measured[k].errors.rows[r].of[tune->metric];
@@ -114,8 +114,9 @@ static void add_contenders(const struct tune *tune, size_t s, json_t *document) 
                                            : json_null());
         }
         json_array_append_new(row, json_number(measured[k].fetches_px));
-        if (tune->repeat)
-            json_array_append_new(row, page_interval(measured[k].ms.value, measured[k].ms.low, measured[k].ms.high));
+        const struct tune_median ms = measured[k].ms, part = measured[k].part;
+        if (tune->repeat) json_array_append_new(row, page_interval(ms.value, ms.low, ms.high));
+        if (tune->repeat) json_array_append_new(row, page_interval(part.value, part.low, part.high));
         page_row(table, row);
     }
     page_text(blocks, "text",
@@ -154,6 +155,7 @@ static void add_facts(const struct tune *tune, json_t *document) {
     page_fact(document, "start", glint_pipeline_name(tune->base));
     page_fact(document, "preset", tune->out);
     page_fact(document, "errors against", tune->against.truth ? "the truth in the captures" : "the reference");
+    if (tune->captures.count > 1) page_fact(document, "of these counts", tune->worst ? "the worst" : "the mean");
     page_fact(document, "device", device->name);
     snprintf(text, sizeof text, "%zu points, seed %u", tune->found.count, tune->seed);
     page_fact(document, "search", text);

@@ -34,8 +34,9 @@ static json_t *preset_json(const struct glint_pipeline *pipeline, const char *na
 }
 
 static json_t *limit_json(const struct tune *tune) {
-    return json_pack("{s:s, s:f, s:s, s:o, s:o}", "of", tune->by_error ? "error" : "cost", "value", tune->within,
-                     "unit", tune->by_error ? glint_metric(tune->metric)->name : tune_cost_unit(tune), "part_of_start",
+    return json_pack("{s:s, s:f, s:f, s:s, s:o, s:o}", "of", tune->by_error ? "error" : "cost", "value", tune->asked,
+                     "within", tune->within, "unit",
+                     tune->by_error ? glint_metric(tune->metric)->name : tune_cost_unit(tune), "part_of_start",
                      tune->part ? json_real(tune->limit) : json_null(), "slots",
                      tune->slots.count ? strings_json(tune->slots.items) : json_null());
 }
@@ -73,6 +74,12 @@ static json_t *median_json(struct tune_median median) {
                      json_number(median.high));
 }
 
+static json_t *part_json(const struct tune_median *part) {
+    json_t *json = median_json(*part);
+    json_object_set_new(json, "verdict", isnan(part->value) ? json_null() : json_string(tune_part_verdict(part)));
+    return json;
+}
+
 static json_t *figure_json(struct glint_figure figure) {
     return json_pack("{s:o, s:o, s:o}", "value", json_number(figure.value), "low", json_number(figure.low), "high",
                      json_number(figure.high));
@@ -107,9 +114,12 @@ static json_t *confirmed_json(const struct tune *tune) {
             const struct tune_measured *m = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
             if (tune->contenders[k])
                 json_object_set_new(contenders, tune_contenders[k],
-                                    json_pack("{s:o, s:f, s:f, s:o}", "errors", errors_of(tune, &m->errors), "steps_px",
-                                              m->steps_px, "fetches_px", m->fetches_px, "ms", median_json(m->ms)));
+                                    json_pack("{s:o, s:f, s:f, s:o, s:o}", "errors", errors_of(tune, &m->errors),
+                                              "steps_px", m->steps_px, "fetches_px", m->fetches_px, "ms",
+                                              median_json(m->ms), "tuned_takes", part_json(&m->part)));
         }
+        if (tune->contenders[TUNE_SCALED])
+            json_object_set_new(json_object_get(contenders, "scaled"), "factor", json_real(tune->subjects[s].factor));
         json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "capture", tune->subjects[s].path, "unseen",
                                               tune->subjects[s].unseen, "contenders", contenders, "tuned_less_start",
                                               differences_of(tune, s, TUNE_START, TUNE_TUNED), "tuned_less_scaled",
@@ -128,13 +138,13 @@ static json_t *provenance_json(const struct tune *tune) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     const struct glint_search_figures *found = &tune->found.points[tune->chosen].figures;
     return json_pack(
-        "{s:s, s:s, s:s, s:o, s:[ss], s:I, s:I, s:o, s:o, s:s, s:o, s:f, s:f, s:b, s:o}", "tool",
+        "{s:s, s:s, s:s, s:o, s:s, s:[ss], s:I, s:I, s:o, s:o, s:s, s:o, s:f, s:f, s:b, s:o}", "tool",
         "glint tune " GLINT_VERSION, "command", tune->command_line, "start", glint_pipeline_name(tune->base),
-        "captures", captures_list(tune), "device", device->name, device->driver_version, "seed", (json_int_t)tune->seed,
-        "points", (json_int_t)tune->found.count, "limit", limit_json(tune), "against", references_json(tune), "metric",
-        glint_metric(tune->metric)->name, "shaders", strings_json(tune->shaders.items), "error",
-        tune->by_error ? found->limited : found->wanted, "cost", tune->by_error ? found->wanted : found->limited,
-        "confirmed", tune->confirmed, "moved", moved_json(tune));
+        "captures", captures_list(tune), "over", tune->worst ? "worst" : "mean", "device", device->name,
+        device->driver_version, "seed", (json_int_t)tune->seed, "points", (json_int_t)tune->found.count, "limit",
+        limit_json(tune), "against", references_json(tune), "metric", glint_metric(tune->metric)->name, "shaders",
+        strings_json(tune->shaders.items), "error", tune->by_error ? found->limited : found->wanted, "cost",
+        tune->by_error ? found->wanted : found->limited, "confirmed", tune->confirmed, "moved", moved_json(tune));
 }
 
 bool tune_write_preset(const struct tune *tune, struct glint_error *err) {
@@ -167,9 +177,10 @@ static json_t *left_json(const struct tune *tune) {
 }
 
 json_t *tune_json(const struct tune *tune) {
-    json_t *scaled = !tune->contenders[TUNE_SCALED] ? json_null()
-                                                    : json_pack("{s:f, s:f, s:f}", "factor", tune->factor, "error",
-                                                                tune->scaled.error, "cost", tune->scaled.cost);
+    json_t *scaled = !tune->contenders[TUNE_SCALED]
+                         ? json_null()
+                         : json_pack("{s:f, s:f, s:f, s:b}", "factor", tune->factor, "error", tune->scaled.error,
+                                     "cost", tune->scaled.cost, "within", tune->scaled_within);
     return json_pack("{s:s, s:o, s:{s:f, s:f}, s:b, s:I, s:o, s:o, s:o}", "preset", tune->out, "provenance",
                      provenance_json(tune), "start", "error", tune->start.error, "cost", tune->start.cost, "within",
                      tune->confirmed_within, "fresh", (json_int_t)tune->fresh, "left", left_json(tune), "scaled",

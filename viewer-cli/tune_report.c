@@ -40,13 +40,13 @@ static void print_contenders(const struct tune *tune, size_t s) {
     snprintf(title, sizeof title, ">%s", glint_metric(tune->metric)->title);
     titles[n++] = title, titles[n++] = ">from", titles[n++] = ">to";
     titles[n++] = ">mirror-like", titles[n++] = ">glossy", titles[n++] = ">rough", titles[n++] = ">fetches/px";
-    if (tune->repeat) titles[n++] = ">ms", titles[n++] = ">from", titles[n++] = ">to";
+    if (tune->repeat) titles[n++] = ">ms", titles[n++] = ">from", titles[n++] = ">to", titles[n++] = ">tuned takes";
     titles[n] = NULL;
     struct table *table = table_create(titles);
     for (int k = 0; k < TUNE_CONTENDERS; k++) {
         if (!tune->contenders[k]) continue;
         const struct glint_figure all = measured[k].errors.rows[0].of[tune->metric];
-        if (k == TUNE_SCALED) table_cell(table, "all steps × %.3g", tune->factor);
+        if (k == TUNE_SCALED) table_cell(table, "all steps × %.3g", tune->subjects[s].factor);
         else table_cell(table, "%s", tune_contenders[k]);
         table_cell(table, "%.5f", all.value);
         table_cell(table, "%.5f", all.low);
@@ -58,6 +58,9 @@ static void print_contenders(const struct tune *tune, size_t s) {
         table_cell(table, "%.4f", measured[k].ms.value);
         table_cell(table, "%.4f", measured[k].ms.low);
         table_cell(table, "%.4f", measured[k].ms.high);
+        const struct tune_median part = measured[k].part;
+        if (k == TUNE_TUNED) table_cell(table, " ");
+        else table_cell(table, "%.3f [%.3f %.3f]: %s", part.value, part.low, part.high, tune_part_verdict(&part));
     }
     printf("\n%s%s:\n\n", base_name(tune->subjects[s].path),
            tune->subjects[s].unseen ? ", which it was not tuned on" : "");

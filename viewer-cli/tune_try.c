@@ -57,15 +57,22 @@ bool tune_load(struct tune *tune, struct glint_error *err) {
     return true;
 }
 
-double tune_frame_ms(const struct tune *tune, const struct glint_cost *cost) {
+bool tune_slot_counts(const struct tune *tune, const char *slot) {
+    bool counts = !tune->slots.count;
+    for (size_t k = 0; k < tune->slots.count; k++) counts |= !strcmp(slot, tune->slots.items[k]);
+    return counts;
+}
+
+bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
+               double *ms, struct glint_error *err) {
+    struct glint_cost cost;
     uint64_t ns = 0;
-    for (size_t i = 0; i < cost->pass_count; i++) {
-        bool counts = !tune->slots.count;
-        for (size_t k = 0; k < tune->slots.count; k++)
-            counts |= !strcmp(cost->passes[i].pass->slot, tune->slots.items[k]);
-        if (counts && !cost->passes[i].cached_work) ns += cost->passes[i].ns;
-    }
-    return (double)ns * 1e-6;
+    if (!glint_judge_time(subject->judge, pipeline, 0, whole, &cost, tune_report, tune, err)) return false;
+    for (size_t i = 0; i < cost.pass_count; i++)
+        if (!cost.passes[i].cached_work && tune_slot_counts(tune, cost.passes[i].pass->slot)) ns += cost.passes[i].ns;
+    glint_cost_finish(&cost);
+    *ms = (double)ns * 1e-6;
+    return true;
 }
 
 /* ---- What is kept ---- */
@@ -98,7 +105,7 @@ static bool keep(void *user, json_t *line) {
     }
     const json_t *values = json_object_get(line, "values");
     if (json_array_size(json_object_get(line, "captures")) != tune->captures.count ||
-        (!json_is_number(json_object_get(line, "scale")) && json_array_size(values) != tune->axis_count))
+        json_array_size(values) != tune->axis_count)
         return false;
     return json_array_append(tune->lines, line) == 0;
 }
@@ -132,38 +139,22 @@ bool tune_open(struct tune *tune, struct glint_error *err) {
 
 /* ---- Evaluations ---- */
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, size_t count) {
-    qsort(values, count, sizeof *values, ascending);
-    return count ? (values[(count - 1) / 2] + values[count / 2]) / 2 : NAN;
-}
-
-static bool time_once(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
-                      double *ms, struct glint_error *err) {
-    struct glint_cost cost;
-    if (!glint_judge_time(subject->judge, pipeline, 0, false, &cost, tune_report, tune, err)) return false;
-    *ms = tune_frame_ms(tune, &cost);
-    glint_cost_finish(&cost);
-    return true;
-}
-
-/* In turns with the start: what changes with time, as a device's clock, is in both. */
+/* In turns with the start: what changes with time, as a device's clock, is in both. In whole frames, so that caches hold what
+   they will hold; a CPU's times say nothing, and its whole frames take long. */
 static bool time_beside_start(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
                               double *ms, struct glint_error *err) {
     double *ratios = calloc(2 * tune->rounds + 1, sizeof *ratios), *starts = ratios + tune->rounds;
+    const bool whole = !glint_device_get_info(tune->device)->is_cpu;
     bool ok = ratios || no_memory(err);
     for (uint32_t r = 0; ok && r < tune->rounds; r++) {
         double own = 0;
         glint_judge_next_round(subject->judge);
-        ok = time_once(tune, subject, tune->base, &starts[r], err) && time_once(tune, subject, pipeline, &own, err);
+        ok = tune_time(tune, subject, tune->base, whole, &starts[r], err) &&
+             tune_time(tune, subject, pipeline, whole, &own, err);
         ratios[r] = starts[r] > 0 ? own / starts[r] : NAN;
     }
-    if (ok && subject->start_ms == 0) subject->start_ms = median(starts, tune->rounds);
-    if (ok) *ms = median(ratios, tune->rounds) * subject->start_ms;
+    if (ok && subject->start_ms == 0) subject->start_ms = tune_median(starts, tune->rounds).value;
+    if (ok) *ms = tune_median(ratios, tune->rounds).value * subject->start_ms;
     free(ratios);
     return ok;
 }
@@ -194,17 +185,34 @@ static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const s
     return true;
 }
 
-static bool sum_up(const json_t *line, struct tune_figures *figures) {
-    const json_t *captures = json_object_get(line, "captures"), *one;
-    const double count = (double)json_array_size(captures);
-    size_t i;
-    *figures = (struct tune_figures){0};
-    json_array_foreach(captures, i, one) {
-        const json_t *error = json_object_get(one, "error"), *cost = json_object_get(one, "cost");
-        figures->error += (json_is_number(error) ? json_number_value(error) : NAN) / count;
-        figures->cost += (json_is_number(cost) ? json_number_value(cost) : NAN) / count;
+static struct tune_figures figures_on(const json_t *line, size_t s) {
+    const json_t *one = json_array_get(json_object_get(line, "captures"), s);
+    const json_t *error = json_object_get(one, "error"), *cost = json_object_get(one, "cost");
+    return (struct tune_figures){json_is_number(error) ? json_number_value(error) : NAN,
+                                 json_is_number(cost) ? json_number_value(cost) : NAN};
+}
+
+/* Means over the captures; or, of the capture where that is most, its part of the yard's, times the yard's mean. */
+static struct tune_figures sum_up(const struct tune *tune, const json_t *line) {
+    const double count = (double)tune->captures.count;
+    struct tune_figures mean = {0}, yard = {0}, most = {0};
+    for (size_t s = 0; s < tune->captures.count; s++) {
+        const struct tune_figures here = figures_on(line, s), by = tune->subjects[s].yard;
+        mean.error += here.error / count, mean.cost += here.cost / count;
+        yard.error += by.error / count, yard.cost += by.cost / count;
+        most.error = fmax(most.error, here.error / by.error), most.cost = fmax(most.cost, here.cost / by.cost);
     }
-    return true;
+    if (!isfinite(mean.error) || !isfinite(mean.cost)) return (struct tune_figures){NAN, NAN};
+    if (tune->worst && yard.error > 0) mean.error = most.error * yard.error;
+    if ((tune->worst || tune->scaled_within) && yard.cost > 0) mean.cost = most.cost * yard.cost;
+    return mean;
+}
+
+static const json_t *find_line(const struct tune *tune, const json_t *values) {
+    size_t i;
+    const json_t *line;
+    json_array_foreach(tune->lines, i, line) if (json_equal(json_object_get(line, "values"), values)) return line;
+    return NULL;
 }
 
 static bool keep_start(struct tune *tune, struct glint_error *err) {
@@ -214,22 +222,16 @@ static bool keep_start(struct tune *tune, struct glint_error *err) {
     return journal_append(&tune->journal, json_pack("{s:o}", "start_ms", start), err);
 }
 
-/* `key` with `value`, which is taken, tells this pipeline from others. */
-static bool evaluate(struct tune *tune, const struct glint_pipeline *pipeline, const char *key, json_t *value,
-                     struct tune_figures *figures, struct glint_error *err) {
+/* On all captures, appended to the journal. Takes `values`. */
+static bool add_line(struct tune *tune, const struct glint_pipeline *pipeline, json_t *values,
+                     struct glint_error *err) {
     const bool first = !tune->fetches && tune->subjects[0].start_ms == 0;
-    size_t i;
-    json_t *line;
-    json_array_foreach(tune->lines, i, line) if (json_equal(json_object_get(line, key), value)) {
-        json_decref(value);
-        return sum_up(line, figures);
-    }
-    if (!(line = json_pack("{s:o, s:[]}", key, value, "captures"))) return no_memory(err);
+    json_t *line = json_pack("{s:o, s:[]}", "values", values, "captures");
+    if (!line) return no_memory(err);
     bool ok = true;
     for (size_t s = 0; ok && s < tune->captures.count; s++)
         ok = evaluate_on(tune, &tune->subjects[s], pipeline, line, err);
-    ok = ok && (!first || keep_start(tune, err)) && sum_up(line, figures);
-    if (!ok) {
+    if (!ok || (first && !keep_start(tune, err))) {
         json_decref(line);
         return false;
     }
@@ -237,89 +239,111 @@ static bool evaluate(struct tune *tune, const struct glint_pipeline *pipeline, c
     return journal_append(&tune->journal, line, err);
 }
 
-static bool try_values(void *user, const double *values, struct glint_search_figures *figures,
-                       struct glint_error *err) {
-    struct tune *tune = user;
-    struct tune_figures found;
-    json_t *key = json_array();
+static json_t *values_json(const struct tune *tune, const double *values) {
+    json_t *list = json_array();
     for (size_t a = 0; a < tune->axis_count; a++) {
         char text[TUNE_TEXT];
         tune_value_text(&tune->axes[a], values[a], text);
-        json_array_append_new(key, json_string(text));
+        json_array_append_new(list, json_string(text));
     }
-    struct glint_pipeline *pipeline = tune_pipeline(tune, values, err);
+    return list;
+}
+
+bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err) {
+    json_t *list = values_json(tune, values);
     const size_t number = (size_t)json_array_size(tune->lines) + 1;
-    if (!pipeline) {
-        json_decref(key);
-        return false;
+    bool ok = true;
+    if (!find_line(tune, list)) {
+        struct glint_pipeline *pipeline = tune_pipeline(tune, values, err);
+        snprintf(tune->label, sizeof tune->label, "point %zu", number);
+        ok = pipeline && add_line(tune, pipeline, json_incref(list), err) && tune_report(tune, NULL, 0);
+        if (pipeline) glint_pipeline_destroy(&pipeline);
     }
-    snprintf(tune->label, sizeof tune->label, "point %zu", number);
-    const bool ok = evaluate(tune, pipeline, "values", key, &found, err) && tune_report(tune, NULL, 0);
-    glint_pipeline_destroy(&pipeline);
     tune->done = 0.9 * fmin(1, (double)number / tune->tries);
-    if (!ok)
-        return glint_fail(err, err->code ? err->code : GLINT_ERROR_INTERRUPTED, "%s",
-                          err->code ? err->message : "interrupted");
+    if (ok) *figures = sum_up(tune, find_line(tune, list));
+    json_decref(list);
+    return ok || glint_fail(err, err->code ? err->code : GLINT_ERROR_INTERRUPTED, "%s",
+                            err->code ? err->message : "interrupted");
+}
+
+void tune_set_yard(struct tune *tune, const double *values) {
+    json_t *list = values_json(tune, values);
+    const json_t *line = find_line(tune, list);
+    for (size_t s = 0; s < tune->captures.count; s++) tune->subjects[s].yard = figures_on(line, s);
+    json_decref(list);
+}
+
+static bool try_values(void *user, const double *values, struct glint_search_figures *figures,
+                       struct glint_error *err) {
+    const struct tune *tune = user;
+    struct tune_figures found;
+    if (!tune_evaluate(user, values, &found, err)) return false;
     *figures = (struct glint_search_figures){tune->by_error ? found.cost : found.error,
                                              tune->by_error ? found.error : found.cost};
     return true;
 }
 
-bool tune_search(struct tune *tune, struct glint_error *err) {
+/* The start, and what is compared with the search: both set what others are measured by. */
+static bool begin(struct tune *tune, const double *start, struct glint_error *err) {
+    if (!tune_evaluate(tune, start, &tune->start, err)) return false;
+    tune_set_yard(tune, start);
+    tune->asked = tune->limit * (tune->part ? (tune->by_error ? tune->start.error : tune->start.cost) : 1);
+    tune->within = tune->asked;
+    return !tune->baseline || (tune_find_scale(tune, err) && tune_evaluate(tune, start, &tune->start, err));
+}
+
+/* `count` known points, one after the other. */
+static bool search(struct tune *tune, const double *known, size_t count, struct glint_error *err) {
     enum { NOISE_PER_CENT = 2 };
+    const struct glint_search_options options = {.limit = tune->within,
+                                                 .tries = tune->tries,
+                                                 .seed = tune->seed,
+                                                 .noise = tune->fetches ? 0 : NOISE_PER_CENT * 0.01,
+                                                 .known = known,
+                                                 .known_count = count};
     struct glint_search_axis *axes = calloc(tune->axis_count + 1, sizeof *axes);
-    double *start = calloc(tune->axis_count + 1, sizeof *start);
-    struct glint_search_figures at;
-    bool ok = (axes && start) || no_memory(err);
-    for (size_t a = 0; ok && a < tune->axis_count; a++) {
+    if (!axes) return no_memory(err);
+    for (size_t a = 0; a < tune->axis_count; a++) {
         axes[a] = tune->axes[a].axis;
         axes[a].hidden = tune->axes[a].other;
-        start[a] = axes[a].start;
     }
-    ok = ok && try_values(tune, start, &at, err);
-    if (ok) {
-        tune->start = tune->by_error ? (struct tune_figures){at.limited, at.wanted}
-                                     : (struct tune_figures){at.wanted, at.limited};
-        tune->within = tune->limit * (tune->part ? at.limited : 1);
-        const struct glint_search_options options = {.limit = tune->within,
-                                                     .tries = tune->tries,
-                                                     .seed = tune->seed,
-                                                     .noise = tune->fetches ? 0 : NOISE_PER_CENT * 0.01};
-        ok = glint_search(axes, tune->axis_count, &options, try_values, tune, &tune->found, err);
-    }
+    glint_search_result_finish(&tune->found);
+    const bool ok = glint_search(axes, tune->axis_count, &options, try_values, tune, &tune->found, err);
     tune->chosen = tune->found.best;
-    free(start);
     free(axes);
     return ok;
 }
 
-static bool evaluate_scale(struct tune *tune, double factor, struct tune_figures *figures, struct glint_error *err) {
-    struct glint_pipeline *pipeline = tune_scaled(tune, factor, err);
-    snprintf(tune->label, sizeof tune->label, "all steps times %.3g", factor);
-    const bool ok = pipeline && evaluate(tune, pipeline, "scale", json_real(factor), figures, err);
-    if (pipeline) glint_pipeline_destroy(&pipeline);
+bool tune_search(struct tune *tune, struct glint_error *err) {
+    double *start = calloc(tune->axis_count + 1, sizeof *start);
+    for (size_t a = 0; start && a < tune->axis_count; a++) start[a] = tune->axes[a].axis.start;
+    const bool ok =
+        start ? begin(tune, start, err) && search(tune, tune->scaling, tune->baseline, err) : no_memory(err);
+    free(start);
     return ok;
 }
 
-/* By halving: costs rise with the factor. Where even the smallest costs more, it is the smallest. */
-bool tune_find_scale(struct tune *tune, struct glint_error *err) {
-    enum { HALVINGS = 9 };
-    const struct glint_search_figures *tuned = &tune->found.points[tune->chosen].figures;
-    const double cost = tune->by_error ? tuned->wanted : tuned->limited;
-    double low = -10, high = 3; /* of the factor, as powers of two */
-    if (!evaluate_scale(tune, exp2(low), &tune->scaled, err)) return false;
-    tune->factor = exp2(low);
-    for (int i = 0; tune->scaled.cost < cost && i < HALVINGS; i++) {
-        struct tune_figures figures;
-        const double middle = (low + high) / 2;
-        if (!evaluate_scale(tune, exp2(middle), &figures, err)) return false;
-        if (figures.cost >= cost) {
-            high = middle;
-        } else low = middle;
+bool tune_search_again(struct tune *tune, const double *parts, struct glint_error *err) {
+    const size_t n = tune->axis_count, bytes = n * sizeof(double);
+    double *known = calloc(2 * n + 1, sizeof *known);
+    json_t *list = values_json(tune, tune->found.points[tune->chosen].values);
+    const json_t *line = find_line(tune, list);
+    struct glint_search_figures best = {NAN, NAN}, here;
+    tune->within = 0;
+    for (size_t s = 0; s < tune->captures.count; s++) {
+        tune->subjects[s].yard.cost = figures_on(line, s).cost / parts[s];
+        tune->within += tune->subjects[s].yard.cost / (double)tune->captures.count;
     }
-    if (tune->scaled.cost < cost) {
-        tune->factor = exp2(high);
-        return evaluate_scale(tune, tune->factor, &tune->scaled, err);
+    bool ok = known || no_memory(err);
+    for (size_t p = 0; ok && p < tune->found.count; p++) {
+        if (!(ok = try_values(tune, tune->found.points[p].values, &here, err))) break;
+        if (p && !glint_search_better(&here, &best, tune->within)) continue;
+        best = here;
+        memcpy(known, tune->found.points[p].values, bytes);
     }
-    return true;
+    if (ok) memcpy(known + n, tune->scaling, bytes);
+    ok = ok && search(tune, known, 2, err);
+    json_decref(list);
+    free(known);
+    return ok;
 }

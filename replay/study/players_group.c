@@ -45,7 +45,9 @@ static bool makes_the_same(const struct exchange *a, const struct exchange *b, c
     return false;
 }
 
+/* What the pipeline does without has nothing that goes with another slot. */
 static bool declared(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
+    if (!exchange_pass(a, MODE_OWN)) return false;
     for (int mode = 0; mode < MODES; mode++)
         for (size_t r = 0; r < rows_of(a, mode); r++) {
             const struct glint_row *row = &exchange_pass(a, mode)->rows[r];

@@ -323,6 +323,15 @@ static bool throw_off(struct search *search, struct profile *profile, struct gli
            (take_profile(search, profile, 1, search->count, err) && try_best_sums(search, profile, err));
 }
 
+static bool try_known(struct search *search, struct profile *profile, struct glint_error *err) {
+    const double *values = search->options->known;
+    for (size_t i = 0; i < search->options->known_count; i++, values += search->count) {
+        for (size_t a = 0; a < search->count; a++) profile->before[a] = axis_steps(&search->axes[a], values[a]);
+        if (!search_at(search, profile->before, err) && err->code != GLINT_OK) return false;
+    }
+    return true;
+}
+
 static bool run(struct search *search, struct profile *profile, struct glint_error *err) {
     for (size_t a = 0; a < search->count; a++) profile->centre[a] = axis_steps(&search->axes[a], search->axes[a].start);
     const struct glint_search_point *start = search_at(search, profile->centre, err);
@@ -330,13 +339,15 @@ static bool run(struct search *search, struct profile *profile, struct glint_err
     profile->at = start->figures;
     if (!is_answer(&start->figures))
         return glint_fail(err, GLINT_ERROR_USAGE, "the start has no figures: nothing can be compared with it");
-    if (!take_profile(search, profile, 2, search->count, err)) return false;
+    if (!try_known(search, profile, err) || !take_profile(search, profile, 2, search->count, err)) return false;
+    const size_t begun = search->result->best;
     for (size_t a = 0; a < search->count; a++) {
         if (search_spent(search)) search->result->matters[a] = true;
         profile->skip[a] = !search->result->matters[a] && !search->axes[a].hidden;
     }
-    if (!try_best_sums(search, profile, err) || (!search->result->within && !try_line(search, profile, err)))
-        return false;
+    if (!try_best_sums(search, profile, err)) return false;
+    const bool helped = search->result->within && search->result->best != begun;
+    if (!helped && profile->at.limited > search->options->limit && !try_line(search, profile, err)) return false;
     double least = 0.5;
     while (!search_spent(search)) {
         const size_t before = search->result->count;

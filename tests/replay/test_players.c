@@ -64,6 +64,23 @@ static void declarations_are_the_preset(void **state) {
     glint_pipeline_destroy(&reference);
 }
 
+/* Chains that a pipeline does not make stand for no cones: rays are placed apart from cube maps being asked. */
+static void what_is_not_there_joins_nothing(void **state) {
+    (void)state;
+    struct glint_pipeline *kf2 = preset("kf2"), *mafia3 = preset("mafia3");
+    struct glint_players *alone = players_of(kf2, 4), *with = players_of(mafia3, 4);
+    assert_string_equal(glint_player_change(alone, player(alone, "downsample")), "downsample none by its values");
+    assert_non_null(strstr(glint_player_change(with, player(with, "downsample")), "cubemap_mips prefilter"));
+    for (uint32_t coalition = 0; coalition < 1u << glint_players_count(alone); coalition++) {
+        struct glint_pipeline *between = exchanged(alone, coalition);
+        glint_pipeline_destroy(&between);
+    }
+    glint_players_destroy(&alone);
+    glint_players_destroy(&with);
+    glint_pipeline_destroy(&kf2);
+    glint_pipeline_destroy(&mafia3);
+}
+
 /* Applying every declared value to the references' defaults gives the preset's values. */
 static void declared_values_are_the_presets(void **state) {
     (void)state;
@@ -233,6 +250,7 @@ static void the_reference_has_no_players(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_not_there_joins_nothing),
         cmocka_unit_test(declarations_are_the_preset),
         cmocka_unit_test(declared_values_are_the_presets),
         cmocka_unit_test(players_run_from_the_last_to_the_first),

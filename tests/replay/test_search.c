@@ -134,6 +134,22 @@ static void what_no_point_reaches_is_said(void **state) {
     glint_search_result_finish(&result);
 }
 
+/* Known points come right after the start, and nothing worse than the best of them is the answer. */
+static void known_points_are_never_lost(void **state) {
+    (void)state;
+    struct calls calls = {0};
+    struct glint_search_result result;
+    struct glint_error err = {0};
+    const double known[] = {10, 18, 0.0199, 0, 1, 0.5, 2, 3, 0.5, 0, 2, -1};
+    const struct glint_search_options options = {.limit = 38, .tries = 20, .seed = 1, .known = known, .known_count = 2};
+    assert_true(glint_search(axes, AXES, &options, try_march, &calls, &result, &err));
+    for (size_t k = 0; k < 2; k++)
+        for (size_t a = 0; a < AXES; a++)
+            assert_true(fabs(result.points[1 + k].values[a] - known[k * AXES + a]) < 1e-4);
+    assert_true(result.within && result.points[result.best].figures.wanted <= error_at(result.points[1].values));
+    glint_search_result_finish(&result);
+}
+
 static void noise_moves_the_answer_little(void **state) {
     (void)state;
     struct calls calls = {.noise = 0.02};
@@ -238,6 +254,7 @@ int main(void) {
         cmocka_unit_test(a_seed_gives_the_same_points_again),
         cmocka_unit_test(what_was_found_before_an_error_is_kept),
         cmocka_unit_test(what_no_point_reaches_is_said),
+        cmocka_unit_test(known_points_are_never_lost),
         cmocka_unit_test(noise_moves_the_answer_little),
         cmocka_unit_test(what_matters_under_another_choice_is_found),
         cmocka_unit_test(twenty_numbers_take_some_hundred_tries),

@@ -193,6 +193,35 @@ static void several_captures_have_their_mean(void **state) {
     json_decref(found);
 }
 
+static double share_of(const char *folder, const char *name) {
+    char path[64];
+    snprintf(path, sizeof path, "%s/shares.json", folder);
+    json_t *found = load(path);
+    const json_t *all = errors_of(json_array_get(json_object_get(found, "captures"), 0), "reference", "all");
+    const double share = number(json_object_get(json_object_get(all, "players"), name), "share");
+    json_decref(found);
+    return share;
+}
+
+/* A pass that remembers frames is worth more in a shot than in a frame of its own. */
+static void a_shot_has_a_history(void **state) {
+    (void)state;
+    static const char *const use = "--use=temporal=rough";
+    char frames[3][600];
+    free(glint_ok("sample", "room", "-o", in_folder("shot.exr"), "--frames=3", "--size=64x36", "--cube-size=8"));
+    for (int i = 0; i < 3; i++)
+        snprintf(frames[i], sizeof frames[i], "%s", in_folder("shot.0001.exr")),
+            frames[i][strlen(frames[i]) - 5] = (char)('1' + i);
+    free(glint_ok("blame", frames[2], "-o", in_folder("alone"), SMALL, use, "--repeat=0", "--exact=0",
+                  "--permutations=2"));
+    free(glint_ok("blame", "--shot", frames[0], frames[1], frames[2], "-o", in_folder("shot"), SMALL, use, "--repeat=1",
+                  "--exact=0", "--permutations=2"));
+    assert_true(share_of("shot", "temporal") < share_of("alone", "temporal") - 1e-4);
+    glint_fails(2, "expected frame 3 of the shot, found 2", "blame", "--shot", frames[1], frames[1], "-o",
+                in_folder("odd"), SMALL);
+    glint_fails(2, "expected the frames before as well", "blame", "--shot", frames[1]);
+}
+
 static void what_is_wrong_is_named(void **state) {
     (void)state;
     char *room = strdup(in_folder("room.exr")), *street = strdup(in_folder("street.exr"));
@@ -253,9 +282,10 @@ static void the_handbook_shows_references(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_add_up_to_the_error),  cmocka_unit_test(a_killed_blame_goes_on),
-        cmocka_unit_test(permutations_have_intervals), cmocka_unit_test(several_captures_have_their_mean),
-        cmocka_unit_test(what_is_wrong_is_named),      cmocka_unit_test(the_handbook_shows_references),
+        cmocka_unit_test(shares_add_up_to_the_error),    cmocka_unit_test(a_killed_blame_goes_on),
+        cmocka_unit_test(permutations_have_intervals),   cmocka_unit_test(several_captures_have_their_mean),
+        cmocka_unit_test(a_shot_has_a_history),          cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(the_handbook_shows_references),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -32,6 +32,18 @@ static double value_of(const json_t *object, const char *key) {
     return number(json_object_get(object, key), "value");
 }
 
+/* Of the start with these set, measured by a search that may not search. */
+static double fetches_of(const char *steps, const char *steps_hq) {
+    char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("one.json"), "--folder", in_folder("one"),
+                          PLAIN, steps, steps_hq, "--budget-fetches=100%", "--reference=truth", "--tries=1",
+                          "--repeat=0", "--vary=cubemap_trace.secant", "--json");
+    json_t *told = parse_json(text);
+    const double fetches = number(contender(told, 0, "start"), "fetches_px");
+    free(text);
+    json_decref(told);
+    return fetches;
+}
+
 /* Catches: a budget that is broken, a preset that is not what was measured, figures of other pipelines than they say. */
 static void the_preset_is_what_was_found(void **state) {
     (void)state;
@@ -41,12 +53,22 @@ static void the_preset_is_what_was_found(void **state) {
     free(text);
     const json_t *from = json_object_get(preset, "provenance"), *start = contender(tuned, 0, "start");
     const json_t *found = contender(tuned, 0, "tuned"), *scaled = contender(tuned, 0, "scaled");
-    const double budget = value_of(from, "limit");
+    const double budget = value_of(from, "limit"), scale = number(json_object_get(tuned, "scaled"), "factor");
     assert_true(fabs(budget - 0.6 * number(start, "fetches_px")) < 1e-6); /* nine digits are printed */
     assert_true(number(found, "fetches_px") <= budget &&
                 fabs(number(found, "fetches_px") - number(from, "cost")) < 1e-7);
-    assert_true(number(scaled, "fetches_px") >= number(found, "fetches_px"));
     const json_t *errors = json_object_get(found, "errors");
+    /* the baseline keeps the budget, a larger one would not; what was tuned costs no more and errs no more */
+    assert_true(json_is_true(json_object_get(json_object_get(tuned, "scaled"), "within")));
+    assert_true(number(scaled, "factor") == scale && number(scaled, "fetches_px") <= budget);
+    assert_true(fabs(number(json_object_get(from, "limit"), "within") -
+                     number(json_object_get(tuned, "scaled"), "cost")) < 1e-7);
+    assert_true(number(scaled, "fetches_px") >= number(found, "fetches_px"));
+    assert_true(value_of(json_object_get(scaled, "errors"), "all") >= value_of(errors, "all"));
+    char steps[2][64];
+    snprintf(steps[0], sizeof steps[0], "--set=screen_trace.steps=%.0f", fmax(2, round(32 * 1.25 * scale)));
+    snprintf(steps[1], sizeof steps[1], "--set=cubemap_trace.steps_hq=%.0f", fmax(4, round(24 * 1.25 * scale)));
+    assert_true(fetches_of(steps[0], steps[1]) > budget);
     assert_true(fabs(value_of(errors, "all") - number(from, "error")) < 1e-7);
     assert_true(number(json_object_get(found, "ms"), "median") > 0);
     const json_t *less = json_object_get(json_array_get(json_object_get(tuned, "confirmed"), 0), "tuned_less_scaled");
@@ -201,6 +223,12 @@ static void what_is_wrong_is_named(void **state) {
     };
     for (size_t i = 0; i < sizeof axes / sizeof *axes; i++)
         glint_fails(2, axes[i][1], "tune", room, "-o", out, PLAIN, "--reference=truth", budget, axes[i][0]);
+    glint_fails(2, "nothing that may move is a count", "tune", room, "-o", in_folder("odd.json"), PLAIN,
+                "--reference=truth", budget, "--baseline=scale", "--repeat=0", "--rounds=1",
+                "--vary=cubemap_trace.secant");
+    glint_fails(1, "; of that screen_trace/linear takes 100 % (not tried: ", "tune", room, "-o", in_folder("none.json"),
+                PLAIN, "--reference=truth", "--budget-ms=1e-6", "--slots=screen_trace", "--tries=1", "--rounds=1",
+                AXES);
     glint_fails(2, "varied twice", "tune", room, "-o", out, PLAIN, "--reference=truth", budget,
                 "--vary=screen_trace.steps", "--vary=screen_trace.steps=2..64");
     glint_fails(1, "truth.reflection.ggx: missing", "tune", in_folder("street.exr"), "-o", out, PLAIN,

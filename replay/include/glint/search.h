@@ -37,9 +37,12 @@ typedef bool (*glint_search_try)(void *user, const double *values, struct glint_
                                  struct glint_error *err);
 struct glint_search_options {
     double limit;
-    uint32_t tries; /* points that may be tried, at most; the first is the start */
+    uint32_t tries; /* points that may be tried, at most; the first is the start, then come the known ones */
     uint64_t seed;  /* the same seed and the same figures: the same points in the same order */
     double noise;   /* relative changes of `limited` up to this say nothing; 0: it is exact */
+    const double
+        *known; /* values of points that are tried first, one after the other, so that nothing worse is found */
+    size_t known_count;
 };
 
 struct glint_search_point {
