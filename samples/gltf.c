@@ -258,7 +258,7 @@ bool gltf_load(const char *path, struct scene *scene, struct glint_error *err) {
     struct gltf_facts facts;
     if (!gltf_check(path, &facts, err)) return false;
     const struct aiScene *file =
-        aiImportFile(path, aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_CalcTangentSpace |
+        aiImportFile(path, aiProcess_Triangulate | aiProcess_GenNormals | aiProcess_CalcTangentSpace |
                                aiProcess_SortByPType | aiProcess_ValidateDataStructure);
     if (!file || !file->mRootNode) {
         const char *reason = aiGetErrorString();

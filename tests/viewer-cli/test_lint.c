@@ -1,0 +1,266 @@
+/* glint lint on captures damaged on purpose: at least 95 % of what the data can tell is found and named right, nothing is found where
+   nothing is wrong. With an argument, so many strengths of each mistake on every scene; without, each mistake on one scene. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "damage.h"
+
+enum { SCENES = 3 };
+static int seeds;
+static const char *const scenes[SCENES] = {"street", "room", "gltf"};
+
+/* ---- A scene of boxes in glTF ---- */
+
+struct box {
+    float from[3], to[3];
+    int material;
+};
+/* a hall with a door to the sky, things of different shapes on its floor */
+static const struct box boxes[] = {
+    {{-6, -0.2f, -7}, {7, 0, 6}, 0},     {{-6, 0, -7.3f}, {7, 4, -7}, 1},
+    {{-6.3f, 0, -7}, {-6, 4, 6}, 2},     {{7, 0, -7}, {7.3f, 4, 6}, 1},
+    {{-6, 0, 6}, {2, 4, 6.3f}, 2},       {{-6, 4, -7}, {7, 4.2f, 1}, 1},
+    {{-4, 0, -5}, {-2.5f, 1.1f, -3}, 3}, {{1, 0, -4}, {2, 2.3f, -3.2f}, 4},
+    {{3.5f, 0, -2}, {5, 0.6f, 0.5f}, 5}, {{-1, 0, -6.5f}, {0.2f, 3, -5.8f}, 3},
+    {{-3.5f, 0, 0}, {-3, 1.8f, 1}, 4},   {{0.5f, 0.9f, -1.4f}, {1.1f, 1.3f, -0.9f}, 5},
+};
+enum { BOXES = sizeof boxes / sizeof *boxes };
+
+static void write_box(FILE *bin, const struct box *b) {
+    static const int faces[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
+    for (int f = 0; f < 6; f++) {
+        const int axis = faces[f][0], u = faces[f][1], v = faces[f][2];
+        /* u × v is the axis for even faces and its opposite for odd ones */
+        for (int k = 0; k < 4; k++) {
+            float p[3];
+            p[axis] = f % 2 ? b->from[axis] : b->to[axis];
+            p[u] = k == 1 || k == 2 ? b->to[u] : b->from[u];
+            p[v] = k >= 2 ? b->to[v] : b->from[v];
+            assert_int_equal(fwrite(p, sizeof p, 1, bin), 1);
+        }
+    }
+}
+
+static void write_gltf(const char *path, const char *bin_path, const char *bin_name) {
+    static const char *const materials[] = {"0.5,0.45,0.4,1],\"metallicFactor\":0,\"roughnessFactor\":0.3",
+                                            "0.7,0.7,0.65,1],\"metallicFactor\":0,\"roughnessFactor\":0.8",
+                                            "0.3,0.5,0.6,1],\"metallicFactor\":0,\"roughnessFactor\":0.7",
+                                            "0.8,0.2,0.1,1],\"metallicFactor\":0,\"roughnessFactor\":0.5",
+                                            "0.9,0.8,0.6,1],\"metallicFactor\":1,\"roughnessFactor\":0.2",
+                                            "0.2,0.6,0.2,1],\"metallicFactor\":0,\"roughnessFactor\":0.6"};
+    static const uint16_t indices[6] = {0, 1, 2, 0, 2, 3};
+    enum { BOX_BYTES = 24 * 12, INDEX_BYTES = 36 * 2 };
+    FILE *bin = fopen(bin_path, "wb"), *text = fopen(path, "wb");
+    assert_true(bin && text);
+    for (int b = 0; b < BOXES; b++) write_box(bin, &boxes[b]);
+    for (int f = 0; f < 6; f++)
+        for (int k = 0; k < 6; k++) {
+            const uint16_t index = (uint16_t)(4 * f + indices[k]);
+            assert_int_equal(fwrite(&index, sizeof index, 1, bin), 1);
+        }
+    fprintf(
+        text,
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},"
+        "{\"camera\":0,\"translation\":[0.7,1.7,4.5],\"rotation\":[-0.0681,0.1305,0.009,0.9891]}],"
+        "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1.0,\"znear\":0.1,\"aspectRatio\":1.77}}],"
+        "\"materials\":[");
+    for (int m = 0; m < 6; m++)
+        fprintf(text, "%s{\"pbrMetallicRoughness\":{\"baseColorFactor\":[%s}}", m ? "," : "", materials[m]);
+    fprintf(text, "],\"buffers\":[{\"byteLength\":%d,\"uri\":\"%s\"}],\"bufferViews\":[",
+            BOXES * BOX_BYTES + INDEX_BYTES, bin_name);
+    for (int b = 0; b < BOXES; b++)
+        fprintf(text, "{\"buffer\":0,\"byteOffset\":%d,\"byteLength\":%d},", b * BOX_BYTES, BOX_BYTES);
+    fprintf(text, "{\"buffer\":0,\"byteOffset\":%d,\"byteLength\":%d}],\"accessors\":[", BOXES * BOX_BYTES,
+            INDEX_BYTES);
+    for (int b = 0; b < BOXES; b++) {
+        const struct box *x = &boxes[b];
+        fprintf(text,
+                "{\"bufferView\":%d,\"componentType\":5126,\"count\":24,\"type\":\"VEC3\",\"min\":[%g,%g,%g],\"max\":[%"
+                "g,%g,%g]},",
+                b, (double)x->from[0], (double)x->from[1], (double)x->from[2], (double)x->to[0], (double)x->to[1],
+                (double)x->to[2]);
+    }
+    fprintf(
+        text,
+        "{\"bufferView\":%d,\"componentType\":5123,\"count\":36,\"type\":\"SCALAR\"}],\"meshes\":[{\"primitives\":[",
+        BOXES);
+    for (int b = 0; b < BOXES; b++)
+        fprintf(text, "%s{\"attributes\":{\"POSITION\":%d},\"indices\":%d,\"material\":%d}", b ? "," : "", b, BOXES,
+                boxes[b].material);
+    fprintf(text, "]}]}");
+    fclose(bin);
+    fclose(text);
+}
+
+/* ---- Captures ---- */
+
+static char bases[SCENES][BASE_COUNT][512];
+
+static int make_captures(void **state) {
+    static const char *const depths[BASE_COUNT] = {"view_linear", "reversed", "device"};
+    if (make_folder(state) != 0) return -1;
+    write_gltf(in_folder("hall.gltf"), in_folder("hall.bin"), "hall.bin");
+    for (int s = 0; s < SCENES; s++)
+        for (int b = 0; b < BASE_COUNT; b++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s%d.exr", scenes[s], b);
+            snprintf(bases[s][b], sizeof bases[s][b], "%s", in_folder(name));
+            free(glint_ok("sample", s == 2 ? in_folder("hall.gltf") : scenes[s], "-o", bases[s][b], "--size", "160x90",
+                          "--cube-size", "64", "--light", "4", "--travel", "0.11,0.05,-0.17", "--truth", b ? "0" : "2",
+                          "--depth", depths[b]));
+        }
+    return 0;
+}
+
+static json_t *lint(const char *path) {
+    struct outcome run = glint("lint", path, "--json", NULL);
+    if (run.status > 1 || *run.err) fail_msg("%s", run.err);
+    json_t *json = parse_json(run.out);
+    assert_int_equal(run.status, json_array_size(json_object_get(json, "findings")) ? 1 : 0);
+    outcome_free(&run);
+    return json;
+}
+
+static const char *first_finding(const json_t *json) {
+    const json_t *findings = json_object_get(json, "findings");
+    return json_array_size(findings) ? json_string_value(json_object_get(json_array_get(findings, 0), "id"))
+                                     : "nothing";
+}
+
+static void nothing_is_found_where_nothing_is_wrong(void **state) {
+    (void)state;
+    for (int s = 0; s < SCENES; s++)
+        for (int b = 0; b < BASE_COUNT; b++) {
+            json_t *json = lint(bases[s][b]);
+            if (json_array_size(json_object_get(json, "findings")))
+                fail_msg("%s: found %s", bases[s][b], first_finding(json));
+            json_decref(json);
+        }
+}
+
+/* Every scene that glint brings; only when all is tried. */
+static void nothing_is_found_in_any_scene(void **state) {
+    (void)state;
+    char *text = glint_ok("sample", "--list", "--json");
+    json_t *list = parse_json(text), *scene;
+    size_t i;
+    json_array_foreach(json_object_get(list, "scenes"), i, scene) {
+        if (!seeds && i) continue;
+        const char *name = json_string_value(json_object_get(scene, "name"));
+        free(glint_ok("sample", name, "-o", in_folder("clean.exr"), "--size", "320x180", "--cube-size", "64", "--light",
+                      "4"));
+        json_t *json = lint(in_folder("clean.exr"));
+        if (json_array_size(json_object_get(json, "findings"))) fail_msg("%s: found %s", name, first_finding(json));
+        json_decref(json);
+        remove(in_folder("clean.exr"));
+    }
+    assert_true(i >= 7);
+    json_decref(list);
+    free(text);
+}
+
+struct score {
+    int tried, right;
+};
+
+/* One damaged capture; whether the only finding is the right one. */
+static void try_damage(const struct damage *damage, int scene, double strength, struct score *told,
+                       struct score *untold) {
+    struct rewrite *r = malloc(sizeof *r);
+    assert_non_null(r);
+    rewrite_load(r, bases[scene][damage->base]);
+    const bool damaged = damage->apply(r, strength);
+    if (damaged) rewrite_save(r, in_folder("damaged.exr"));
+    rewrite_finish(r);
+    free(r);
+    if (!damaged) return;
+    json_t *json = lint(in_folder("damaged.exr"));
+    const size_t found = json_array_size(json_object_get(json, "findings"));
+    struct score *score = damage->finding ? told : untold;
+    const bool right = damage->finding ? found >= 1 && !strcmp(first_finding(json), damage->finding) : found == 0;
+    score->tried++;
+    score->right += right;
+    if (!right)
+        print_message("# %s, strength %.2f: expected %s, found %s and %zu more\n", scenes[scene], strength,
+                      damage->finding ? damage->finding : "nothing", first_finding(json), found ? found - 1 : 0);
+    json_decref(json);
+}
+
+static void mistakes_are_found_and_named(void **state) {
+    struct score told = {0, 0}, untold = {0, 0};
+    uint32_t random = 12345;
+    (void)state;
+    for (size_t d = 0; d < damage_count; d++)
+        for (int s = 0; s < SCENES; s++)
+            for (int k = 0; k < (seeds ? seeds : (int)d % SCENES == s); k++) {
+                random = random * 1664525 + 1013904223;
+                try_damage(&damages[d], s, random / 4294967296.0, &told, &untold);
+            }
+    print_message(
+        "# %d of %d that can be told are found and named right; %d of %d that cannot be told give no finding\n",
+        told.right, told.tried, untold.right, untold.tried);
+    assert_true(told.tried >= (seeds ? 110 * seeds : 36) && 20 * told.right >= 19 * told.tried);
+    assert_true(untold.tried >= (seeds ? 9 * seeds : 3) && untold.right == untold.tried);
+}
+
+static void what_cannot_be_told_is_listed(void **state) {
+    (void)state;
+    json_t *json = lint(bases[1][0]);
+    char *text = json_dumps(json_object_get(json, "undecided"), 0);
+    assert_contains(text, "roughness is squared");
+    assert_contains(text, "metresPerUnit");
+    free(text);
+    json_decref(json);
+}
+
+static void fix_declares_and_leaves_every_pixel(void **state) {
+    struct rewrite *r = malloc(sizeof *r);
+    (void)state;
+    assert_non_null(r);
+    for (size_t d = 0; d < damage_count; d++) {
+        const char *id = damages[d].finding;
+        if (!id || (strcmp(id, "normal.view_space") && strcmp(id, "depth.reversed") && strcmp(id, "camera.inverse") &&
+                    strcmp(id, "motion.pixels")))
+            continue;
+        rewrite_load(r, bases[0][damages[d].base]);
+        assert_true(damages[d].apply(r, 0.5));
+        rewrite_save(r, in_folder("damaged.exr"));
+        rewrite_finish(r);
+        struct outcome run = glint("lint", in_folder("damaged.exr"), "--fix", "-o", in_folder("mended.exr"), NULL);
+        assert_int_equal(run.status, 1);
+        assert_contains(run.out, id);
+        outcome_free(&run);
+        json_t *json = lint(in_folder("mended.exr"));
+        if (json_array_size(json_object_get(json, "findings"))) fail_msg("%s: still %s", id, first_finding(json));
+        json_decref(json);
+        free(glint_ok("validate", in_folder("mended.exr")));
+        struct outcome same = run_program("idiff", "-a", in_folder("damaged.exr"), in_folder("mended.exr"), NULL);
+        assert_int_equal(same.status, 0);
+        outcome_free(&same);
+    }
+    free(r);
+}
+
+static void wrong_use_is_refused(void **state) {
+    (void)state;
+    glint_fails(2, "which capture", "lint");
+    glint_fails(2, "--fix and -o", "lint", bases[0][0], "--fix");
+    glint_fails(1, "nowhere.exr", "lint", "nowhere.exr");
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_is_found_where_nothing_is_wrong),
+        cmocka_unit_test(nothing_is_found_in_any_scene),
+        cmocka_unit_test(mistakes_are_found_and_named),
+        cmocka_unit_test(what_cannot_be_told_is_listed),
+        cmocka_unit_test(fix_declares_and_leaves_every_pixel),
+        cmocka_unit_test(wrong_use_is_refused),
+    };
+    seeds = argc > 1 ? atoi(argv[1]) : 0;
+    return cmocka_run_group_tests_name("lint", tests, make_captures, remove_folder);
+}

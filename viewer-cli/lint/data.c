@@ -1,0 +1,127 @@
+/* What lint looks at, read as it is stored. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lint.h"
+
+static bool has(const struct glint_part_info *part, const char *channel) {
+    for (size_t i = 0; i < part->channel_count; i++)
+        if (!strcmp(part->channels[i].name, channel)) return true;
+    return false;
+}
+
+static bool is_whole(const struct glint_part_info *part, const char *channel) {
+    for (size_t i = 0; i < part->channel_count; i++)
+        if (!strcmp(part->channels[i].name, channel)) return part->channels[i].stored == GLINT_STORED_UINT;
+    return false;
+}
+
+/* Channels as floats; those that the part lacks, and NULL, are 0. */
+static float *read_floats(struct glint_capture *capture, const struct glint_part_info *part, const char *const *names,
+                          size_t count, struct glint_error *err) {
+    const char *there[8];
+    const size_t texels = (size_t)part->width * part->height;
+    const bool whole = is_whole(part, names[0]);
+    for (size_t i = 0; i < count; i++) there[i] = names[i] && has(part, names[i]) ? names[i] : NULL;
+    float *values = malloc(texels * count * sizeof *values + 1);
+    if (!values) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory for %s", part->name);
+        return NULL;
+    }
+    if (!glint_capture_read_raw(capture, part, there, count, whole ? GLINT_U32 : GLINT_F32, values, 0, err)) {
+        free(values);
+        return NULL;
+    }
+    for (size_t i = 0; whole && i < texels * count; i++) {
+        uint32_t code;
+        memcpy(&code, &values[i], sizeof code);
+        values[i] = (float)code;
+    }
+    return values;
+}
+
+static bool read_cube(struct lint_data *data, struct glint_capture *capture, const struct glint_part_info *part,
+                      struct glint_error *err) {
+    static const char *const names[] = {"R", "G", "B", "A", "distance.Z"};
+    struct lint_cube *cube = &data->cubes[data->cube_count];
+    *cube = (struct lint_cube){.size = part->width, .has_distance = has(part, "distance.Z")};
+    snprintf(cube->name, sizeof cube->name, "%.63s", part->name);
+    memcpy(cube->center, part->cubemap.center, sizeof cube->center);
+    cube->texels = read_floats(capture, part, names, 5, err);
+    data->cube_count += cube->texels != NULL;
+    data->cube_encoding = part->encodings.color;
+    return cube->texels != NULL;
+}
+
+/* The cube maps nearest to the camera see most of what it sees. */
+static bool read_cubes(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
+    const struct lint_reading reading = lint_declared(data);
+    const struct lint_eyes eyes = lint_eyes_of(data, &reading);
+    double after = -1;
+    size_t previous = SIZE_MAX;
+    for (int k = 0; k < LINT_CUBES; k++) {
+        double nearest = INFINITY;
+        const struct glint_part_info *found = NULL;
+        size_t place = 0;
+        for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+            const struct glint_part_info *part = glint_capture_part(capture, i);
+            if (!part->has_cubemap) continue;
+            double d = 0;
+            for (int a = 0; a < 3; a++) d += pow(part->cubemap.center[a] - eyes.now.position[a], 2);
+            const bool later = d > after || (d == after && i > previous && previous != SIZE_MAX);
+            if (!later || d >= nearest) continue;
+            nearest = d;
+            found = part;
+            place = i;
+        }
+        if (!found) return true;
+        if (!read_cube(data, capture, found, err)) return false;
+        after = nearest;
+        previous = place;
+    }
+    return true;
+}
+
+static bool choose_samples(struct lint_data *data, struct glint_error *err) {
+    data->samples = malloc(LINT_SAMPLES * sizeof *data->samples);
+    if (!data->samples) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (data->width < 3 || data->height < 3) return true;
+    /* a lattice of points that no pattern of rows and columns is in step with */
+    for (uint32_t i = 0; i < LINT_SAMPLES; i++) {
+        const double u = fmod(0.5 + i * 0.7548776662466927, 1), v = fmod(0.5 + i * 0.5698402909980532, 1);
+        const uint32_t x = 1 + (uint32_t)(u * (data->width - 2)), y = 1 + (uint32_t)(v * (data->height - 2));
+        data->samples[data->sample_count++] = y * data->width + x;
+    }
+    return true;
+}
+
+bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
+    static const char *const depth[] = {"depth.Z"}, *const normal[] = {"normal.X", "normal.Y", "normal.Z"},
+                             *const motion[] = {"motion.X", "motion.Y"}, *const color[] = {"R", "G", "B"},
+                             *const material[] = {"material.roughness", "material.metalness", "material.specular"};
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"),
+                                 *lit = glint_capture_find(capture, "lit");
+    *data = (struct lint_data){.frame = *glint_capture_frame(capture),
+                               .encodings = gbuffer->encodings,
+                               .lit_encoding = lit->encodings.color,
+                               .two_channels = !has(gbuffer, "normal.Z"),
+                               .has_motion = has(gbuffer, "motion.X"),
+                               .width = gbuffer->width,
+                               .height = gbuffer->height};
+    return (data->depth = read_floats(capture, gbuffer, depth, 1, err)) &&
+           (data->normal = read_floats(capture, gbuffer, normal, 3, err)) &&
+           (data->material = read_floats(capture, gbuffer, material, 3, err)) &&
+           (!data->has_motion || (data->motion = read_floats(capture, gbuffer, motion, 2, err))) &&
+           (data->lit = read_floats(capture, lit, color, 3, err)) && read_cubes(data, capture, err) &&
+           choose_samples(data, err);
+}
+
+void lint_data_finish(struct lint_data *data) {
+    float *all[] = {data->depth, data->normal, data->motion, data->lit, data->material};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
+    for (size_t i = 0; i < data->cube_count; i++) free(data->cubes[i].texels);
+    free(data->samples);
+    *data = (struct lint_data){.cube_count = 0};
+}

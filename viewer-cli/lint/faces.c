@@ -1,0 +1,111 @@
+/* Which stored face of a cube map is which, and how it is turned: by the surfaces on screen that it should show. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "lint.h"
+
+enum { TURNS = 8 };
+static const char *const names[6] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
+struct votes {
+    size_t agree[6][6][TURNS], beyond[6][6][TURNS]; /* of a face of the format: each stored face, each turn */
+};
+
+static void vote(struct votes *votes, const struct lint_data *data, const struct lint_reading *reading,
+                 const struct lint_cube *cube, const double world[3]) {
+    double d[3], u, v;
+    (void)data;
+    for (int k = 0; k < 3; k++) d[k] = world[k] - reading->center_scale * cube->center[k];
+    const double away = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), slack = away * (0.02 + 3.0 / cube->size);
+    if (!(away > 0) || !isfinite(away)) return;
+    const int face = lint_face_of(d, &u, &v);
+    for (int stored = 0; stored < 6; stored++)
+        for (int turn = 0; turn < TURNS; turn++) {
+            double tu = u, tv = v;
+            lint_turn(turn, &tu, &tv);
+            const double distance = lint_cube_distance(reading, lint_texel(cube, stored, tu, tv), d);
+            votes->agree[face][stored][turn] += fabs(distance - away) <= slack;
+            votes->beyond[face][stored][turn] += distance > away + 3 * slack;
+        }
+}
+
+static double share(const struct votes *votes, int face, int stored, int turn) {
+    const size_t agree = votes->agree[face][stored][turn], all = agree + votes->beyond[face][stored][turn];
+    return all ? (double)agree / (double)all : 0;
+}
+
+/* What is better than as stored for one face; false when nothing clearly is. */
+static bool better(const struct votes *votes, int face, int *stored, int *turn) {
+    const size_t all = votes->agree[face][face][0] + votes->beyond[face][face][0];
+    size_t most = votes->agree[face][face][0];
+    double best = share(votes, face, face, 0);
+    const size_t least = most;
+    const double before = best;
+    *stored = face;
+    *turn = 0;
+    for (int s = 0; s < 6; s++)
+        for (int t = 0; t < TURNS; t++) {
+            const size_t agree = votes->agree[face][s][t];
+            if (agree < LINT_ENOUGH / 2 || agree <= most || share(votes, face, s, t) <= best) continue;
+            most = agree;
+            best = share(votes, face, s, t);
+            *stored = s;
+            *turn = t;
+        }
+    return all >= LINT_ENOUGH / 2 && 1 - best < 0.5 * (1 - before) && best > before + 0.05 && 5 * most > 6 * least;
+}
+
+static const char *turn_name(int turn) {
+    static const char *const words[TURNS] = {"",
+                                             ", mirrored left to right",
+                                             ", upside down",
+                                             ", turned by a half",
+                                             ", mirrored across its diagonal",
+                                             ", turned by a quarter",
+                                             ", turned by a quarter the other way",
+                                             ", mirrored across its other diagonal"};
+    return words[turn];
+}
+
+void lint_find_faces(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
+                     struct lint_findings *findings) {
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    struct votes votes = {{{{0}}}, {{{0}}}};
+    struct lint_reading other = *reading;
+    char text[256] = "";
+    size_t length = 0;
+    int changed = 0, same_turn = -1, moved = 0;
+    for (size_t i = 0; i < data->sample_count; i++) {
+        double world[3];
+        if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
+        for (size_t c = 0; c < data->cube_count; c++)
+            if (data->cubes[c].has_distance) vote(&votes, data, reading, &data->cubes[c], world);
+    }
+    for (int f = 0; f < 6; f++) {
+        if (!better(&votes, f, &other.face[f], &other.turn[f])) {
+            other.face[f] = f;
+            other.turn[f] = 0;
+            continue;
+        }
+        const int n = snprintf(text + length, sizeof text - length, "%s%s lies at %s%s", length ? "; " : "", names[f],
+                               names[other.face[f]], turn_name(other.turn[f]));
+        length += n > 0 && (size_t)n < sizeof text - length ? (size_t)n : 0;
+        same_turn = changed && other.turn[f] != same_turn ? -2 : other.turn[f];
+        moved += other.face[f] != f;
+        changed++;
+    }
+    if (!changed) return;
+    const struct lint_agreement now = lint_agree(data, &other, NULL, 0);
+    const char *id = !moved && same_turn >= 0 ? "cubemap.faces_turned" : "cubemap.faces_exchanged";
+    struct lint_finding *f = lint_add(findings, id, now.share[LINT_CUBEMAPS] > 0.6 ? "certain" : "likely");
+    snprintf(f->what, sizeof f->what, "%s",
+             moved ? "faces of cube maps stand in another order" : "faces of cube maps are mirrored or turned");
+    snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s agree, as declared %.0f %%", text,
+             100 * now.share[LINT_CUBEMAPS], now.count[LINT_CUBEMAPS], lint_measure_names[LINT_CUBEMAPS],
+             100 * agreement->share[LINT_CUBEMAPS]);
+    snprintf(f->mend, sizeof f->mend,
+             "no declaration says so: write faces as +X -X +Y -Y +Z -Z, each as Vulkan orients it");
+    *reading = other;
+    *agreement = now;
+}

@@ -1,0 +1,215 @@
+/* Where things are, by a reading. The formulas are those of FORMAT.md. */
+#include <math.h>
+#include <string.h>
+
+#include "lint.h"
+
+struct lint_reading lint_declared(const struct lint_data *data) {
+    struct lint_reading r = {.depth = data->encodings.depth,
+                             .depth_scale = 1,
+                             .normal = data->encodings.normal,
+                             .space = data->encodings.normal_space,
+                             .normal_sign = {1, 1, 1},
+                             .normal_axis = {0, 1, 2},
+                             .motion = data->encodings.motion,
+                             .motion_sign = {1, 1},
+                             .clip_y = data->frame.clip_y,
+                             .clip_z = data->frame.clip_z,
+                             .view_sign = {1, 1, 1},
+                             .cube_scale = 1,
+                             .center_scale = 1,
+                             .lit = data->lit_encoding,
+                             .cube = data->cube_encoding};
+    for (int f = 0; f < 6; f++) r.face[f] = f;
+    return r;
+}
+
+static struct lint_view view_of(const struct glint_camera *camera, const struct lint_reading *reading) {
+    const double *m = camera->world_to_view, *p = camera->view_to_clip;
+    struct lint_view v = {.a = p[0], .b = p[5], .c = p[2], .d = p[6], .A = p[10], .B = p[11], .s = p[14]};
+    const double translation[3] = {m[3], m[7], m[11]};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            v.rotation[3 * i + k] = reading->inverse_camera ? m[4 * k + i] : reading->view_sign[i] * m[4 * i + k];
+    /* the eye: where the view is 0. The inverse of what is stored has it as its translation. */
+    for (int i = 0; i < 3; i++) {
+        v.position[i] = reading->inverse_camera ? translation[i] : 0;
+        for (int k = 0; k < 3 && !reading->inverse_camera; k++) v.position[i] -= m[4 * k + i] * translation[k];
+    }
+    return v;
+}
+
+struct lint_eyes lint_eyes_of(const struct lint_data *data, const struct lint_reading *reading) {
+    return (struct lint_eyes){view_of(&data->frame.camera, reading),
+                              view_of(data->frame.has_previous ? &data->frame.previous : &data->frame.camera, reading)};
+}
+
+/* The direction through a place whose view z is s. */
+static void ray(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                double x, double y, double out[3]) {
+    const double up = reading->clip_y == GLINT_CLIP_Y_UP ? 1 : -1;
+    const double ndc_x = 2 * x / data->width - 1, ndc_y = up * (1 - 2 * y / data->height);
+    out[0] = (ndc_x - view->c * view->s) / view->a;
+    out[1] = (ndc_y - view->d * view->s) / view->b;
+    out[2] = view->s;
+}
+
+static bool along_axis(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                       double v, double *depth) {
+    const bool reversed = reading->depth == GLINT_DEPTH_REVERSED || reading->depth == GLINT_DEPTH_REVERSED_INFINITE ||
+                          reading->depth == GLINT_DEPTH_LOGARITHMIC_REVERSED;
+    /* a depth buffer is reversed when its projection is, and has no far plane when that has none */
+    const bool projected = reading->depth == GLINT_DEPTH_DEVICE || reading->depth == GLINT_DEPTH_REVERSED ||
+                           reading->depth == GLINT_DEPTH_REVERSED_INFINITE;
+    if (projected && (view->B > 0) != reversed) return false;
+    if (reading->depth == GLINT_DEPTH_REVERSED_INFINITE && fabs(view->A) > 1e-9) return false;
+    if (reading->depth == GLINT_DEPTH_VIEW_LINEAR) *depth = v * reading->depth_scale;
+    else if (reversed ? v <= 0 : v >= 1) return false;
+    else if (reading->depth == GLINT_DEPTH_LOGARITHMIC || reading->depth == GLINT_DEPTH_LOGARITHMIC_REVERSED) {
+        const double near = data->frame.depth_near, far = data->frame.depth_far;
+        if (!(near > 0 && far > near)) return false;
+        *depth = near * pow(far / near, reversed ? 1 - v : v);
+    } else {
+        const double z = reading->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? 2 * v - 1 : v;
+        *depth = view->B / (z - view->A * view->s);
+    }
+    return isfinite(*depth) && *depth > 0;
+}
+
+bool lint_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                uint32_t x, uint32_t y, double *depth) {
+    const double v = (double)data->depth[(size_t)y * data->width + x];
+    if (!along_axis(data, reading, view, v, depth)) return false;
+    if (reading->radial) {
+        double r[3];
+        ray(data, reading, view, x + 0.5, y + 0.5, r);
+        *depth /= sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    }
+    return true;
+}
+
+void lint_view_position(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                        double x, double y, double depth, double out[3]) {
+    ray(data, reading, view, x, y, out);
+    for (int i = 0; i < 3; i++) out[i] *= depth;
+}
+
+static void turn_to_world(const struct lint_view *view, const double in[3], double out[3]) {
+    for (int i = 0; i < 3; i++) {
+        out[i] = 0;
+        for (int k = 0; k < 3; k++) out[i] += view->rotation[3 * k + i] * in[k];
+    }
+}
+
+void lint_to_world(const struct lint_view *view, const double in[3], double out[3]) {
+    turn_to_world(view, in, out);
+    for (int i = 0; i < 3; i++) out[i] += view->position[i];
+}
+
+bool lint_project(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                  const double world[3], double out[2]) {
+    double v[3] = {0, 0, 0};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) v[i] += view->rotation[3 * i + k] * (world[k] - view->position[k]);
+    const double w = view->s * v[2], up = reading->clip_y == GLINT_CLIP_Y_UP ? 1 : -1;
+    if (!(w > 1e-9)) return false;
+    out[0] = ((view->a * v[0] + view->c * v[2]) / w + 1) / 2 * data->width;
+    out[1] = (1 - up * (view->b * v[1] + view->d * v[2]) / w) / 2 * data->height;
+    return isfinite(out[0]) && isfinite(out[1]);
+}
+
+static double sign_of(double v) {
+    return v < 0 ? -1 : 1;
+}
+
+static void decode_normal(const struct lint_reading *reading, const float *v, const struct lint_view *view,
+                          double n[3]) {
+    const double x = (double)v[0], y = (double)v[1];
+    switch (reading->normal) {
+    case GLINT_NORMAL_SIGNED:
+    case GLINT_NORMAL_UNORM:
+        for (int i = 0; i < 3; i++) {
+            n[i] = (double)v[reading->normal_axis[i]];
+            if (reading->normal == GLINT_NORMAL_UNORM) n[i] = 2 * n[i] - 1;
+            n[i] *= reading->normal_sign[i];
+        }
+        break;
+    case GLINT_NORMAL_OCTAHEDRAL:
+        n[0] = 2 * x - 1;
+        n[1] = 2 * y - 1;
+        n[2] = 1 - fabs(n[0]) - fabs(n[1]);
+        if (n[2] < 0) {
+            const double p = n[0];
+            n[0] = (1 - fabs(n[1])) * sign_of(p);
+            n[1] = (1 - fabs(p)) * sign_of(n[1]);
+        }
+        break;
+    case GLINT_NORMAL_VIEW_XY:
+        n[0] = 2 * x - 1;
+        n[1] = 2 * y - 1;
+        n[2] = -view->s * sqrt(fmax(0, 1 - n[0] * n[0] - n[1] * n[1]));
+        break;
+    }
+}
+
+bool lint_normal(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                 size_t pixel, double out[3]) {
+    double n[3] = {0, 0, 0};
+    const bool two = reading->normal == GLINT_NORMAL_OCTAHEDRAL || reading->normal == GLINT_NORMAL_VIEW_XY;
+    if (two != data->two_channels) return false;
+    decode_normal(reading, &data->normal[3 * pixel], view, n);
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 1e-6) || !isfinite(length)) return false;
+    for (int i = 0; i < 3; i++) n[i] /= length;
+    if (reading->space == GLINT_SPACE_VIEW || reading->normal == GLINT_NORMAL_VIEW_XY) turn_to_world(view, n, out);
+    else memcpy(out, n, sizeof n);
+    return true;
+}
+
+void lint_motion(const struct lint_data *data, const struct lint_reading *reading, size_t pixel, double out[2]) {
+    const double size[2] = {data->width, data->height};
+    for (int i = 0; i < 2; i++) {
+        double v = (double)data->motion[2 * pixel + (size_t)i];
+        if (reading->motion == GLINT_MOTION_UV) v *= size[i];
+        else if (reading->motion == GLINT_MOTION_NDC)
+            v *= size[i] / 2 * (i && reading->clip_y == GLINT_CLIP_Y_UP ? -1 : 1);
+        else if (reading->motion == GLINT_MOTION_PACKED16) v = (v - 32768) / 32767 * data->frame.motion_range * size[i];
+        out[i] = v * reading->motion_sign[i];
+    }
+}
+
+int lint_face_of(const double d[3], double *u, double *v) {
+    const double a[3] = {fabs(d[0]), fabs(d[1]), fabs(d[2])};
+    const int axis = a[0] >= a[1] && a[0] >= a[2] ? 0 : a[1] >= a[2] ? 1 : 2;
+    const double across[6] = {-d[2], d[2], d[0], d[0], d[0], -d[0]},
+                 down[6] = {-d[1], -d[1], d[2], -d[2], -d[1], -d[1]};
+    const int face = 2 * axis + (d[axis] < 0);
+    *u = 0.5 * (across[face] / a[axis] + 1);
+    *v = 0.5 * (down[face] / a[axis] + 1);
+    return face;
+}
+
+void lint_turn(int turn, double *u, double *v) {
+    if (turn & 1) *u = 1 - *u;
+    if (turn & 2) *v = 1 - *v;
+    if (turn & 4) {
+        const double t = *u;
+        *u = *v;
+        *v = t;
+    }
+}
+
+const float *lint_texel(const struct lint_cube *cube, int face, double u, double v) {
+    const double n = cube->size;
+    const uint32_t x = u > 0 ? (uint32_t)fmin(u * n, n - 1) : 0, y = v > 0 ? (uint32_t)fmin(v * n, n - 1) : 0;
+    return cube->texels + 5 * (((size_t)face * cube->size + y) * cube->size + x);
+}
+
+double lint_cube_distance(const struct lint_reading *reading, const float *texel, const double d[3]) {
+    double distance = (double)texel[4] * reading->cube_scale;
+    if (reading->cube_planar) {
+        const double largest = fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2])));
+        distance *= sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / largest;
+    }
+    return distance;
+}

@@ -1,0 +1,266 @@
+/* What values must be by themselves, whatever they mean together. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lint.h"
+
+static const double MOVES_PX = 0.25; /* less may be jitter */
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *values, size_t count) {
+    qsort(values, count, sizeof *values, ascending);
+    return count ? values[count / 2] : 0;
+}
+
+static double luminance(const float *c) {
+    return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] + 0.0722 * (double)c[2];
+}
+
+static bool is_surface(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                       uint32_t pixel) {
+    double depth;
+    return lint_depth(data, reading, view, pixel % data->width, pixel / data->width, &depth);
+}
+
+/* ---- Normals ---- */
+
+static void normal_lengths(const struct lint_data *data, const struct lint_reading *reading,
+                           const struct lint_view *view, struct lint_findings *findings) {
+    static double lengths[LINT_SAMPLES];
+    size_t count = 0, off = 0;
+    const bool unorm = reading->normal == GLINT_NORMAL_UNORM;
+    if (data->two_channels || (!unorm && reading->normal != GLINT_NORMAL_SIGNED)) return;
+    for (size_t i = 0; i < data->sample_count; i++) {
+        if (!is_surface(data, reading, view, data->samples[i])) continue;
+        const float *v = data->normal + 3 * (size_t)data->samples[i];
+        double sum = 0;
+        for (int k = 0; k < 3; k++) sum += pow(unorm ? 2 * (double)v[k] - 1 : (double)v[k], 2);
+        lengths[count++] = sqrt(sum);
+        off += fabs(sqrt(sum) - 1) > 0.05;
+    }
+    if (count < LINT_ENOUGH || off < count / 2) return;
+    struct lint_finding *f = lint_add(findings, "normal.length", "certain");
+    snprintf(f->what, sizeof f->what, "normals are not of length 1");
+    snprintf(f->evidence, sizeof f->evidence, "%zu of %zu are off by more than 0.05, the median length is %.4g", off,
+             count, median(lengths, count));
+    snprintf(f->mend, sizeof f->mend, "normalise in the dump; the reader does, but precision is lost");
+}
+
+/* ---- Sky ---- */
+
+static void depth_sky(const struct lint_data *data, struct lint_findings *findings) {
+    const size_t pixels = (size_t)data->width * data->height;
+    double largest = 0, next = 0;
+    size_t infinite = 0, at_largest = 0;
+    if (data->encodings.depth != GLINT_DEPTH_VIEW_LINEAR) return;
+    for (size_t i = 0; i < pixels; i++) {
+        const double z = (double)data->depth[i];
+        infinite += isfinite(z) ? 0 : 1;
+        if (isfinite(z)) largest = fmax(largest, z);
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        const double z = (double)data->depth[i];
+        at_largest += z == largest;
+        if (isfinite(z) && z < largest) next = fmax(next, z);
+    }
+    if (infinite || at_largest < pixels / 500 + 16 || !(largest > 1.2 * next)) return;
+    struct lint_finding *f = lint_add(findings, "depth.sky_value", "likely");
+    snprintf(f->what, sizeof f->what, "sky has a depth, where +inf should stand");
+    snprintf(f->evidence, sizeof f->evidence,
+             "%zu pixels have exactly the depth %.9g, the next largest is %.9g, none is infinite", at_largest, largest,
+             next);
+    snprintf(f->mend, sizeof f->mend, "no declaration says so: write +inf under sky");
+}
+
+static void cube_sky(const struct lint_data *data, struct lint_findings *findings) {
+    size_t against = 0, with = 0;
+    for (size_t c = 0; c < data->cube_count; c++) {
+        const struct lint_cube *cube = &data->cubes[c];
+        for (size_t i = 0; i < (size_t)cube->size * cube->size * 6; i += 7) {
+            const float *t = cube->texels + 5 * i;
+            const bool flagged = t[3] < 0.5f, sky = cube->has_distance ? !isfinite((double)t[4]) : !(luminance(t) > 0);
+            against += flagged != sky;
+            with += flagged == sky;
+        }
+    }
+    if (against + with < LINT_ENOUGH || against < 9 * with) return;
+    struct lint_finding *f = lint_add(findings, "cubemap.sky_inverted", "certain");
+    snprintf(f->what, sizeof f->what, "alpha of cube maps is inverted: it should be 0 where the direction sees sky");
+    snprintf(f->evidence, sizeof f->evidence, "alpha and what the texels hold disagree about sky at %zu of %zu texels",
+             against, against + with);
+    snprintf(f->mend, sizeof f->mend, "no declaration says so: write 1 - alpha");
+}
+
+/* ---- Light ---- */
+
+static void specular(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                     struct lint_findings *findings) {
+    static double others[LINT_SAMPLES];
+    size_t metals = 0, lit = 0, count = 0;
+    for (size_t i = 0; i < data->sample_count; i++) {
+        const size_t pixel = data->samples[i];
+        if (!is_surface(data, reading, view, (uint32_t)pixel)) continue;
+        if (!(data->material[3 * pixel + 1] > 0.95f)) others[count++] = luminance(data->lit + 3 * pixel);
+    }
+    const double typical = median(others, count);
+    for (size_t i = 0; i < data->sample_count; i++) {
+        const size_t pixel = data->samples[i];
+        if (!is_surface(data, reading, view, (uint32_t)pixel) || !(data->material[3 * pixel + 1] > 0.95f)) continue;
+        metals++;
+        lit += luminance(data->lit + 3 * pixel) > 0.02 * typical;
+    }
+    if (metals < 50) {
+        lint_undecided(
+            findings,
+            "whether lit holds specular light: too little metal is in the picture to tell (%zu of %zu samples)", metals,
+            data->sample_count);
+        return;
+    }
+    if (lit < metals / 2) return;
+    struct lint_finding *f = lint_add(findings, "lit.specular", "likely");
+    snprintf(f->what, sizeof f->what, "lit holds specular light");
+    snprintf(f->evidence, sizeof f->evidence, "%zu of %zu samples of metal, which has no diffuse light, are lit", lit,
+             metals);
+    snprintf(f->mend, sizeof f->mend,
+             "no declaration says so: dump lit without specular (and the finished picture as scene)");
+}
+
+/* ---- Motion and the previous camera ---- */
+
+struct movement {
+    size_t compared, stored, expected, zero; /* samples whose motion is stored, expected to move; stored as exactly 0 */
+};
+
+static struct movement movement_of(const struct lint_data *data, const struct lint_reading *reading) {
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    struct movement m = {0, 0, 0, 0};
+    for (size_t i = 0; i < data->sample_count; i++) {
+        double world[3], now[2], before[2], found[2];
+        if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
+        if (!lint_project(data, reading, &eyes.now, world, now)) continue;
+        if (!lint_project(data, reading, &eyes.before, world, before)) continue;
+        lint_motion(data, reading, data->samples[i], found);
+        m.compared++;
+        m.stored += hypot(found[0], found[1]) > MOVES_PX;
+        m.zero += found[0] == 0 && found[1] == 0;
+        m.expected += hypot(before[0] - now[0], before[1] - now[1]) > MOVES_PX;
+    }
+    return m;
+}
+
+static void previous(const struct lint_data *data, const struct lint_reading *reading,
+                     const struct lint_agreement *agreement, struct lint_findings *findings) {
+    if (!data->has_motion || data->frame.cut) {
+        if (!data->has_motion) lint_undecided(findings, "motion: the capture holds none");
+        return;
+    }
+    const struct movement m = movement_of(data, reading);
+    if (m.compared < LINT_ENOUGH) return;
+    const char *id = NULL, *what = NULL, *mend = "no declaration says so: dump the camera of the frame before";
+    if (m.stored > m.compared / 2 && !data->frame.has_previous) {
+        id = "previous.missing";
+        what = "the previous camera is missing, although motion says that the picture moved";
+    } else if (m.stored > m.compared / 2 && m.expected < m.compared / 20) {
+        id = "previous.same";
+        what = "the previous camera is the current one, although motion says that the picture moved";
+    } else if (m.expected > m.compared / 2 && m.zero > m.compared * 19 / 20) {
+        id = "motion.zero";
+        what = "motion is 0, although the camera moved";
+        mend = "no declaration says so: dump motion, the camera's included";
+    } else if (m.expected > m.compared / 2 && agreement->share[LINT_MOTION] < 0.2) {
+        id = "motion.unexplained";
+        what = "motion agrees with depth and both cameras nowhere, in no reading that is known";
+        mend = "compare motion with the reprojection of a still object";
+    }
+    if (m.expected < m.compared / 20 && !id)
+        lint_undecided(findings, "which way motion points and in which unit: the camera did not move");
+    if (!id) return;
+    struct lint_finding *f = lint_add(findings, id, strcmp(id, "motion.unexplained") ? "certain" : "possible");
+    snprintf(f->what, sizeof f->what, "%s", what);
+    snprintf(f->evidence, sizeof f->evidence,
+             "of %zu samples %zu move by more than %.2f pixels as stored, %zu by both cameras; %zu are stored as 0",
+             m.compared, m.stored, MOVES_PX, m.expected, m.zero);
+    snprintf(f->mend, sizeof f->mend, "%s", mend);
+}
+
+/* ---- Up ---- */
+
+static void up(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+               struct lint_findings *findings) {
+    static const int axis_of[6] = {1, 2, 0, 1, 2, 0};
+    static const char *const values[6] = {"+y", "+z", "+x", "-y", "-z", "-x"};
+    const double y_up = reading->clip_y == GLINT_CLIP_Y_UP ? 1 : -1, turn = (view->b < 0 ? -1 : 1) * y_up;
+    double upward[6];
+    size_t floors[6] = {0}, surfaces = 0;
+    int best = 0;
+    for (int a = 0; a < 6; a++) {
+        upward[a] = turn * (a < 3 ? 1 : -1) * view->rotation[3 + axis_of[a]];
+        if (upward[a] > upward[best]) best = a;
+    }
+    for (size_t i = 0; i < data->sample_count; i++) {
+        double n[3];
+        if (!is_surface(data, reading, view, data->samples[i]) ||
+            !lint_normal(data, reading, view, data->samples[i], n))
+            continue;
+        surfaces++;
+        for (int a = 0; a < 6; a++) floors[a] += (a < 3 ? 1 : -1) * n[axis_of[a]] > 0.95;
+    }
+    const int declared = (int)data->frame.up;
+    const bool level = fabs(view->rotation[axis_of[best]]) < 0.02;
+    if (best == declared || upward[best] < 0.75 || upward[declared] > 0.6 || !level || surfaces < LINT_ENOUGH ||
+        floors[best] < surfaces / 50)
+        return;
+    struct lint_finding *f = lint_add(findings, "camera.up", "likely");
+    snprintf(f->what, sizeof f->what, "%s is up, not %s", values[best], values[declared]);
+    snprintf(f->evidence, sizeof f->evidence,
+             "the picture's upward direction has %.2f of %s and %.2f of %s, its horizon lies level in that, and %.0f "
+             "%% of the surfaces face it",
+             upward[best], values[best], upward[declared], values[declared],
+             100 * (double)floors[best] / (double)surfaces);
+    f->attribute = "glint.up";
+    f->value = values[best];
+    snprintf(f->mend, sizeof f->mend, "glint.up = \"%s\"", values[best]);
+}
+
+/* ---- What no reading explains ---- */
+
+static void unexplained(const struct lint_agreement *a, struct lint_findings *findings) {
+    static const struct {
+        int measure;
+        double share; /* normal maps leave little that is as flat as the depth around it */
+        const char *id;
+    } rows[] = {{LINT_FACETS, 0.08, "normal.unexplained"}, {LINT_CUBEMAPS, 0.3, "cubemap.unexplained"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const int m = rows[i].measure;
+        if (a->count[m] < LINT_ENOUGH || a->share[m] > rows[i].share) continue;
+        struct lint_finding *f = lint_add(findings, rows[i].id, "possible");
+        snprintf(f->what, sizeof f->what, "what should agree does not, in no reading that is known");
+        snprintf(f->evidence, sizeof f->evidence, "%.0f %% of %zu comparisons of %s agree", 100 * a->share[m],
+                 a->count[m], lint_measure_names[m]);
+        snprintf(f->mend, sizeof f->mend, "look at both: glint view");
+    }
+    for (int m = 0; m < LINT_MEASURES; m++)
+        if (a->count[m] < LINT_ENOUGH && m != LINT_MOTION)
+            lint_undecided(findings, "%s: too little to compare (%zu places)", lint_measure_names[m], a->count[m]);
+}
+
+void lint_find_values(const struct lint_data *data, const struct lint_reading *reading,
+                      const struct lint_agreement *agreement, struct lint_findings *findings) {
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    normal_lengths(data, reading, &eyes.now, findings);
+    depth_sky(data, findings);
+    cube_sky(data, findings);
+    specular(data, reading, &eyes.now, findings);
+    previous(data, reading, agreement, findings);
+    up(data, reading, &eyes.now, findings);
+    unexplained(agreement, findings);
+    lint_undecided(findings,
+                   "whether roughness is squared or inverted: nothing else in a capture says how rough a surface is");
+    lint_undecided(findings, "how long a unit is (metresPerUnit): all lengths are in the same one");
+}
