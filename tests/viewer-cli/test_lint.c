@@ -100,20 +100,23 @@ static void write_gltf(const char *path, const char *bin_path, const char *bin_n
 
 static char bases[SCENES][BASE_COUNT][512];
 
-static int make_captures(void **state) {
-    static const char *const depths[BASE_COUNT] = {"view_linear", "reversed", "device"};
+static int write_scene(void **state) {
     if (make_folder(state) != 0) return -1;
     write_gltf(in_folder("hall.gltf"), in_folder("hall.bin"), "hall.bin");
-    for (int s = 0; s < SCENES; s++)
-        for (int b = 0; b < BASE_COUNT; b++) {
-            char name[64];
-            snprintf(name, sizeof name, "%s%d.exr", scenes[s], b);
-            snprintf(bases[s][b], sizeof bases[s][b], "%s", in_folder(name));
-            free(glint_ok("sample", s == 2 ? in_folder("hall.gltf") : scenes[s], "-o", bases[s][b], "--size", "160x90",
-                          "--cube-size", "64", "--light", "4", "--travel", "0.11,0.05,-0.17", "--truth", b ? "0" : "2",
-                          "--depth", depths[b]));
-        }
     return 0;
+}
+
+/* An undamaged capture, rendered when it is first asked for. */
+static const char *base(int scene, enum damage_base b) {
+    static const char *const depths[BASE_COUNT] = {"view_linear", "reversed", "device"};
+    char *path = bases[scene][b], name[64];
+    if (*path) return path;
+    snprintf(name, sizeof name, "%s%d.exr", scenes[scene], b);
+    snprintf(path, sizeof bases[scene][b], "%s", in_folder(name));
+    free(glint_ok("sample", scene == 2 ? in_folder("hall.gltf") : scenes[scene], "-o", path, "--size", "160x90",
+                  "--cube-size", "64", "--light", "4", "--travel", "0.11,0.05,-0.17", "--truth", b ? "0" : "2",
+                  "--depth", depths[b]));
+    return path;
 }
 
 static json_t *lint(const char *path) {
@@ -134,8 +137,8 @@ static const char *first_finding(const json_t *json) {
 static void nothing_is_found_where_nothing_is_wrong(void **state) {
     (void)state;
     for (int s = 0; s < SCENES; s++)
-        for (int b = 0; b < BASE_COUNT; b++) {
-            json_t *json = lint(bases[s][b]);
+        for (int b = 0; b < (seeds ? BASE_COUNT : 1); b++) {
+            json_t *json = lint(base(s, (enum damage_base)b));
             if (json_array_size(json_object_get(json, "findings")))
                 fail_msg("%s: found %s", bases[s][b], first_finding(json));
             json_decref(json);
@@ -172,7 +175,7 @@ static void try_damage(const struct damage *damage, int scene, double strength, 
                        struct score *untold) {
     struct rewrite *r = malloc(sizeof *r);
     assert_non_null(r);
-    rewrite_load(r, bases[scene][damage->base]);
+    rewrite_load(r, base(scene, damage->base));
     const bool damaged = damage->apply(r, strength);
     if (damaged) rewrite_save(r, in_folder("damaged.exr"));
     rewrite_finish(r);
@@ -209,7 +212,7 @@ static void mistakes_are_found_and_named(void **state) {
 
 static void what_cannot_be_told_is_listed(void **state) {
     (void)state;
-    json_t *json = lint(bases[1][0]);
+    json_t *json = lint(base(1, BASE_PLAIN));
     char *text = json_dumps(json_object_get(json, "undecided"), 0);
     assert_contains(text, "roughness is squared");
     assert_contains(text, "metresPerUnit");
@@ -226,7 +229,7 @@ static void fix_declares_and_leaves_every_pixel(void **state) {
         if (!id || (strcmp(id, "normal.view_space") && strcmp(id, "depth.reversed") && strcmp(id, "camera.inverse") &&
                     strcmp(id, "motion.pixels")))
             continue;
-        rewrite_load(r, bases[0][damages[d].base]);
+        rewrite_load(r, base(0, damages[d].base));
         assert_true(damages[d].apply(r, 0.5));
         rewrite_save(r, in_folder("damaged.exr"));
         rewrite_finish(r);
@@ -248,7 +251,7 @@ static void fix_declares_and_leaves_every_pixel(void **state) {
 static void wrong_use_is_refused(void **state) {
     (void)state;
     glint_fails(2, "which capture", "lint");
-    glint_fails(2, "--fix and -o", "lint", bases[0][0], "--fix");
+    glint_fails(2, "--fix and -o", "lint", base(0, BASE_PLAIN), "--fix");
     glint_fails(1, "nowhere.exr", "lint", "nowhere.exr");
 }
 
@@ -262,5 +265,5 @@ int main(int argc, char **argv) {
         cmocka_unit_test(wrong_use_is_refused),
     };
     seeds = argc > 1 ? atoi(argv[1]) : 0;
-    return cmocka_run_group_tests_name("lint", tests, make_captures, remove_folder);
+    return cmocka_run_group_tests_name("lint", tests, write_scene, remove_folder);
 }

@@ -1,5 +1,6 @@
 /* Other readings of a capture. Rows: id, what is read otherwise (a statement on r), what it means, attribute and value that declare
    it ("" where no declaration says so). From the likely to the unlikely: of readings that agree alike the first is told. */
+/* clang-format off */
 READING("depth.device", r->depth = GLINT_DEPTH_DEVICE, "depth is device depth, near at 0", "glint.depth", "device")
 READING("depth.reversed_infinite", r->depth = GLINT_DEPTH_REVERSED_INFINITE, "depth is reversed without a far plane", "glint.depth", "reversed_infinite")
 READING("depth.reversed", r->depth = GLINT_DEPTH_REVERSED, "depth is reversed device depth, near at 1", "glint.depth", "reversed")
@@ -49,3 +50,4 @@ READING("lit.bgr", r->lit_bgr = !r->lit_bgr, "lit has red and blue exchanged", "
 READING("cubemap.srgb", r->cube = GLINT_COLOR_SRGB, "colours of cube maps are stored through the sRGB curve", "cubemap:glint.color", "srgb")
 READING("cubemap.linear", r->cube = GLINT_COLOR_LINEAR, "colours of cube maps are linear", "cubemap:glint.color", "linear")
 READING("cubemap.pre_exposed", r->cube = GLINT_COLOR_PRE_EXPOSED, "colours of cube maps contain the exposure", "cubemap:glint.color", "pre_exposed")
+/* clang-format on */
