@@ -28,11 +28,13 @@ static void decode_device(const struct glint_decoder *d, bool sky_at_zero, float
     }
 }
 
+/* From the end that is stored as 0: next to it a float has the digits that one less it has not. */
 static void decode_logarithmic(const struct glint_decoder *d, bool reversed, float *v, size_t count) {
-    const double near = d->frame->depth_near, span = log(d->frame->depth_far / near);
+    const double near = d->frame->depth_near, far = d->frame->depth_far, span = log(far / near);
+    const double start = (reversed ? far : near) * d->frame->metres_per_unit, factor = reversed ? -span : span;
     for (size_t i = 0; i < count; i++) {
-        const double value = reversed ? 1 - (double)v[i] : (double)v[i];
-        v[i] = value >= 1 ? INFINITY : (float)(near * exp(value * span) * d->frame->metres_per_unit);
+        const bool sky = reversed ? v[i] <= 0 : v[i] >= 1;
+        v[i] = sky ? INFINITY : (float)(start * exp((double)v[i] * factor));
     }
 }
 
@@ -97,9 +99,10 @@ void glint_decode_motion_packed(const struct glint_decoder *d, int axis, const u
     for (size_t i = 0; i < count; i++) v[i] = (float)(((double)in[i] - 32768) * scale);
 }
 
+/* To the power of 2.4, of which a float has no more than 2.4 ± 1e-7: too little where it is taken of thousands. */
 static float from_srgb(float value) {
-    const float magnitude = fabsf(value);
-    const float linear = magnitude <= 0.04045f ? magnitude / 12.92f : powf((magnitude + 0.055f) / 1.055f, 2.4f);
+    const float magnitude = fabsf(value), base = (magnitude + 0.055f) / 1.055f;
+    const float linear = magnitude <= 0.04045f ? magnitude / 12.92f : base * base * powf(base, 0.4f);
     return copysignf(linear, value);
 }
 

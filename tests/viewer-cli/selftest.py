@@ -120,7 +120,6 @@ MUTANTS = [
     ("reproject", "position + normalize(position) * travelled_m", "position", ["reflections' places"]),
     ("reproject", "divergence * 2.0", "divergence", ["views that turn"]),
     ("reproject", "view.z * front > 0.0 ?", "true ?", ["behind the camera before"]),
-    ("camera", "length2 > 0.25", "length2 > -1.0", ["surfaces that are none"]),
 ]
 
 

@@ -338,6 +338,53 @@ static bool check_cocoon(struct frames *frames, const struct image_case *which, 
 
 /* ---- active.glsl, by a stand-in for cubemap_select/nearest ---- */
 
+/* ---- The cocoon of a sphere with holes: the weighted maximum of what is one distance everywhere is that distance, however
+   wide its kernel, the widest of which looks at almost a right angle from its middle; of nothing but sky it is nothing ---- */
+
+enum { SPHERE = 16, LEVELS = 5, COCOON_LEVEL = 2 };
+static bool is_hole(uint32_t cube, size_t texel) {
+    return cube == 1 || noise(77, (uint32_t)texel) < 0.3;
+}
+static void sphere_with_holes(uint32_t cube, size_t texel, const double direction[3], float out[5]) {
+    nothing_special(cube, texel, direction, out);
+    out[4] = is_hole(cube, texel) ? INFINITY : 3;
+}
+/* A texel of a level sees nothing but sky where all that it covers are holes; finer than the cocoon such a one is capped. */
+static double expect_sphere(size_t i, uint32_t level) {
+    const size_t size = SPHERE >> level, wide = (size_t)1 << level, layer = i / size / size;
+    bool hole = true;
+    for (size_t k = 0; k < wide * wide; k++) {
+        const size_t x = i % size * wide + k % wide, y = i / size % size * wide + k / wide;
+        hole = hole && is_hole((uint32_t)(layer / 6), (layer % 6 * SPHERE + y) * SPHERE + x);
+    }
+    return layer >= 6 ? (double)INFINITY : hole && level < COCOON_LEVEL ? -3 : 3;
+}
+
+static bool check_sphere(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
+                         struct glint_error *err) {
+    static const char *const passes[] = {"cubemap_active", "cocoon", NULL};
+    const char *const settings[] = {"cocoon=max", "cocoon.size=4", "cocoon.kernel=64", which->with, NULL};
+    struct cubes *c = calloc(1, sizeof *c);
+    bool ok = c || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok) make(c, SPHERE, 2, sphere_with_holes);
+    ok = ok && frames_pipeline(frames, passes, settings, err) && frames_run(frames, &c->frame, err);
+    for (uint32_t level = 0; ok && level < LEVELS; level++) {
+        const size_t size = SPHERE >> level, count = 12 * size * size;
+        char name[32] = "cocoon_distance";
+        if (level) snprintf(name, sizeof name, "cocoon_distance.level%u", level);
+        float *found = read(frames, name, GLINT_F32, count, err);
+        ok = found != NULL;
+        for (size_t i = 0; ok && i < count; i++) {
+            const double y = expect_sphere(i, level);
+            image_compare(finding, (double)found[i], y, y, "level %u, texel %zu,%zu, layer %zu", level, i % size,
+                          i / size % size, i / size / size);
+        }
+        free(found);
+    }
+    free(c);
+    return ok;
+}
+
 /* In the order of their distances from the camera, which is that of their places; up counts four times. */
 static const double centers[MOST_CUBES][3] = {{-1, 0, 0}, {2, 1, -1}, {-4, 3, 1}, {0, -4, 2}};
 
@@ -402,6 +449,8 @@ static const struct image_case list[] = {
     {{"pre-filtered texels", "harmonics of a cube map of 128, all faces to their edges, levels 1 to 4", "prefiltered(box, faces, at, size, level, 3, 3.5, 0.1)", "absolute", 4e-3, "box means of and straight lines between texels an eighth wide at level 4 leave out h²/6 of a curvature of 1.5, and at corners, where a device has three texels for four, a part of their width; errors of finer levels are multiplied by how much narrower texels are"}, check_prefiltered, NULL, NULL},
     {{"gauge of a cocoon", "its samples lie on the faces' borders too; two cube maps", "direction_of_sample(texel, face): " GAUGE, "absolute", 1.3e-4, "a device filters with 8 bits (Vulkan: at least 4) on either axis, between samples that differ by 0.032 and less"}, check_cocoon, GAUGE, &rooms},
     {{"rays that leave a cocoon", "from inside, from outside into it, past it: as t/(t + start), start from the centre", LEAVES, "absolute", 4e-6, "a gauge of up to 10, rounded by 6e-7, which falls at least a tenth as fast as its places move; 64 secants have converged"}, check_cocoon, LEAVES, &boxes},
+    {{"cocoon of a sphere", "weighted maximum by pairs, the widest kernel, a third of it sky; and nothing but sky", NULL, "absolute", 4e-6, "three divisions, 2.5 ULP each (Vulkan), of 3, on each of three levels"}, check_sphere, NULL, "cocoon.maximum=pairs"},
+    {{"cocoon of a sphere, by samples", "the same of single samples", NULL, "absolute", 4e-6, "a product of a difference that is 0"}, check_sphere, NULL, "cocoon.maximum=samples"},
     {{"nearest active cube map", "of four, relative to a camera elsewhere", NEAREST, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, NEAREST, NULL},
 };
 /* clang-format on */
