@@ -8,8 +8,7 @@
 
 #include "args.h"
 #include "progress.h"
-#include "selftest/selftest.h"
-#include "table.h"
+#include "selftest/chosen.h"
 
 /* clang-format off */
 static const struct selftest_group *const groups[] = {
@@ -21,7 +20,6 @@ static const struct selftest_group *const groups[] = {
     &selftest_invariance,
 };
 /* clang-format on */
-enum { GROUPS = sizeof groups / sizeof *groups };
 
 struct arguments {
     struct list only;
@@ -48,6 +46,7 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint selftest", "every case on the best device; exit status 1 when one fails"},
     {"glint selftest --quick --device llvmpipe", "a short run on the CPU"},
+    {"glint selftest --only time --only geometry", "two of the groups"},
     {"glint selftest --list --only fog", "what is claimed of fog, how exactly, and why not more so"},
     {"glint selftest --only cone --passes src/glint/passes", "the cones of a source tree, as its files are now"},
     {"glint selftest --json | jq '.cases[] | select(.pass | not)'", "what fails, for a script"},
@@ -84,120 +83,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     return ARGP_ERR_UNKNOWN;
 }
 
-/* ---- Which cases ---- */
-
-struct chosen {
-    bool *cases[GROUPS];
-    struct selftest_finding *findings[GROUPS];
-    size_t count;
-};
-
-static bool is_chosen(const struct list *only, const struct selftest_group *group, const struct selftest_case *c) {
-    for (size_t i = 0; i < only->count; i++)
-        if (strcasestr(c->name, only->items[i]) || strcasestr(group->name, only->items[i]) ||
-            strcasestr(c->what, only->items[i]) || (c->source && strcasestr(c->source, only->items[i])))
-            return true;
-    return only->count == 0;
-}
-
-static bool choose(struct chosen *chosen, const struct list *only, struct glint_error *err) {
-    for (size_t g = 0; g < GROUPS; g++) {
-        const size_t count = groups[g]->count();
-        chosen->cases[g] = calloc(count, sizeof *chosen->cases[g]);
-        chosen->findings[g] = calloc(count, sizeof *chosen->findings[g]);
-        if (!chosen->cases[g] || !chosen->findings[g]) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        for (size_t i = 0; i < count; i++) {
-            const struct selftest_case c = groups[g]->get(i);
-            chosen->cases[g][i] = is_chosen(only, groups[g], &c);
-            chosen->count += chosen->cases[g][i];
-        }
-    }
-    if (chosen->count) return true;
-    return glint_fail(err, GLINT_ERROR_USAGE, "--only %s: no case has that; glint selftest --list names them",
-                      only->items[0]);
-}
-
-static void chosen_finish(struct chosen *chosen) {
-    for (size_t g = 0; g < GROUPS; g++) {
-        free(chosen->cases[g]);
-        free(chosen->findings[g]);
-    }
-}
-
-/* A case that compared nothing has not passed. */
-static bool passes(const struct selftest_case *c, const struct selftest_finding *finding) {
-    return finding->values > 0 && finding->worst <= c->bound;
-}
-
-/* ---- What is said of them ---- */
-
-typedef void (*visit)(void *user, const struct selftest_group *group, const struct selftest_case *c,
-                      const struct selftest_finding *finding);
-static void for_each(const struct chosen *chosen, visit visit, void *user) {
-    for (size_t g = 0; g < GROUPS; g++)
-        for (size_t i = 0, count = groups[g]->count(); i < count; i++) {
-            const struct selftest_case c = groups[g]->get(i);
-            if (chosen->cases[g][i] && !chosen->findings[g][i].left_out)
-                visit(user, groups[g], &c, &chosen->findings[g][i]);
-        }
-}
-
-static void list_row(void *user, const struct selftest_group *group, const struct selftest_case *c,
-                     const struct selftest_finding *finding) {
-    (void)finding;
-    table_cell(user, "%s", group->name);
-    table_cell(user, "%s", c->name);
-    table_cell(user, "%s", number_text(c->bound));
-    table_cell(user, "%s", c->bound > 0 ? c->unit : "exact");
-    table_cell(user, "%s: %s", c->what, c->reason);
-}
-
-static void result_row(void *user, const struct selftest_group *group, const struct selftest_case *c,
-                       const struct selftest_finding *finding) {
-    (void)group;
-    table_cell(user, "%s", c->name);
-    table_cell(user, "%s", number_text(finding->worst));
-    table_cell(user, "%s", number_text(c->bound));
-    table_cell(user, "%s", c->bound > 0 ? c->unit : "exact");
-    table_cell(user, "%s", passes(c, finding) ? "pass" : "FAIL");
-    table_cell(user, finding->ties ? "%zu" : "%.0zu", finding->ties);
-    table_cell(user, "%s", finding->worst > 0 ? finding->at : "");
-}
-
-static void print_table(const struct chosen *chosen, bool list) {
-    static const char *const listed[] = {"<group", "<case", ">bound", "<", "<what", NULL};
-    static const char *const found[] = {"<case", ">worst", ">bound", "<", "<", ">ties", "<worst at", NULL};
-    struct table *table = table_create(list ? listed : found);
-    for_each(chosen, list ? list_row : result_row, table);
-    table_print(table, stdout);
-    table_destroy(&table);
-}
-
-struct report {
-    bool list;
-    json_t *cases;
-    size_t count, failed;
-};
-
-static void add_case(void *user, const struct selftest_group *group, const struct selftest_case *c,
-                     const struct selftest_finding *finding) {
-    struct report *report = user;
-    report->count++;
-    report->failed += !report->list && !passes(c, finding);
-    if (!report->cases) return;
-    json_t *object = json_pack("{s:s, s:s, s:s, s:s, s:f, s:s}", "group", group->name, "name", c->name, "what", c->what,
-                               "unit", c->unit, "bound", c->bound, "reason", c->reason);
-    if (c->source) json_object_set_new(object, "evaluated", json_string(c->source));
-    if (!report->list) {
-        json_object_set_new(object, "pass", json_boolean(passes(c, finding)));
-        json_object_set_new(object, "worst", json_number(finding->worst)); /* null: infinite */
-        json_object_set_new(object, "values", json_integer((json_int_t)finding->values));
-        json_object_set_new(object, "ties", json_integer((json_int_t)finding->ties));
-        if (finding->worst > 0) json_object_set_new(object, "worst_at", json_string(finding->at));
-    }
-    json_array_append_new(report->cases, object);
-}
-
 /* ---- Running ---- */
 
 static bool make_folder(char path[256], struct glint_error *err) {
@@ -216,15 +101,46 @@ static void remove_folder(const char *folder) {
     if (folder[0]) rmdir(folder);
 }
 
-static bool run_groups(const struct arguments *a, const struct chosen *chosen, struct glint_device *device,
-                       struct progress *progress, struct glint_error *err) {
+/* The bar goes by cases, those with a finding before all; what a replay says of itself is too small for it. */
+struct watch {
+    struct progress progress;
+    const struct chosen *chosen;
+};
+static bool show(void *user, const char *what, double done) {
+    struct watch *watch = user;
+    size_t all = 0, ready = 0;
+    char text[64] = "";
+    (void)what, (void)done;
+    for (size_t g = 0; g < watch->chosen->group_count; g++) {
+        const struct chosen_group *group = &watch->chosen->groups[g];
+        for (size_t i = 0; i < group->group->count(); i++) {
+            if (!group->cases[i]) continue;
+            all++;
+            ready += group->findings[i].values > 0 || group->findings[i].left_out || group->seconds > 0;
+            if (!group->findings[i].values && !group->findings[i].left_out && !group->seconds && !text[0])
+                snprintf(text, sizeof text, "%s", group->group->name);
+        }
+    }
+    return progress_report(&watch->progress, text, (double)ready / (double)all);
+}
+
+static double seconds_since(const struct timespec *start) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+static bool run_groups(const struct arguments *a, struct chosen *chosen, struct glint_device *device,
+                       struct watch *watch, struct glint_error *err) {
     char folder[256] = "";
     bool ok = make_folder(folder, err);
-    const struct selftest test = {device, folder, a->quick, progress_report, progress};
-    for (size_t g = 0; ok && g < GROUPS; g++) {
-        bool any = false;
-        for (size_t i = 0; i < groups[g]->count(); i++) any = any || chosen->cases[g][i];
-        if (any) ok = groups[g]->run(&test, chosen->cases[g], chosen->findings[g], err);
+    const struct selftest test = {device, folder, a->quick, show, watch};
+    for (size_t g = 0; ok && g < chosen->group_count; g++) {
+        struct chosen_group *group = &chosen->groups[g];
+        struct timespec start;
+        clock_gettime(CLOCK_MONOTONIC, &start);
+        if (group->count) ok = group->group->run(&test, group->cases, group->findings, err);
+        group->seconds = seconds_since(&start);
     }
     remove_folder(folder);
     const char *last = NULL;
@@ -234,47 +150,25 @@ static bool run_groups(const struct arguments *a, const struct chosen *chosen, s
     return ok;
 }
 
-static enum status say(const struct arguments *a, const struct chosen *chosen, const struct glint_device_info *device,
-                       double seconds) {
-    struct report report = {.list = a->list, .cases = a->json ? json_array() : NULL};
-    for_each(chosen, add_case, &report);
-    if (a->json) {
-        json_t *json = json_object();
-        if (device) json_object_set_new(json, "device", json_string(device->name));
-        if (!a->list) {
-            json_object_set_new(json, "seconds", json_real(seconds));
-            json_object_set_new(json, "failed", json_integer((json_int_t)report.failed));
-        }
-        json_object_set_new(json, "cases", report.cases);
-        const enum status status = print_json(json);
-        return report.failed ? STATUS_CHECK : status;
-    }
-    print_table(chosen, a->list);
-    if (device)
-        printf("\n%s: %zu cases, %zu failed, %s\n", device->name, report.count, report.failed, time_text(seconds));
-    return report.failed ? STATUS_CHECK : STATUS_DONE;
-}
-
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
-    struct chosen chosen = {0};
-    struct progress progress;
-    struct timespec start, end;
+    struct chosen chosen;
+    struct watch watch = {.chosen = &chosen};
+    struct timespec start;
     command_parse(&cmd_selftest, argc, argv, &a);
     clock_gettime(CLOCK_MONOTONIC, &start);
-    bool ok = choose(&chosen, &a.only, &err);
+    bool ok = chosen_init(&chosen, groups, sizeof groups / sizeof *groups, &a.only, &err);
     struct glint_device *device = NULL;
     if (ok && !a.list) {
-        progress_begin(&progress);
+        progress_begin(&watch.progress);
         device = glint_device_create(&(struct glint_device_options){.select = a.device, .passes = a.passes}, &err);
-        ok = device && run_groups(&a, &chosen, device, &progress, &err);
-        progress_end(&progress);
+        ok = device && run_groups(&a, &chosen, device, &watch, &err);
+        progress_end(&watch.progress);
     }
-    clock_gettime(CLOCK_MONOTONIC, &end);
-    const double seconds = (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
-    const enum status status = ok ? say(&a, &chosen, device ? glint_device_get_info(device) : NULL, seconds)
-                                  : command_fail(&cmd_selftest, &err);
+    const enum status status =
+        ok ? chosen_report(&chosen, device ? glint_device_get_info(device) : NULL, seconds_since(&start), a.json)
+           : command_fail(&cmd_selftest, &err);
     chosen_finish(&chosen);
     if (device) glint_device_destroy(&device);
     list_free(&a.only);
@@ -286,18 +180,19 @@ const struct command cmd_selftest = {
     .arguments = "",
     .summary = "the hard cases on this machine's device, each against a stated bound",
     .description =
-        "Checks what a device makes of the shaders' arithmetic, case by case, and prints a table: the worst error, the "
-        "bound, and the input where it is worst. A case is a claim: functions that the passes share are evaluated over "
-        "dense tables that include the ends (0, the poles, the largest and smallest, infinity) and compared with "
-        "double "
-        "precision on the very inputs that the device had, so that storage is not mistaken for arithmetic; a scene far "
-        "from the origin, or stored in another encoding, has to give the same picture; and bad pixels of a G-buffer "
-        "must "
-        "spoil no others. An ULP is the distance of neighbouring floats at the expected value. Bounds have reasons, "
-        "which "
-        "--list gives; where a reason names the precision that Vulkan grants, a device may use it up and still "
-        "conform. "
-        "The exit status is 1 when a case fails.",
+        "Checks what a device makes of the shaders, case by case. A case is a claim with a bound: the table has the "
+        "worst "
+        "error, the bound, and the input where it is worst; --list has the claim and the bound's reason. Groups: "
+        "functions (those that the passes share, over dense tables with 0, poles and infinity, against double "
+        "precision "
+        "on the very inputs that the device had; what captures hold, decoded), geometry (rays through hard places), "
+        "numbers (worlds far away, other depths and projections), garbage (bad pixels spoil no others), time "
+        "(histories "
+        "and noise of frames that follow each other), invariance (one scene under every convention). "
+        "An ULP is the distance of neighbouring floats at the expected value. Where a reason names the precision that "
+        "Vulkan grants, a device may use it up and still conform. Ties are decisions, such as hit or not, that lie "
+        "within rounding of going the other way. Cases that fail are said once more at the end, with what they claim. "
+        "The exit status is 1 when a case fails, 2 when none could be run.",
     .options = options,
     .parse = parse,
     .examples = examples,

@@ -182,9 +182,23 @@ class Tests:
 
     def test_the_table_says_where_it_is_worst(self):
         lines = selftest("--quick", "--only", "versine").stdout.splitlines()
-        assert lines[0].split() == ["case", "worst", "bound", "ties", "worst", "at"]
+        assert lines[0].startswith("functions: ")
+        assert lines[2].split() == ["case", "worst", "bound", "ties", "worst", "at"]
         assert any(line.startswith("versine ") and " pass " in line and " angle " in line for line in lines), lines
-        assert lines[-1].split(":")[1].strip().startswith("2 cases, 0 failed"), lines[-1]
+        assert any(line.split()[:4] == ["functions", "2", "0", "0"] for line in lines), lines
+        assert lines[-1].split(":")[1].strip() == "2 cases, 0 failed", lines[-1]
+
+    def test_what_fails_is_said_again_with_its_claim(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(os.path.join(folder, "shared"))
+            with open(os.path.join(PASSES, "shared", "bayer.glsl"), encoding="utf-8") as source:
+                text = source.read().replace("/ 16.0", "/ 15.0")
+            with open(os.path.join(folder, "shared", "bayer.glsl"), "w", encoding="utf-8") as changed:
+                changed.write(text)
+            lines = selftest("--only", "dither", "--passes", folder, status=1).stdout.splitlines()
+        failed = [line for line in lines if line.startswith("FAIL ")]
+        assert len(failed) == 1 and "ordered dither (Bayer's matrix" in failed[0] and "expected" in failed[0], lines
+        assert lines[-1].endswith("1 cases, 1 failed"), lines[-1]
 
     def test_every_shared_function_has_a_case(self):
         evaluated = " ".join(case.get("evaluated", "") for case in cases("--list"))

@@ -11,6 +11,7 @@ void image_compare(struct selftest_finding *finding, double found, double expect
                    const char *format, ...) {
     double error = fmin(fabs(found - expected), fabs(found - otherwise));
     if (found == expected || found == otherwise) error = 0; /* infinite ones, too */
+    finding->ties += otherwise != expected;
     char place[200] = "";
     if (!(error <= finding->worst)) {
         va_list arguments;
