@@ -16,6 +16,7 @@ static const struct selftest_group *const groups[] = {
     &selftest_geometry,
     &selftest_numbers,
     &selftest_garbage,
+    &selftest_sizes,
     &selftest_time,
     &selftest_invariance,
 };

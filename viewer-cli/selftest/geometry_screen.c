@@ -7,14 +7,12 @@
 
 #include "clutter.h"
 #include "geometry.h"
+#include "screen_rays.h"
 #include "stepped.h"
 #include "walk.h"
 
 enum { WIDE = 97, HIGH = 61, WAYS = 24 };
-#define TRACED "downsample=none downsample.jitter=false hiz=nearest screen_trace="
-#define DDA TRACED "dda screen_trace.cells=65536"
-#define HIZ TRACED "hiz screen_trace.cells=65536 screen_trace.cells_lq=65536"
-#define LINEAR TRACED "linear screen_trace.dither=false"
+#define LINEAR SCREEN_TRACED "linear screen_trace.dither=false"
 /* Which side of its own surface a ray that runs within it sees, rounding says. */
 #define EITHER_SIDE LINEAR " screen_trace.back_faces=false"
 
@@ -101,14 +99,15 @@ static void judge(const struct traced *traced, uint32_t i, double bound, struct 
              because, expected);
 }
 
-static void judge_all(struct trial *trial, const struct plain *plain, const struct trial_case *c,
-                      struct selftest_finding *finding) {
+void screen_rays(struct trial *trial, const struct plain *plain, const struct trial_case *c, uint32_t stride,
+                 struct selftest_finding *finding) {
     struct step_rules steps = step_rules_default;
     struct traced traced = {.steps = strstr(c->use, "linear") ? &steps : NULL};
     steps.back_faces = !strstr(c->use, "back_faces=false");
+    trial_use(trial, c->use);
     trial_run(trial, plain);
     if (traced_get(&traced, trial))
-        for (uint32_t i = 0; i < traced.width * traced.height; i++) judge(&traced, i, c->bound, finding);
+        for (uint32_t i = 0; i < traced.width * traced.height; i += stride) judge(&traced, i, c->bound, finding);
     traced_free(&traced);
 }
 
@@ -118,35 +117,32 @@ static void check_rays(struct trial *trial, const struct trial_case *c, struct s
     for (uint32_t seed = 1; seed <= (trial->test->quick ? 1 : 3); seed++) {
         const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .seed = 1000 * seed};
         const struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
-        trial_use(trial, c->use);
-        judge_all(trial, &plain, c, finding);
+        screen_rays(trial, &plain, c, 1, finding);
     }
 }
 
 static void check_rails(struct trial *trial, const struct trial_case *c, struct selftest_finding *finding) {
     const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .rails = true, .seed = 1};
     struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
-    trial_use(trial, c->use);
     for (int frame = 0; frame < (trial->test->quick ? 2 : 6); frame++) {
         plain.jitter_px[0] = frame / 6.0 - 0.45;
         plain.jitter_px[1] = 0.45 - frame / 7.0;
-        judge_all(trial, &plain, c, finding);
+        screen_rays(trial, &plain, c, 1, finding);
     }
 }
 
 static void check_stipples(struct trial *trial, const struct trial_case *c, struct selftest_finding *finding) {
     const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .stipples = true, .seed = 1};
     const struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
-    trial_use(trial, c->use);
-    judge_all(trial, &plain, c, finding);
+    screen_rays(trial, &plain, c, 1, finding);
 }
 
 /* clang-format off */
-#define UNIT "of the picture"
-#define REASON "a place is 2^-24 of the picture for each of some ten operations; where a ray closes in on a plane slowly this grows, and the replays rounded otherwise say by how much"
+#define UNIT SCREEN_UNIT
+#define REASON SCREEN_REASON
 #define TWO(name, what, check, rays) \
-    {name ", texel by texel",    what, UNIT, 5e-6, REASON, check, DDA,    rays, false}, \
-    {name ", in a pyramid",      what, UNIT, 5e-6, REASON, check, HIZ,    rays, false}
+    {name ", texel by texel",    what, UNIT, 5e-6, REASON, check, SCREEN_DDA,    rays, false}, \
+    {name ", in a pyramid",      what, UNIT, 5e-6, REASON, check, SCREEN_HIZ,    rays, false}
 #define THREE(name, what, check, rays) TWO(name, what, check, rays), \
     {name ", in steps",          what, UNIT, 5e-6, REASON, check, LINEAR, rays, false}
 

@@ -102,6 +102,38 @@ static bool add_cube(struct glint_writer *writer, const struct plain *plain, uin
     return ok;
 }
 
+/* A cube map of distances alone; its colours are one plane. */
+static bool add_distances(struct glint_writer *writer, const struct plain *plain, uint32_t number,
+                          struct glint_error *err) {
+    static const char *const names[5] = {"R", "G", "B", "A", "distance.Z"};
+    const uint32_t size = plain->cube_size, texels = 6 * size * size;
+    struct glint_channel channels[5] = {{0}};
+    float *distance_m = malloc(texels * sizeof *distance_m);
+    uint8_t *white = malloc(texels);
+    char name[32];
+    snprintf(name, sizeof name, "cubemap.%03u", number);
+    for (uint32_t i = 0; distance_m && i < texels; ++i) {
+        double direction[3];
+        plain_direction(i / (size * size), i % size, i / size % size, size, direction);
+        distance_m[i] = (float)plain->distance(number, direction);
+    }
+    if (white) memset(white, 255, texels);
+    for (size_t k = 0; k < 5; ++k)
+        channels[k] = (struct glint_channel){.name = names[k],
+                                             .type = k < 4 ? GLINT_UNORM8 : GLINT_F32,
+                                             .data = k < 4 ? (const void *)white : distance_m};
+    const struct glint_part part = {.name = name,
+                                    .width = size,
+                                    .height = 6 * size,
+                                    .channels = channels,
+                                    .channel_count = 5,
+                                    .cubemap = &plain->cubes[number]};
+    const bool ok = distance_m && white ? glint_writer_add_part(writer, &part, err) : no_memory(err);
+    free(distance_m);
+    free(white);
+    return ok;
+}
+
 /* A part that lies over the picture. */
 static bool add_over(struct glint_writer *writer, const struct plain *plain, const char *name,
                      void (*at)(uint32_t x, uint32_t y, float out[9]), struct glint_error *err) {
@@ -196,6 +228,7 @@ bool plain_write(const char *path, const struct plain *plain, struct glint_error
     ok = ok && (!plain->water || add_over(writer, plain, "water", plain->water, err)) &&
          (!plain->pane || add_over(writer, plain, "transparent", plain->pane, err));
     for (uint32_t i = 0; ok && plain->cube && i < plain->cube_count; ++i) ok = add_cube(writer, plain, i, err);
+    for (uint32_t i = 0; ok && plain->distance && i < plain->cube_count; ++i) ok = add_distances(writer, plain, i, err);
     ok = ok && (!plain->sky || add_cube(writer, plain, plain->cube_count, err)) && glint_writer_finish(writer, err);
     glint_writer_destroy(&writer);
     return ok;

@@ -50,7 +50,8 @@ struct plain {
     bool color_only; /* without distances */
     struct glint_cubemap cubes[4];
     void (*cube)(uint32_t number, const double direction[3], float out[5]);
-    void (*sky)(const double direction[3], float out[3]); /* as wide as the cube maps; NULL: none */
+    double (*distance)(uint32_t number, const double direction[3]); /* instead of `cube`: all white, in less memory */
+    void (*sky)(const double direction[3], float out[3]);           /* as wide as the cube maps; NULL: none */
     /* What lies over the picture at a pixel; NULL: nothing. Colour, opacity, normal and depth, then the water's thickness or
        the pane's roughness; a depth of +inf: nothing there. */
     void (*water)(uint32_t x, uint32_t y, float out[9]);

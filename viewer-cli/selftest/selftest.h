@@ -41,6 +41,7 @@ extern const struct selftest_group selftest_functions;
 extern const struct selftest_group selftest_geometry;
 extern const struct selftest_group selftest_numbers;
 extern const struct selftest_group selftest_garbage;
+extern const struct selftest_group selftest_sizes;
 extern const struct selftest_group selftest_time;
 extern const struct selftest_group selftest_invariance;
 

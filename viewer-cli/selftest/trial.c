@@ -58,7 +58,8 @@ void trial_use(struct trial *trial, const char *words) {
 }
 
 void trial_run_file(struct trial *trial, const char *path) {
-    const struct glint_replay_options options = {.diagnostics = true, .float_precision = true, .all = true};
+    const struct glint_replay_options options = {
+        .diagnostics = true, .float_precision = !trial->half, .all = true, .outputs = trial->outputs};
     if (!trial->ok) return;
     glint_replay_load(trial->replay, NULL, NULL);
     glint_capture_close(&trial->capture);
@@ -134,6 +135,8 @@ bool trial_cases(const struct trial_list *const *lists, size_t count, const stru
         const struct trial_case *c = case_of(lists, i);
         if (!chosen[i]) continue;
         findings[i].left_out = c->slow && test->quick;
+        trial.half = false;
+        trial.outputs = NULL;
         if (trial.ok && !findings[i].left_out) c->check(&trial, c, &findings[i]);
     }
     if (trial.replay) glint_replay_load(trial.replay, NULL, NULL);

@@ -15,6 +15,9 @@ struct trial {
     struct glint_capture *capture;
     struct glint_error *err;
     bool ok;
+    /* Of a case; large pictures need them. */
+    bool half;                  /* images as passes declare them, not all in float */
+    const char *const *outputs; /* images that it looks at, NULL-terminated; NULL: any */
 };
 
 struct trial_case {
