@@ -27,11 +27,20 @@ struct image_desc {
     bool buffer;                    /* of the texels of a plain 2D image, row by row */
 };
 
+/* See bad_values.h. */
+struct bad_values {
+    uint64_t not_finite, clamped;
+    size_t first; /* number of the value, and what it is */
+    float value;
+};
+
 enum { LEVELS_MAX = 17 };
 struct image_level {
     struct glint_image info; /* as callers see it */
     VkImageView view;        /* to write it: 2D, or an array of all layers */
     char name[96];           /* of levels above 0 */
+    struct bad_values bad;   /* of an image that the capture fills, and of others while bad_key is the image's key */
+    uint64_t bad_key;
 };
 
 struct image {

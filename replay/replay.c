@@ -1,6 +1,7 @@
 /* Replays: the order of a run's steps, and access to its results. */
-#include "state.h"
+#include "bad_values.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,6 +29,9 @@ static void forget_results(struct glint_replay *replay) {
     free(replay->cache);
     replay->cache = NULL;
     replay->result_count = 0;
+    free(replay->bad);
+    replay->bad = NULL;
+    replay->bad_count = replay->bad_captured = 0;
     json_decref(replay->record);
     replay->record = NULL;
     for (struct image *image = replay->images; image; image = image->next) image->listed = false;
@@ -117,7 +121,7 @@ static bool store_results(struct run *run, struct glint_error *err) {
     }
     replay->result_count = count;
     replay->record = run_record(run);
-    return replay->record || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    return replay->record ? bad_values_of_capture(run, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
 static bool run_all(struct run *run, struct glint_error *err) {
@@ -132,6 +136,7 @@ static bool run_all(struct run *run, struct glint_error *err) {
     frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
     const struct glint_part_info *mirror = glint_capture_find(replay->capture, MIRROR_PART);
     run->block.flags.w = run->pipeline->first_ray;
+    run->block.up.w = options->float_precision ? INFINITY : HALF_LARGEST;
     if (mirror) frame_block_mirror(&run->block, glint_capture_frame(replay->capture), &mirror->planar);
     if (!run_allocate(run, err)) return false;
     if (options->cache && !replay_hash(replay, run->content, NULL)) run->content[0] = 0;

@@ -1,4 +1,5 @@
 /* Run folders: one EXR a pass and run.json, which comes last and so says that the run is complete. */
+#include "bad_values.h"
 #include "readback.h"
 
 #include <errno.h>
@@ -97,7 +98,10 @@ static void *write_file(void *argument) {
     struct glint_exr_part *parts = calloc(job->count, sizeof *parts);
     struct part_memory *memory = calloc(job->count, sizeof *memory);
     job->ok = (parts && memory) || glint_fail(&job->err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
-    for (size_t i = 0; job->ok && i < job->count; i++) job->ok = fill_part(job, i, &memory[i], &parts[i], &job->err);
+    for (size_t i = 0; job->ok && i < job->count; i++) {
+        bad_values_of_texels(job->parts[i].image, job->parts[i].level, (const char *)job->buffer.map + job->offsets[i]);
+        job->ok = fill_part(job, i, &memory[i], &parts[i], &job->err);
+    }
     job->ok = job->ok && glint_exr_write(job->path, parts, job->count, 0, &job->err);
     for (size_t i = 0; memory && i < job->count; i++) free(memory[i].widened);
     free(memory);
@@ -219,6 +223,14 @@ static void keep_pass(const struct glint_replay *replay, size_t p, const char *f
     if (file_of_pass(replay, p, folder, path)) cache_store(replay->cache, replay->cache_keys[p], path, CACHE_BYTES_MAX);
 }
 
+static bool record_bad_values(struct glint_replay *replay, json_t *root, struct glint_error *err) {
+    const struct glint_bad_values *bad;
+    size_t count;
+    if (!glint_replay_bad_values(replay, &bad, &count, err)) return false;
+    json_object_set_new(root, "bad_values", bad_values_record(bad, count));
+    return true;
+}
+
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
                         struct glint_error *err) {
     if (!replay->record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
@@ -241,7 +253,8 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
         host_buffer_finish(&jobs[j].buffer, replay->device);
     }
     for (size_t p = 0; ok && p < replay->result_count; p++) keep_pass(replay, p, folder);
-    ok = ok && run_finish_record(replay, root, err) && run_write_json(folder, root, err);
+    ok = ok && record_bad_values(replay, root, err) && run_finish_record(replay, root, err) &&
+         run_write_json(folder, root, err);
     free(jobs);
     json_decref(root);
     return ok;

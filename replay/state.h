@@ -44,7 +44,9 @@ struct glint_replay {
     char *cache;                        /* the folder of the last run's, or NULL */
     char (*cache_keys)[CACHE_KEY_SIZE]; /* beside results; "": the pass's file is not kept there */
     char hash[33];                      /* of the capture; "": not known yet */
-    json_t *record;                     /* of the last run, for run.json; NULL before the first */
+    struct glint_bad_values *bad;       /* of the last run, the capture's first */
+    size_t bad_count, bad_captured;
+    json_t *record; /* of the last run, for run.json; NULL before the first */
     double seconds[PHASES];
 };
 

@@ -1,12 +1,13 @@
 /* Fills the images that no shader makes: decoded capture parts, tables, images of a run folder, "nothing". Pixels go
    straight into mapped staging memory in the image's format. */
-#include "state.h"
+#include "bad_values.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <Imath/half.h>
+#include <pthread.h>
 
 #include "parallel.h"
 #include "timing.h"
@@ -26,10 +27,27 @@ struct packing {
     enum glint_format format;
     void *to;
     size_t width;
+    const struct glint_row *row; /* bad values are counted; NULL: not */
+    struct bad_values bad;
+    pthread_mutex_t lock;
 };
 
+/* Those of a component that the capture gives. */
+static void count_bad(struct packing *p, size_t c, const uint32_t *from, size_t stride, size_t begin, size_t end) {
+    const size_t components = format_components(p->format);
+    struct bad_values bad = {0};
+    for (size_t i = begin; i < end; i++, from += stride) {
+        float value;
+        memcpy(&value, from, sizeof value);
+        bad_value(&bad, p->row, format_bytes(p->format) / components == 2, i * components + c, value);
+    }
+    pthread_mutex_lock(&p->lock);
+    bad_values_add(&p->bad, &bad);
+    pthread_mutex_unlock(&p->lock);
+}
+
 static void pack_rows(void *user, size_t first, size_t last) {
-    const struct packing *p = user;
+    struct packing *p = user;
     const size_t components = format_components(p->format), begin = first * p->width, end = last * p->width;
     uint32_t missing;
     memcpy(&missing, &p->missing, sizeof missing);
@@ -37,6 +55,7 @@ static void pack_rows(void *user, size_t first, size_t last) {
         const uint32_t *from = p->at[c] == SIZE_MAX ? &missing : p->from + p->at[c] + begin * p->stride;
         const size_t stride = p->at[c] == SIZE_MAX ? 0 : p->stride;
         const size_t bytes = format_bytes(p->format) / components;
+        if (p->row && stride) count_bad(p, c, from, stride, begin, end);
         if (bytes == 1)
             for (size_t i = begin; i < end; i++, from += stride)
                 ((uint8_t *)p->to)[i * components + c] = (uint8_t)*from;
@@ -44,7 +63,7 @@ static void pack_rows(void *user, size_t first, size_t last) {
             for (size_t i = begin; i < end; i++, from += stride) {
                 float value;
                 memcpy(&value, from, sizeof value);
-                ((uint16_t *)p->to)[i * components + c] = imath_float_to_half(value);
+                ((uint16_t *)p->to)[i * components + c] = imath_float_to_half(half_clamped(value));
             }
         else
             for (size_t i = begin; i < end; i++, from += stride) ((uint32_t *)p->to)[i * components + c] = *from;
@@ -53,7 +72,9 @@ static void pack_rows(void *user, size_t first, size_t last) {
 
 static void pack(struct packing *packing, uint32_t width, uint32_t height) {
     packing->width = width;
+    pthread_mutex_init(&packing->lock, NULL);
     parallel_rows(height, pack_rows, packing);
+    pthread_mutex_destroy(&packing->lock);
 }
 
 static bool submit(struct run *run, struct glint_error *err) {
@@ -111,10 +132,15 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
                                   .stride = channels->count,
                                   .missing = (float)image->row->nothing,
                                   .format = run->images[i]->desc.format,
-                                  .to = (char *)replay->staging.map + offset};
+                                  .to = (char *)replay->staging.map + offset,
+                                  .row = image->row};
         place_components(&packing, channels, image->row);
         run->images[i]->key = 0; /* until all of it is there */
         pack(&packing, part->width, part->height);
+        struct bad_values *bad = &run->images[i]->levels[0].bad;
+        if (first == 0) *bad = (struct bad_values){0};
+        packing.bad.first += image_values(&run->images[i]->desc, 0) / image_layers(&run->images[i]->desc) * first;
+        bad_values_add(bad, &packing.bad);
         image_record_upload(run->images[i], replay->device, &replay->staging, offset, 0, first, layers, first == 0);
         offset += ((VkDeviceSize)part->width * part->height * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
     }

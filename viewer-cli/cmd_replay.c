@@ -123,6 +123,12 @@ static double milliseconds(uint64_t ns) {
     return (double)ns * 1e-6;
 }
 
+/* Values that no image should hold. */
+struct found {
+    const struct glint_bad_values *bad;
+    size_t count;
+};
+
 static void print_total(struct table *table, const char *what, double ms) {
     table_cell(table, "%s", what);
     table_cell(table, "%s", "");
@@ -159,14 +165,32 @@ static void print_passes(const struct glint_pass_result *results, size_t count) 
     table_destroy(&table);
 }
 
+/* How many values no image should hold, and where the first pass made the first of them. */
+static void print_bad_values(const struct glint_bad_values *bad, size_t count) {
+    uint64_t not_finite = 0, clamped = 0;
+    size_t made = 0;
+    for (size_t i = 0; i < count; i++) not_finite += bad[i].not_finite, clamped += bad[i].clamped;
+    if (!count) return;
+    while (made < count && !bad[made].pass) made++;
+    printf("\n%llu values are NaN or infinite, %llu were clamped to what half holds; images: %zu\n",
+           (unsigned long long)not_finite, (unsigned long long)clamped, count);
+    for (size_t i = 0; i < count; i++) {
+        if (i != 0 && i != made) continue;
+        if (bad[i].pass) printf("first by a pass: %s: ", bad[i].pass->slot);
+        else printf("first in the capture: ");
+        printf("%s %s at %u,%u: %g\n", bad[i].image, bad[i].channel, bad[i].x, bad[i].y, (double)bad[i].value);
+    }
+}
+
 static void print_run(const char *capture, const char *folder, const struct comparison *compared,
-                      const struct job *job) {
+                      const struct found *found, const struct job *job) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(job->replay, &count);
     const struct glint_device_info *device = glint_device_get_info(job->device);
     printf("%s on %s%s\n\n", capture, device->name,
            device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
     print_passes(results, count);
+    print_bad_values(found->bad, found->count);
     if (job->a->pipeline.replay.repeat == 0) puts("one round, shaders compiled on first use; --repeat N measures");
     putchar('\n');
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
@@ -177,8 +201,22 @@ static void print_run(const char *capture, const char *folder, const struct comp
     if (compared) against_print(compared);
 }
 
+static json_t *bad_values_json(const struct found *found) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < found->count; i++) {
+        const struct glint_bad_values *bad = &found->bad[i];
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s?, s:s, s:i, s:i, s:o, s:I, s:I}", "image", bad->image, "slot",
+                                        bad->pass ? bad->pass->slot : NULL, "channel", bad->channel, "x", (int)bad->x,
+                                        "y", (int)bad->y, "value", json_number((double)bad->value), "not_finite",
+                                        (json_int_t)bad->not_finite, "clamped", (json_int_t)bad->clamped));
+    }
+    return list;
+}
+
 static json_t *run_json(const char *capture, const char *folder, const struct comparison *compared,
-                        const struct glint_replay *replay, const struct glint_device_info *device) {
+                        const struct found *found, const struct glint_replay *replay,
+                        const struct glint_device_info *device) {
     json_t *passes = json_array(), *seconds = json_object();
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
@@ -196,6 +234,7 @@ static json_t *run_json(const char *capture, const char *folder, const struct co
     json_t *run =
         json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o}", "capture", capture, "run", folder, "device", "name",
                   device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes, "seconds", seconds);
+    json_object_set_new(run, "bad_values", bad_values_json(found));
     if (compared) against_json(compared, run);
     return run;
 }
@@ -246,17 +285,19 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     job->against->progress = progress_report;
     job->against->user = &progress;
     job->against->all = options.all;
+    struct found found = {0};
     bool ok = glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
               (!folder || (report_keep_errors(folder, NULL, err) &&
                            glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
+              glint_replay_bad_values(job->replay, &found.bad, &found.count, err) &&
               (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
               (!compared || !folder || report_keep_errors(folder, compared, err));
     progress_end(&progress);
     if (ok && job->runs)
-        json_array_append_new(job->runs,
-                              run_json(path, folder, compared, job->replay, glint_device_get_info(job->device)));
-    else if (ok) print_run(path, folder, compared, job);
+        json_array_append_new(
+            job->runs, run_json(path, folder, compared, &found, job->replay, glint_device_get_info(job->device)));
+    else if (ok) print_run(path, folder, compared, &found, job);
     if (ok && compared) ok = against_valid(compared, path, err);
     comparison_finish(&comparison);
     glint_replay_load(job->replay, NULL, NULL);

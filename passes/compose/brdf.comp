@@ -39,5 +39,5 @@ void main() {
     vec4 surface = texelFetch(normal_full, pixel, 0);
     if (reflects(depth_m, surface.xyz))
         color += intensity * weight(pixel, depth_m, surface) * reflected_color(pixel);
-    imageStore(composed, pixel, vec4(color, 1.0));
+    imageStore(composed, pixel, vec4(storable(color, frame.up.w), 1.0));
 }

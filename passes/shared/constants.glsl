@@ -9,4 +9,7 @@ const float EVERYTHING_M = 1.0e6;  // a thickness of it and more: all is solid
 
 // A colour that may take part in a mean.
 bool finite(vec4 color) { return all(lessThan(abs(color), vec4(LARGEST))); }
+
+// A sum of colours as images can hold it (frame.up.w): what is too large becomes the largest. NaN stays NaN.
+vec3 storable(vec3 color, float largest) { return mix(color, vec3(largest), greaterThan(color, vec3(largest))); }
 #endif

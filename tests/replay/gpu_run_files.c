@@ -51,6 +51,59 @@ static void an_engines_image_stands_in_for_a_pass(void **state) {
     fixture_check_messages(fixture);
 }
 
+/* NaN and light beyond half are counted, in memory and in run.json, with the first of them and who made it. */
+static void bad_values_are_counted_and_placed(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    const char *const last[] = {"compose", NULL};
+    static float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4];
+    struct glint_channel channels[4];
+    static const char *const names[] = {"R", "G", "B", "A"};
+    char path[128], folder[128];
+    memset(reflection, 0, sizeof reflection);
+    reflection[2][3][1] = NAN, reflection[5][7][0] = reflection[5][8][0] = -1e6f;
+    for (int c = 0; c < 4; c++)
+        channels[c] =
+            (struct glint_channel){names[c], GLINT_F32, &reflection[0][0][c], sizeof reflection[0][0], 0, NULL};
+    const struct glint_part part = {.name = "engine.upscale.reflection",
+                                    .width = FIXTURE_WIDTH,
+                                    .height = FIXTURE_HEIGHT,
+                                    .channels = channels,
+                                    .channel_count = 4};
+    snprintf(path, sizeof path, "%s/bad.exr", fixture->folder);
+    if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err))
+        fail_msg("%s", err.message);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    assert_true(glint_replay_load(fixture->replay, capture, &err));
+    fixture_run(fixture, &(struct glint_replay_options){.passes = last});
+    const struct glint_bad_values *bad = NULL;
+    size_t count = 0;
+    assert_true(glint_replay_bad_values(fixture->replay, &bad, &count, &err));
+    assert_true(count >= 1);
+    assert_string_equal(bad[0].image, "reflection");
+    assert_string_equal(bad[0].pass->slot, "upscale");
+    assert_string_equal(bad[0].channel, "G");
+    assert_int_equal(bad[0].x, 3);
+    assert_int_equal(bad[0].y, 2);
+    assert_true(isnan(bad[0].value));
+    assert_int_equal(bad[0].not_finite, 1);
+    assert_int_equal(bad[0].clamped, 2);
+    fixture_write_run(fixture, "bad", folder);
+    struct glint_run *run = glint_run_open(folder, &err);
+    assert_non_null(run);
+    assert_non_null(strstr(glint_run_json(run), "\"bad_values\": ["));
+    assert_non_null(strstr(glint_run_json(run), "\"value\": \"NaN\""));
+    assert_non_null(strstr(glint_run_json(run), "\"clamped\": 2"));
+    glint_run_close(&run);
+    assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
+    fixture_run(fixture, NULL);
+    assert_true(glint_replay_bad_values(fixture->replay, &bad, &count, &err));
+    assert_int_equal(count, 0);
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
 /* What oiiotool says of a channel of a part: its least and greatest finite value. */
 static void foreign_range(const char *file, const char *channel, int subimage, double range[2]) {
     char command[512], line[4096];
@@ -263,6 +316,7 @@ static void a_users_shader_with_foreign_bindings_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_engines_image_stands_in_for_a_pass),
+        cmocka_unit_test(bad_values_are_counted_and_placed),
         cmocka_unit_test(a_run_folder_reads_back_as_it_was),
         cmocka_unit_test(foreign_tools_read_the_same_values),
         cmocka_unit_test(a_run_does_not_replace_its_own_inputs),

@@ -130,7 +130,7 @@ bool court_seen_at(const struct court *court, const double point[3], double plac
     return court_place(&c, false, point, 1, place_px, &depth);
 }
 
-struct court_ray court_mirror(const struct court *court, const double place_px[2], double depth) {
+static struct court_ray mirrored(const struct court *court, const double place_px[2], double depth, int axis) {
     const struct court c = court_of(court);
     struct court_ray r = {.distance = 0};
     double from[3], ray[3], length = 0;
@@ -139,7 +139,7 @@ struct court_ray court_mirror(const struct court *court, const double place_px[2
     for (int k = 0; k < 3; k++) length += ray[k] * ray[k];
     for (int k = 0; k < 3; k++) {
         r.start[k] = from[k] + depth * ray[k];
-        r.direction[k] = (k == 1 ? -1 : 1) * ray[k] / sqrt(length);
+        r.direction[k] = (k == axis ? -1 : 1) * ray[k] / sqrt(length);
     }
     r.distance = court_leave(r.start, r.direction, &r.face);
     const bool leaves = court_surface_of(r.face) == COURT_SKY;
@@ -153,4 +153,16 @@ struct court_ray court_mirror(const struct court *court, const double place_px[2
     r.in_front = court_place(&c, false, leaves ? r.direction : r.end, leaves ? 0 : 1, r.end_px, &depth);
     if (leaves) r.distance = INFINITY;
     return r;
+}
+
+struct court_ray court_mirror(const struct court *court, const double place_px[2], double depth) {
+    return mirrored(court, place_px, depth, 1);
+}
+
+bool court_reflect(const struct court *court, const double place_px[2], struct court_ray *ray) {
+    double depth;
+    int face;
+    const bool sky = court_seen(court, place_px, &depth, &face) == COURT_SKY;
+    if (!sky) *ray = mirrored(court, place_px, depth, face / 2);
+    return !sky;
 }

@@ -59,6 +59,8 @@ enum court_surface court_seen(const struct court *court, const double place_px[2
 struct court_ray court_mirror(const struct court *court, const double place_px[2], double depth);
 /* Where a point is seen; false behind the camera. */
 bool court_seen_at(const struct court *court, const double point[3], double place_px[2]);
+/* From whatever is seen there; false: the sky. */
+bool court_reflect(const struct court *court, const double place_px[2], struct court_ray *ray);
 /* Depth that a stored value means, and the value that is stored. */
 double court_decode_depth(const struct court *court, double stored);
 float court_encode_depth(const struct court *court, double depth);

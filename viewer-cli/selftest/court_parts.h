@@ -21,6 +21,9 @@ enum court_surface court_surface_of(int face);
 enum court_surface court_look(const struct court *c, const double place_px[2], double *depth, double point[3],
                               int *face);
 
+/* Of the cube map that a part's name says. */
+void court_center(const struct court *c, const char *part, double center[3]);
+
 /* clip z = a * depth + b, clip w = depth */
 void court_clip_depth(const struct court *c, double *a, double *b);
 /* Encoded as declared; `normal` in the court's axes. */

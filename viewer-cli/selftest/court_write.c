@@ -125,6 +125,11 @@ static bool add_picture(struct glint_writer *writer, const struct court *c, stru
 
 static const double centers[COURT_CUBES][3] = {{2.1, 1.3, 1.6}, {5.8, 1.4, 1.7}, {2.2, 1.5, 4.4}, {5.9, 1.2, 4.3}};
 
+void court_center(const struct court *c, const char *part, double center[3]) {
+    const int number = atoi(strchr(part, '.') + 1);
+    memcpy(center, centers[c->cubes_reversed ? COURT_CUBES - 1 - number : number], sizeof centers[0]);
+}
+
 /* In the court's axes; faces and their orientation are the engine's. */
 static void cube_direction(const struct court *c, uint32_t size, uint32_t x, uint32_t y, double out[3]) {
     const double u = 2 * (x + 0.5) / size - 1, v = 2 * (y % size + 0.5) / size - 1;
@@ -134,10 +139,9 @@ static void cube_direction(const struct court *c, uint32_t size, uint32_t x, uin
 }
 
 static void at_cube(const struct court *c, const struct layer *layer, uint32_t x, uint32_t y, double *out) {
-    const double *from = centers[atoi(strchr(layer->name, '.') + 1)];
-    double direction[3], point[3], length = 0;
+    double from[3], direction[3], point[3], length = 0;
     int face;
-    if (c->cubes_reversed) from = centers[COURT_CUBES - 1 - (from - centers[0]) / 3];
+    court_center(c, layer->name, from);
     cube_direction(c, layer->width, x, y, direction);
     const double t = court_leave(from, direction, &face);
     for (int k = 0; k < 3; k++) {
@@ -166,8 +170,10 @@ static void place_in_world(const struct court *c, const double p[3], double out[
 
 static bool add_cube(struct glint_writer *writer, const struct court *c, int number, struct glint_error *err) {
     struct glint_cubemap cube = {.inner = GLINT_VOLUME_BOX};
-    const double *center = centers[c->cubes_reversed ? COURT_CUBES - 1 - number : number];
-    double corners[2][3], out[2][3];
+    double center[3], corners[2][3], out[2][3];
+    char name[32];
+    snprintf(name, sizeof name, "cubemap.%03d", number);
+    court_center(c, name, center);
     for (int k = 0; k < 3; k++) corners[0][k] = -1, corners[1][k] = 1; /* all around is air */
     place_in_world(c, center, cube.center);
     for (int i = 0; i < 2; i++) court_to_engine(c, corners[i], out[i]);
@@ -175,8 +181,6 @@ static bool add_cube(struct glint_writer *writer, const struct court *c, int num
         cube.box_min[k] = fmin(out[0][k], out[1][k]) * c->scale / c->metres_per_unit;
         cube.box_max[k] = fmax(out[0][k], out[1][k]) * c->scale / c->metres_per_unit;
     }
-    char name[32];
-    snprintf(name, sizeof name, "cubemap.%03d", number);
     return add(writer, c,
                &(struct layer){.name = name,
                                .channels = {"R", "G", "B", "A", "distance.Z"},

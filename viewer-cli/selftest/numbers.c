@@ -1,5 +1,7 @@
 /* The group "numbers": one picture, however its numbers are written down. */
 #include "numbers_depth.h"
+#include "numbers_half.h"
+#include "numbers_light.h"
 #include "same.h"
 
 /* clang-format off */
@@ -33,17 +35,46 @@ static const struct same places[] = {
 enum { PLACES = sizeof places / sizeof *places };
 static const struct same_kind kind = {.image = "composed", .cases = places, .count = PLACES};
 
+/* The group's parts, one after another. */
+static size_t places_count(void) {
+    return PLACES;
+}
+static struct selftest_case places_get(size_t i) {
+    return same_case(&places[i]);
+}
+static bool places_run(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
+                       struct glint_error *err) {
+    return same_run(test, &kind, chosen, findings, err);
+}
+static const struct part {
+    size_t (*count)(void);
+    struct selftest_case (*get)(size_t i);
+    bool (*run)(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
+                struct glint_error *err);
+} parts[] = {
+    {places_count, places_get, places_run},
+    {numbers_depth_count, numbers_depth_get, numbers_depth_run},
+    {numbers_half_count, numbers_half_get, numbers_half_run},
+    {numbers_light_count, numbers_light_get, numbers_light_run},
+};
+enum { PARTS = sizeof parts / sizeof *parts };
+
 static size_t count(void) {
-    return PLACES + numbers_depth_count();
+    size_t all = 0;
+    for (size_t p = 0; p < PARTS; p++) all += parts[p].count();
+    return all;
 }
 static struct selftest_case get(size_t i) {
-    return i < PLACES ? same_case(&places[i]) : numbers_depth_get(i - PLACES);
+    size_t p = 0;
+    for (; i >= parts[p].count(); p++) i -= parts[p].count();
+    return parts[p].get(i);
 }
-
 static bool run(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
                 struct glint_error *err) {
-    return same_run(test, &kind, chosen, findings, err) &&
-           numbers_depth_run(test, chosen + PLACES, findings + PLACES, err);
+    bool ok = true;
+    for (size_t p = 0, first = 0; ok && p < PARTS; first += parts[p++].count())
+        ok = parts[p].run(test, chosen + first, findings + first, err);
+    return ok;
 }
 
 const struct selftest_group selftest_numbers = {"numbers", "one picture, however its numbers are written down", count,

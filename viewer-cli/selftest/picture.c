@@ -64,7 +64,7 @@ bool pictures_read(const struct pictures *pictures, const char *name, struct pic
     const struct glint_image *image = glint_replay_find_image(pictures->replay, name);
     if (!image) return glint_fail(err, GLINT_ERROR_DEVICE, "self-test: the replay made no image %s", name);
     const bool whole = image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;
-    *out = (struct picture_of){{NULL}, image->width, image->height, image->components};
+    *out = (struct picture_of){{NULL}, image->width, image->height, image->components, whole};
     if (!(out->values = malloc((size_t)out->width * out->height * out->components * sizeof *out->values)))
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (glint_replay_read_image(pictures->replay, image, whole ? GLINT_U32 : GLINT_F32, out->values, err)) return true;

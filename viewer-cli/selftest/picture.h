@@ -12,6 +12,7 @@ struct picture_of {
         uint32_t *whole;
     };
     uint32_t width, height, components;
+    bool whole_numbers;
 };
 
 struct pictures {

@@ -160,6 +160,20 @@ const struct glint_image *glint_replay_find_image(const struct glint_replay *rep
    the image's own format (GLINT_F16, GLINT_U8). */
 bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
                              void *out, struct glint_error *err);
+/* An image with values that it should not hold: NaN; infinite ones, unless they are lengths, whose +inf is the sky; and, where it
+   is stored in half, finite ones beyond 65504, which are stored as that. Of what the device made, 65504 itself counts, too. */
+struct glint_bad_values {
+    const char *image;             /* of a level as in struct glint_image */
+    const struct glint_pass *pass; /* that makes it; NULL: the capture's */
+    char channel[48];
+    uint32_t x, y; /* the first one, row by row, and what it was */
+    float value;
+    uint64_t not_finite, clamped; /* values, not pixels */
+};
+/* Of the last run: the capture's images that were read, then those of passes in their order, so that the first pass that made
+   one comes first. Reads back images that were not written. *list is valid until the next call on `replay`. */
+bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad_values **list, size_t *count,
+                             struct glint_error *err);
 /* Writes `folder`/run.json and one EXR a pass, NN-SLOT.exr, where NN is the pass's place in the whole pipeline; each
    file appears complete or not at all, run.json last. A run that was there before is removed first. */
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
@@ -180,7 +194,7 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
 void glint_run_close(struct glint_run **run);
 /* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
    driver, driver_version, times_are}, "frame", "preset", "rays", "first_ray", "resolution" {full, half}, "precision", "diagnostics", "inputs", "history",
-   "active_cubemaps", "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
+   "active_cubemaps", "bad_values": [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …], "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
    cached, cached_work, dispatches, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
    unit, meaning, width, height, format}}. */
 const char *glint_run_json(const struct glint_run *run);

@@ -1,0 +1,139 @@
+/* Where values are bad, and which pixels these may change. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "court_parts.h"
+#include "garbage.h"
+
+enum { PLACES = 14 };
+
+/* Of a picture 192 x 128. */
+static void floor_place(size_t i, uint32_t place[2]) {
+    place[0] = (uint32_t)(16 + 25 * (i % 7) + i % 2);
+    place[1] = (uint32_t)(i < 7 ? 100 + i / 2 % 2 : 119 + i / 2 % 2);
+}
+static const uint32_t wall_places[2][2] = {{70, 31}, {131, 44}};
+
+static size_t count(const struct garbage_case *c) {
+    size_t n = 0;
+    while (n < sizeof c->list / sizeof *c->list && c->list[n].part) n++;
+    return n;
+}
+
+static size_t places(const struct garbage_case *c) {
+    return c->where == GARBAGE_FLOOR ? PLACES : c->where == GARBAGE_WALL ? 2 : 0;
+}
+
+static void place_of(const struct garbage_case *c, size_t i, uint32_t place[2]) {
+    if (c->where == GARBAGE_FLOOR) floor_place(i, place);
+    else memcpy(place, wall_places[i], sizeof wall_places[i]);
+}
+
+static void spoil_sky(const struct court *court, float value, float *plane, uint32_t width, uint32_t height) {
+    for (size_t i = 0; i < (size_t)width * height; i++) {
+        const double place[2] = {(double)(i % width) + 0.5, (double)(i / width) + 0.5};
+        double depth;
+        int face;
+        if (court_seen(court, place, &depth, &face) == COURT_SKY) plane[i] = value;
+    }
+}
+
+/* The texel of a cube map that shows what is at the first place on the walls. Faces are Vulkan's. */
+static size_t texel_of(const struct court *court, const char *part) {
+    const double place[2] = {wall_places[0][0] + 0.5, wall_places[0][1] + 0.5};
+    double depth, center[3], d[3];
+    int face;
+    court_center(court, part, center);
+    court_look(court, place, &depth, d, &face);
+    for (int k = 0; k < 3; k++) d[k] -= center[k];
+    const uint32_t size = court->cube_size;
+    const double u = 0.5 - 0.5 * d[0] / fabs(d[2]), v = 0.5 - 0.5 * d[1] / fabs(d[2]); /* on -Z, the wall z = 0 */
+    return ((size_t)(5 * size) + (size_t)(v * size)) * size + (size_t)(u * size);
+}
+
+void garbage_spoil(void *user, const char *part, const char *channel, float *plane, uint32_t width, uint32_t height) {
+    const struct garbage_court *g = user;
+    const size_t bad = g->c ? count(g->c) : 0;
+    for (size_t k = 0; k < bad; k++) {
+        const struct garbage *garbage = &g->c->list[k];
+        if (strncmp(part, garbage->part, strlen(garbage->part)) != 0 || strcmp(channel, garbage->channel) != 0)
+            continue;
+        if (g->c->where == GARBAGE_SKY) spoil_sky(&g->court, garbage->value, plane, width, height);
+        else if (g->c->where == GARBAGE_TEXEL) plane[texel_of(&g->court, part)] = garbage->value;
+        for (size_t i = 0; i < places(g->c); i++) {
+            uint32_t place[2];
+            place_of(g->c, i, place);
+            if (g->c->where == GARBAGE_FLOOR && bad > 1 && i % bad != k) continue;
+            plane[(size_t)place[1] * width + place[0]] = garbage->value;
+        }
+    }
+}
+
+/* ---- What depends on them ---- */
+
+static bool within_px(const double a[2], const double b[2], double reach_px) {
+    return fabs(a[0] - b[0]) <= reach_px && fabs(a[1] - b[1]) <= reach_px;
+}
+
+/* Whether a place is a bad pixel or near one, or, on walls, mirrors one. */
+static bool near_bad(const struct garbage_case *c, const struct court *court, const double place[2], double reach_px) {
+    struct court_ray ray;
+    const bool mirrors = c->where == GARBAGE_WALL && reach_px > 0 && court_reflect(court, place, &ray) && ray.in_front;
+    for (size_t i = 0; i < places(c); i++) {
+        uint32_t at[2];
+        place_of(c, i, at);
+        const double center[2] = {at[0] + 0.5, at[1] + 0.5};
+        if (within_px(place, center, reach_px) || (mirrors && within_px(ray.end_px, center, reach_px))) return true;
+    }
+    return false;
+}
+
+/* Whether a ray ends where some cube map shows it by the bad texel or one beside it. */
+static bool ends_in_texel(const struct court *court, const double place[2], double travelled_m) {
+    const double wall[2] = {wall_places[0][0] + 0.5, wall_places[0][1] + 0.5};
+    const bool endless = !(travelled_m < INFINITY);
+    struct court_ray ray;
+    double bad[3], depth;
+    int face;
+    if (!court_reflect(court, place, &ray)) return false;
+    court_look(court, wall, &depth, bad, &face);
+    for (int i = 0; i < COURT_CUBES; i++) {
+        char name[32];
+        double center[3], dot = 0, to[3], to2 = 0, from[3], from2 = 0;
+        snprintf(name, sizeof name, "cubemap.%03d", i);
+        court_center(court, name, center);
+        for (int k = 0; k < 3; k++) {
+            from[k] = bad[k] - center[k];
+            to[k] = endless ? ray.direction[k] : ray.start[k] + travelled_m * ray.direction[k] - center[k];
+            dot += from[k] * to[k], to2 += to[k] * to[k], from2 += from[k] * from[k];
+        }
+        if (dot > cos(5 * 2.0 / court->cube_size) * sqrt(to2 * from2)) return true; /* five texels */
+    }
+    return false;
+}
+
+static bool near_texel(const struct court *court, const struct picture_of *travelled, uint32_t x, uint32_t y) {
+    const uint32_t scale = court->width / travelled->width;
+    for (uint32_t i = 0; i < 25; i++) {
+        const uint32_t tx = x / scale + i % 5 - 2, ty = y / scale + i / 5 - 2;
+        if (tx >= travelled->width || ty >= travelled->height) continue;
+        const double place[2] = {scale * (tx + 0.5), scale * (ty + 0.5)};
+        if (ends_in_texel(court, place, (double)travelled->values[(size_t)ty * travelled->width + tx])) return true;
+    }
+    return false;
+}
+
+void garbage_mask(const struct garbage_case *c, const struct court *court, const struct picture_of *travelled,
+                  enum garbage_effect *effects) {
+    for (uint32_t y = 0; y < court->height; y++)
+        for (uint32_t x = 0; x < court->width; x++) {
+            const double place[2] = {x + 0.5, y + 0.5};
+            const bool near =
+                c->where == GARBAGE_TEXEL ? near_texel(court, travelled, x, y) : near_bad(c, court, place, c->reach_px);
+            const bool bad = c->where == GARBAGE_WALL && near_bad(c, court, place, 0);
+            effects[(size_t)y * court->width + x] = bad || (near && c->direct) ? GARBAGE_SPOILS
+                                                    : near                     ? GARBAGE_CHANGES
+                                                                               : GARBAGE_LEAVES;
+        }
+}
