@@ -8,6 +8,8 @@
 #include "metric_args.h"
 #include "table.h"
 
+enum { PLACES = 16 };
+
 static const char *const words[] = {"same", "warning", "FAILS", "other size"};
 
 /* The channel where the difference is largest: those of floats come first, then those of whole numbers. */
@@ -38,6 +40,15 @@ static json_t *histogram_json(const struct glint_difference *d) {
     return list;
 }
 
+/* The first pixels that fail, by rows. */
+static json_t *places_json(const struct glint_difference *d) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < d->pixels && json_array_size(list) < PLACES; i++)
+        if (glint_difference_fails(d, i))
+            json_array_append_new(list, json_pack("[i, i]", (int)(i % d->width), (int)(i / d->width)));
+    return list;
+}
+
 static json_t *pair_json(const struct diff_pair *pair) {
     const struct diff_image *image = diff_pair_image(pair);
     const struct glint_difference *d = &pair->difference;
@@ -58,6 +69,7 @@ static json_t *pair_json(const struct diff_pair *pair) {
     json_object_set_new(json, "rms", json_number(d->rms));
     json_object_set_new(json, "psnr", json_number(d->psnr));
     json_object_set_new(json, "largest", largest);
+    json_object_set_new(json, "places", places_json(d));
     json_object_set_new(json, "histogram", histogram_json(d));
     if (pair->metrics.count) json_object_set_new(json, "metrics", metrics_json(&pair->metrics));
     return json;

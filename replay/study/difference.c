@@ -129,6 +129,10 @@ enum glint_sameness glint_difference_end(struct glint_difference *d, const struc
     return is_too_much(d, &limits->warn, d->warned) ? GLINT_SAME_WARN : GLINT_SAME;
 }
 
+bool glint_difference_fails(const struct glint_difference *d, size_t pixel) {
+    return d->marks[pixel] & FAILED;
+}
+
 void glint_difference_finish(struct glint_difference *d) {
     free(d->sums);
     free(d->marks);

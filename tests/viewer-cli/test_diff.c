@@ -56,6 +56,7 @@ static void verdicts_are_idiffs(void **state) {
         "-fail 0.01 -failpercent 0.09 -warn 1",
         "-fail 0.01 -failpercent 0.09",
         "-fail 0.0001 -failpercent 1.7 -warn 1",
+        "-fail 0.0001 -failpercent 1.75 -warn 1",
         "-fail 0.0001 -failpercent 1.8 -warn 1",
         "-fail 0.0001 -failpercent 5 -hardfail 0.2 -warn 1",
         "-fail 0.0001 -failpercent 5 -hardfail 0.3 -warn 1",

@@ -45,7 +45,7 @@ struct glint_difference {
     double a, b;
     uint64_t histogram[GLINT_DIFFERENCE_BINS];
     struct glint_difference_sums *sums; /* until the end */
-    uint8_t *marks;                     /* a pixel: bits 1: differs, 2: warned, 4: failed */
+    uint8_t *marks;                     /* what became of each pixel */
 };
 
 bool glint_difference_begin(struct glint_difference *difference, uint32_t width, uint32_t height,
@@ -56,6 +56,7 @@ void glint_difference_add(struct glint_difference *difference, const void *a, co
                           uint32_t channels, size_t first, const struct glint_difference_limits *limits);
 enum glint_sameness glint_difference_end(struct glint_difference *difference,
                                          const struct glint_difference_limits *limits);
+bool glint_difference_fails(const struct glint_difference *difference, size_t pixel);
 void glint_difference_finish(struct glint_difference *difference);
 
 #ifdef __cplusplus
