@@ -135,7 +135,7 @@ def main():
     parser.add_argument("--size", default="320x180")
     parser.add_argument("--cube", default="64")
     parser.add_argument("--rays", type=int, default=16)
-    parser.add_argument("--tries", type=int, default=300)
+    parser.add_argument("--tries", type=int, default=100)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--budgets", type=int, nargs="+", default=BUDGETS)

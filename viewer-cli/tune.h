@@ -114,8 +114,8 @@ void tune_unload_subject(struct tune *tune, size_t subject);
 bool tune_open(struct tune *tune, struct glint_error *err);
 /* Finds tune->found. What was found until an error stays. */
 bool tune_search(struct tune *tune, struct glint_error *err);
-/* Goes on from its best point when the chosen one was measured to take these parts of the baseline's time on the captures: the
-   search's times are corrected by that. */
+/* Goes on from the best that is kept when the chosen one was measured to take these parts of the baseline's time on the captures: the
+   search's times are corrected by that. A fourth of the tries. */
 bool tune_search_again(struct tune *tune, const double *parts, struct glint_error *err);
 /* Of these values, tried now or found in the journal. */
 bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err);

@@ -273,13 +273,17 @@ void tune_set_yard(struct tune *tune, const double *values) {
     json_decref(list);
 }
 
+static struct glint_search_figures as_searched(const struct tune *tune, struct tune_figures found) {
+    return (struct glint_search_figures){tune->by_error ? found.cost : found.error,
+                                         tune->by_error ? found.error : found.cost};
+}
+
 static bool try_values(void *user, const double *values, struct glint_search_figures *figures,
                        struct glint_error *err) {
     const struct tune *tune = user;
     struct tune_figures found;
     if (!tune_evaluate(user, values, &found, err)) return false;
-    *figures = (struct glint_search_figures){tune->by_error ? found.cost : found.error,
-                                             tune->by_error ? found.error : found.cost};
+    *figures = as_searched(tune, found);
     return true;
 }
 
@@ -293,10 +297,10 @@ static bool begin(struct tune *tune, const double *start, struct glint_error *er
 }
 
 /* `count` known points, one after the other. */
-static bool search(struct tune *tune, const double *known, size_t count, struct glint_error *err) {
+static bool search(struct tune *tune, uint32_t tries, const double *known, size_t count, struct glint_error *err) {
     enum { NOISE_PER_CENT = 2 };
     const struct glint_search_options options = {.limit = tune->within,
-                                                 .tries = tune->tries,
+                                                 .tries = tries,
                                                  .seed = tune->seed,
                                                  .noise = tune->fetches ? 0 : NOISE_PER_CENT * 0.01,
                                                  .known = known,
@@ -317,32 +321,48 @@ static bool search(struct tune *tune, const double *known, size_t count, struct 
 bool tune_search(struct tune *tune, struct glint_error *err) {
     double *start = calloc(tune->axis_count + 1, sizeof *start);
     for (size_t a = 0; start && a < tune->axis_count; a++) start[a] = tune->axes[a].axis.start;
-    const bool ok =
-        start ? begin(tune, start, err) && search(tune, tune->scaling, tune->baseline, err) : no_memory(err);
+    const bool ok = start ? begin(tune, start, err) && search(tune, tune->tries, tune->scaling, tune->baseline, err)
+                          : no_memory(err);
     free(start);
     return ok;
 }
 
+/* The best of all that is kept, whichever search found it. */
+static void best_kept(const struct tune *tune, double *values) {
+    struct glint_search_figures best = {NAN, NAN};
+    const json_t *line, *found = NULL;
+    size_t i;
+    json_array_foreach(tune->lines, i, line) {
+        const struct glint_search_figures here = as_searched(tune, sum_up(tune, line));
+        if (found && !glint_search_better(&here, &best, tune->within)) continue;
+        best = here;
+        found = json_object_get(line, "values");
+    }
+    for (size_t a = 0; a < tune->axis_count; a++) {
+        const struct tune_axis *axis = &tune->axes[a];
+        const char *text = json_string_value(json_array_get(found, a));
+        values[a] = axis->texts ? axis->axis.start : strtod(text, NULL);
+        for (uint32_t c = 0; c < axis->axis.choices; c++)
+            if (!strcmp(axis->texts[c], text)) values[a] = c;
+    }
+}
+
 bool tune_search_again(struct tune *tune, const double *parts, struct glint_error *err) {
-    const size_t n = tune->axis_count, bytes = n * sizeof(double);
+    const size_t n = tune->axis_count;
     double *known = calloc(2 * n + 1, sizeof *known);
     json_t *list = values_json(tune, tune->found.points[tune->chosen].values);
     const json_t *line = find_line(tune, list);
-    struct glint_search_figures best = {NAN, NAN}, here;
+    bool ok = known || no_memory(err);
     tune->within = 0;
     for (size_t s = 0; s < tune->captures.count; s++) {
         tune->subjects[s].yard.cost = figures_on(line, s).cost / parts[s];
         tune->within += tune->subjects[s].yard.cost / (double)tune->captures.count;
     }
-    bool ok = known || no_memory(err);
-    for (size_t p = 0; ok && p < tune->found.count; p++) {
-        if (!(ok = try_values(tune, tune->found.points[p].values, &here, err))) break;
-        if (p && !glint_search_better(&here, &best, tune->within)) continue;
-        best = here;
-        memcpy(known, tune->found.points[p].values, bytes);
+    if (ok) {
+        best_kept(tune, known);
+        memcpy(known + n, tune->scaling, n * sizeof *known);
+        ok = search(tune, tune->tries / 4 + 3, known, 2, err);
     }
-    if (ok) memcpy(known + n, tune->scaling, bytes);
-    ok = ok && search(tune, known, 2, err);
     json_decref(list);
     free(known);
     return ok;
