@@ -52,9 +52,13 @@ precise float tangent(float angle) {
     return steep ? lower / upper : upper / lower;
 }
 
-// Unit vector of any length that a float holds, where the sum of squares may not fit.
+// Unit vector of any length that a float holds, where the sum of squares may not fit. A power of two first: the reciprocal of a
+// number near the largest is below the smallest normal one, which a device may take for 0.
 precise vec3 unit(vec3 v) {
     vec3 a = abs(v);
+    float scale = max(a.x, max(a.y, a.z)) > 1.0 ? 5.42101086e-20 : 1.84467441e19;
+    v *= scale;
+    a *= scale;
     return normalize(v / max(a.x, max(a.y, a.z)));
 }
 #endif
