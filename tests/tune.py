@@ -32,8 +32,8 @@ FRAME = ("lit_mips.reach=0..3", "screen_trace=hiz,linear", "screen_trace.steps=2
 def tuned(given, folder, captures, unseen, budget):
     """What it says, or why it found nothing."""
     command = [given.glint, "tune", *captures, "--unseen", unseen, "-o", folder / f"{budget}.json", "--folder", given.folder or folder / "tune",
-               f"--budget-{given.cost}", f"{budget}%", "--baseline", "scale", "--over", "worst", "--rays", given.rays, "--tries", given.tries, "--rounds", given.rounds, "--repeat", given.repeat,
-               "--seed", given.seed, "--json"]
+               f"--budget-{given.cost}", f"{budget}%", "--baseline", "scale", "--over", "worst", "--rays", given.rays,
+               "--tries", given.tries, "--rounds", given.rounds, "--repeat", given.repeat, "--seed", given.seed, "--json"]
     for name in TRACES + (FRAME if given.cost == "ms" and not given.slots else ()):
         command += ["--vary", name]
     if given.slots:
@@ -61,6 +61,8 @@ def measure(given):
             if "provenance" in found:
                 found["provenance"] = {key: found["provenance"][key] for key in ("limit", "points", "moved", "error", "cost")}
             print(f"{budget} %: {time.monotonic() - start:.1f} s", flush=True)
+        if given.folder:
+            record["evaluated"] = sum("values" in json.loads(line) for line in (given.folder / "log.jsonl").read_text().splitlines())
     given.output.parent.mkdir(parents=True, exist_ok=True)
     given.output.write_text(json.dumps(record, indent=1) + "\n")
 
@@ -93,7 +95,9 @@ def chapter(record):
         part = "of " + " and ".join(f"`{slot}`" for slot in record["slots"].split(",")) if record.get("slots") else "of a whole frame"
         units, cost = ("GPU time, ms", "tuned takes"), f"GPU time {part}, medians of {record['repeat']} rounds in turns with their 95 % intervals"
     lines = [f"## {record['as']}, {record['size'].replace('x', '×')}", "",
-             f"Cost: {cost}; errors against a reference of {record['rays']} rays a pixel; at most {record['tries']} points.", ""]
+             f"Cost: {cost}; errors against a reference of {record['rays']} rays a pixel; at most {record['tries']} points"
+             + (f", of {record['evaluated']} pipelines that were evaluated for both budgets by runs that went on from one another."
+                if "evaluated" in record else "."), ""]
     for budget, found in record["budgets"].items():
         lines += [f"### At {budget} % of `mafia3`'s cost", ""]
         if "none" in found:
