@@ -144,6 +144,11 @@ static void judge(const struct cube_rays *task, const struct traced *traced, uin
     struct cube_end expected = {(double)traced->start_m[i], CUBES_NO_PLACE, END_not_traced, 0};
     struct walk_ray ray;
     const bool has_ray = walk_ray_init(&ray, &traced->grid, x, y) && !traced->finished[i];
+    if (has_ray && traced->best[i] >= traced->cubes.count) {
+        compared(finding, INFINITY, "pixel %u,%u: cube map %u is chosen of %u", x, y, traced->best[i],
+                 traced->cubes.count);
+        return;
+    }
     if (has_ray) expected = replayed(task, traced, &ray, i, 0);
     double error = same(&found, &expected, task->rules) ? apart(found.t, expected.t) : INFINITY;
     if (has_ray && !(error <= task->bound)) {

@@ -58,6 +58,7 @@ enum {
     FROM_CENTER,  /* a millionth of a metre to a millimetre from a centre */
     FROM_MASS,    /* before the walls and some metres behind them */
     FROM_OUTSIDE, /* far outside */
+    FROM_BEFORE,  /* before all blocks */
     RAYS = 8,     /* times enum clutter_rays */
     SCENE = 128,  /* times enum scene */
     ROUGH = 1024,
@@ -67,7 +68,7 @@ enum {
 
 static void check(struct trial *trial, const struct trial_case *c, const struct march_rules *rules,
                   struct selftest_finding *finding) {
-    static const double depths_m[4][2] = {{0.2, 1.5}, {1e-6, 1e-3}, {1.5, 5}, {30, 60}};
+    static const double depths_m[5][2] = {{0.2, 1.5}, {1e-6, 1e-3}, {1.5, 5}, {30, 60}, {0.1, 0.45}};
     static void (*const scenes[4])(uint32_t, const double[3], float[5]) = {room, pillars, sky, speck};
     const enum scene scene = (enum scene)(c->number / SCENE % 4);
     struct cube_rays task = {.rules = rules,
@@ -131,6 +132,9 @@ static const struct trial_case items[] = {
     MARCH("on an inner volume's face", "every start lies on it",                           FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS + VOLUME * GLINT_VOLUME_HULL, CUBE_ALONE),
     MARCH("in a box that is empty",  "inner volumes of six planes",                        FROM_AROUND + RAYS * RAYS_ANY + SCENE * ROOM + VOLUME * GLINT_VOLUME_BOX, CUBE_ALONE),
     MARCH("in a ball that is empty", "inner volumes of a sphere",                          FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS + VOLUME * GLINT_VOLUME_SPHERE, CUBE_ALONE),
+    MARCH("beside a box that is empty", "from outside of inner volumes of six planes",    FROM_MASS + RAYS * RAYS_ANY + SCENE * ROOM + VOLUME * GLINT_VOLUME_BOX, CUBE_ALONE),
+    MARCH("past a ball that is empty", "from outside of inner volumes of a sphere",       FROM_MASS + RAYS * RAYS_ANY + SCENE * PILLARS + VOLUME * GLINT_VOLUME_SPHERE, CUBE_ALONE),
+    EXACT("blocks and holes",        "every jump between texels counts as a wall",         FROM_BEFORE + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE "cubemap_trace.tolerance=1"),
     MARCH("after the screen",        "from where the screen's ray stopped",                FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, ""),
 };
 /* clang-format on */

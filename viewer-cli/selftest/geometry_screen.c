@@ -2,6 +2,7 @@
    and normals that the pass read. Where the two part on a decision, the replay is made again with its ray and its gaps rounded
    in other ways: a decision that one of these makes too was a tie, which is counted; otherwise the case fails. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,7 +25,9 @@ struct traced {
     float *travelled, *depth_m, *normal;
     uint32_t *finished, *end;
     struct walk_grid grid;
-    const struct step_rules *steps; /* NULL: texel by texel */
+    bool stepped; /* not texel by texel */
+    struct step_rules steps;
+    struct walk_rules walk;
 };
 
 static bool traced_get(struct traced *traced, struct trial *trial) {
@@ -53,8 +56,8 @@ static uint32_t replayed(const struct traced *traced, const struct walk_ray *ray
     struct walk_grid grid = traced->grid;
     grid.rounding = way ? gap_rounding : 0;
     grid.way = way;
-    return traced->steps ? stepped_end(&grid, &rounded, traced->steps, t)
-                         : walk_end(&grid, &rounded, &walk_rules_default, t);
+    return traced->stepped ? stepped_end(&grid, &rounded, &traced->steps, t)
+                           : walk_end(&grid, &rounded, &traced->walk, t);
 }
 
 /* How far apart two ends of a ray are in the picture: parts of its width, or of the start's inverse depth. */
@@ -99,11 +102,48 @@ static void judge(const struct traced *traced, uint32_t i, double bound, struct 
              because, expected);
 }
 
+/* A parameter as the words of a case set it. */
+static double value(const char *words, const char *name, double otherwise) {
+    char setting[64];
+    snprintf(setting, sizeof setting, "screen_trace.%s=", name);
+    const char *at = strstr(words, setting);
+    if (!at) return otherwise;
+    at += strlen(setting);
+    return *at == 't' ? 1 : *at == 'f' ? 0 : strtod(at, NULL);
+}
+
+static struct walk_rules walk_rules_of(const char *words) {
+    const struct walk_rules r = walk_rules_default;
+    return (struct walk_rules){value(words, "thickness", r.thickness),
+                               value(words, "thickness_m", r.thickness_m),
+                               value(words, "seam", r.seam),
+                               value(words, "jump", r.jump),
+                               value(words, "solid", r.solid),
+                               value(words, "bias", r.bias),
+                               value(words, "length_m", r.length_m),
+                               value(words, "sky", r.sky) > 0,
+                               value(words, "pass_behind", r.pass_behind) > 0};
+}
+
+static struct step_rules step_rules_of(const char *words) {
+    const struct step_rules r = step_rules_default;
+    return (struct step_rules){(uint32_t)value(words, "steps", r.steps),
+                               value(words, "growth", r.growth),
+                               value(words, "thickness", r.thickness),
+                               value(words, "bias", r.bias),
+                               value(words, "length_m", r.length_m),
+                               value(words, "pass_behind", r.pass_behind) > 0,
+                               value(words, "back_faces", r.back_faces) > 0,
+                               value(words, "interpolate", r.interpolate) > 0,
+                               value(words, "refine", r.refine) > 0,
+                               value(words, "verify", r.verify) > 0,
+                               value(words, "sky", r.sky) > 0};
+}
+
 void screen_rays(struct trial *trial, const struct plain *plain, const struct trial_case *c, uint32_t stride,
                  struct selftest_finding *finding) {
-    struct step_rules steps = step_rules_default;
-    struct traced traced = {.steps = strstr(c->use, "linear") ? &steps : NULL};
-    steps.back_faces = !strstr(c->use, "back_faces=false");
+    struct traced traced = {
+        .stepped = strstr(c->use, "linear"), .steps = step_rules_of(c->use), .walk = walk_rules_of(c->use)};
     trial_use(trial, c->use);
     trial_run(trial, plain);
     if (traced_get(&traced, trial))
@@ -131,6 +171,13 @@ static void check_rails(struct trial *trial, const struct trial_case *c, struct 
     }
 }
 
+/* All depths from half of the near plane's on, pixel beside pixel. */
+static void check_near(struct trial *trial, const struct trial_case *c, struct selftest_finding *finding) {
+    const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .seed = 1, .flat_m = {0.05, 0.5}};
+    const struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
+    screen_rays(trial, &plain, c, 1, finding);
+}
+
 static void check_stipples(struct trial *trial, const struct trial_case *c, struct selftest_finding *finding) {
     const struct clutter clutter = {.rays = (enum clutter_rays)c->number, .stipples = true, .seed = 1};
     const struct plain plain = clutter_capture(&clutter, WIDE, HIGH);
@@ -140,6 +187,8 @@ static void check_stipples(struct trial *trial, const struct trial_case *c, stru
 /* clang-format off */
 #define UNIT SCREEN_UNIT
 #define REASON SCREEN_REASON
+#define THICK " screen_trace.thickness=0.2 screen_trace.thickness_m=0.1 screen_trace.seam=0.3 screen_trace.jump=0.1 screen_trace.solid=0.4 screen_trace.bias=0.01"
+#define SHORT " screen_trace.length_m=3 screen_trace.pass_behind=false screen_trace.sky=false"
 #define TWO(name, what, check, rays) \
     {name ", texel by texel",    what, UNIT, 5e-6, REASON, check, SCREEN_DDA,    rays, false}, \
     {name ", in a pyramid",      what, UNIT, 5e-6, REASON, check, SCREEN_HIZ,    rays, false}
@@ -156,6 +205,13 @@ static const struct trial_case items[] = {
     {"rays along the view, in steps", "they stay in their pixel", UNIT, 5e-6, REASON, check_rays, EITHER_SIDE, RAYS_ON, false},
     THREE("grazing rays",           "cosines of 1e-1 to 1e-7 between normal and view",                 check_rays, RAYS_GRAZING),
     THREE("rays past the camera",   "they cross the near plane",                                       check_rays, RAYS_NEAR),
+    THREE("from before the near plane", "surfaces from half of its distance on",               check_near, RAYS_ANY),
+    {"thick surfaces, texel by texel", "all thicknesses, seams, jumps and biases others",      UNIT, 5e-6, REASON, check_rays, SCREEN_DDA THICK, RAYS_ANY, false},
+    {"thick surfaces, in a pyramid", "the same",                                               UNIT, 5e-6, REASON, check_rays, SCREEN_HIZ THICK, RAYS_ANY, false},
+    {"short rays, texel by texel",   "they end after 3 m, or behind what they come to",        UNIT, 5e-6, REASON, check_rays, SCREEN_DDA SHORT, RAYS_ANY, false},
+    {"short rays, in a pyramid",     "the same",                                               UNIT, 5e-6, REASON, check_rays, SCREEN_HIZ SHORT, RAYS_ANY, false},
+    {"short rays, in steps",         "they end after 3 m, or go on behind things, in even steps", UNIT, 5e-6, REASON, check_rays, LINEAR " screen_trace.length_m=3 screen_trace.pass_behind=true screen_trace.growth=1 screen_trace.sky=false", RAYS_ANY, false},
+    {"plain steps",                  "nearest texels, the step that goes behind decides",      UNIT, 5e-6, REASON, check_rays, LINEAR " screen_trace.interpolate=false screen_trace.refine=false screen_trace.verify=false screen_trace.thickness=0.2 screen_trace.bias=0.01 screen_trace.steps=20", RAYS_ANY, false},
     THREE("rails",                  "a pixel wide, under moves of parts of a pixel",                   check_rails, RAYS_ANY),
     THREE("stippled depth",         "checks, columns and rows of two depths",                          check_stipples, RAYS_ANY),
 };

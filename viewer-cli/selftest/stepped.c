@@ -5,7 +5,7 @@
 
 #include "ends.h"
 
-const struct step_rules step_rules_default = {32, 1.5, 0.02, 0.001, 1000, false, true};
+const struct step_rules step_rules_default = {32, 1.5, 0.02, 0.001, 1000, false, true, true, true, true, true};
 
 /* A ray by the parameter s in which its place and its inverse depth are linear: t = s z0/(1 - s toward). */
 struct stepping {
@@ -77,7 +77,7 @@ static double seen_at(struct stepping *m, double s) {
     for (int i = 0; i < 4; i++) q[i] = inverse_of(m->grid, corner[0] + (i & 1), corner[1] + (i >> 1));
     const double low = fmin(fmin(q[0], q[1]), fmin(q[2], q[3])), high = fmax(fmax(q[0], q[1]), fmax(q[2], q[3]));
     const double bent = fabs((q[3] - q[2]) - (q[1] - q[0]));
-    if (bent <= (0.02 + rounded(m)) * low && high < (2 + rounded(m)) * low)
+    if (m->rules->interpolate && bent <= (0.02 + rounded(m)) * low && high < (2 + rounded(m)) * low)
         return (1 - part[1]) * ((1 - part[0]) * q[0] + part[0] * q[1]) +
                part[1] * ((1 - part[0]) * q[2] + part[0] * q[3]);
     return q[(part[0] < 0.5 ? 0 : 1) + (part[1] < 0.5 ? 0 : 2)];
@@ -147,9 +147,9 @@ uint32_t stepped_end(const struct walk_grid *grid, const struct walk_ray *ray, c
         reason = END_behind;
         if (least_m - seen_m <= (rules->thickness + rounded(&m)) * seen_m) {
             double unused;
-            const double s_end = meeting(&m, s_front, gap_front, s, gap);
+            const double s_end = rules->refine ? meeting(&m, s_front, gap_front, s, gap) : s;
             if (!plane_at(&m, s, &unused) && rules->back_faces) reason = END_back_face;
-            else if (shows(&m, s_end)) {
+            else if (!rules->verify || shows(&m, s_end)) {
                 *t = distance_at(&m, s_end);
                 return END_hit;
             }
@@ -158,7 +158,7 @@ uint32_t stepped_end(const struct walk_grid *grid, const struct walk_ray *ray, c
         if (!rules->pass_behind) break;
     }
     *t = distance_at(&m, s_clear);
-    if (reason != m.limit || !in_sky(&m)) return reason;
+    if (reason != m.limit || !rules->sky || !in_sky(&m)) return reason;
     *t = INFINITY;
     return END_sky;
 }

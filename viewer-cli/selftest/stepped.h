@@ -7,7 +7,7 @@
 struct step_rules {
     uint32_t steps;
     double growth, thickness, bias, length_m;
-    bool pass_behind, back_faces;
+    bool pass_behind, back_faces, interpolate, refine, verify, sky;
 };
 extern const struct step_rules step_rules_default;
 /* Why the ray ends (ends.h), and its distance. */

@@ -165,7 +165,7 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
     }
 }
 
-const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 0.01, 1, 0.0001, 1e5, true};
+const struct walk_rules walk_rules_default = {0.001, 0, 0.5, 0.01, 1, 0.0001, 1e5, true, true};
 
 struct tracing {
     const struct walk_grid *grid;
@@ -215,7 +215,8 @@ static bool decide(void *user, const struct walk_cell *cell) {
     }
     if (texels_between(tracing, tracing->hidden_last, cell->t_in) > 4.25) tracing->hidden_first = cell->t_in;
     tracing->hidden_last = cell->t_out;
-    tracing->blocked = !(z_out - cell->depth_m >= rules->solid * (tracing->hidden_last - tracing->hidden_first));
+    tracing->blocked = !rules->pass_behind ||
+                       !(z_out - cell->depth_m >= rules->solid * (tracing->hidden_last - tracing->hidden_first));
     return !tracing->blocked;
 }
 

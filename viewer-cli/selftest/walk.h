@@ -54,7 +54,7 @@ double walk(const struct walk_grid *grid, const struct walk_ray *ray, double len
 /* The rules of screen_trace/dda, as its parameters say them. */
 struct walk_rules {
     double thickness, thickness_m, seam, jump, solid, bias, length_m;
-    bool sky;
+    bool sky, pass_behind;
 };
 extern const struct walk_rules walk_rules_default;
 /* Why the ray ends (ends.h), and its distance: of a ray that hits nothing, where it was last in front of all. */
