@@ -157,10 +157,9 @@ static void judge(const struct cube_rays *task, const struct traced *traced, uin
         error = fmin(error, beyond);
     }
     if (has_ray && !(farther(traced, &ray, i) <= 1e-5)) error = INFINITY;
-    compared(finding, error,
-             "pixel %u,%u: ended for reason %u in %u at %.9g m, step %u; expected %u in %u at %.9g m, step %u", x, y,
-             found.reason, found.place, found.t, found.steps, expected.reason, expected.place, expected.t,
-             expected.steps);
+    compared(finding, error, "pixel %u,%u: %s in cube map %u at %.9g m, step %u; expected %s in %u at %.9g m, step %u",
+             x, y, end_name(found.reason), found.place, found.t, found.steps, end_name(expected.reason), expected.place,
+             expected.t, expected.steps);
 }
 
 static struct glint_cubemap cube_at(uint32_t number, enum glint_volume volume) {

@@ -1,4 +1,4 @@
-/* Rays through the depth buffer, every one of a picture against a replay in double precision (walk.h, steps.h) of the depths
+/* Rays through the depth buffer, every one of a picture against a replay in double precision (walk.h, stepped.h) of the depths
    and normals that the pass read. Where the two part on a decision, the replay is made again with its ray and its gaps rounded
    in other ways: a decision that one of these makes too was a tie, which is counted; otherwise the case fails. */
 #include <math.h>
@@ -98,8 +98,8 @@ static void judge(const struct traced *traced, uint32_t i, double bound, struct 
         error = fmin(error, beyond);
     }
     if ((traced->finished[i] != 0) != (reason == END_hit || reason == END_sky)) error = INFINITY;
-    compared(finding, error, "pixel %u,%u: ended for reason %u at %.9g m, expected %u at %.9g m", x, y, reason, t,
-             because, expected);
+    compared(finding, error, "pixel %u,%u: %s at %.9g m, expected %s at %.9g m", x, y, end_name(reason), t,
+             end_name(because), expected);
 }
 
 /* A parameter as the words of a case set it. */

@@ -94,16 +94,18 @@ static void check_pipeline(struct trial *trial, const struct trial_case *c, stru
 }
 
 /* clang-format off */
-#define PIPELINE "downsample=pick downsample.jitter=false hiz=nearest lit_mips=cone sky_mips=prefilter cubemap_active=nearest cubemap_mips=prefilter cocoon=max " \
-    "screen_trace=hiz screen_trace.cells=65536 screen_trace.cells_lq=65536 cubemap_select=score cubemap_trace=march resolve=hit resolve.fog=false blur=plus temporal=rough " \
+#define PIPELINE(trace) "downsample=pick downsample.jitter=false hiz=nearest lit_mips=cone sky_mips=prefilter cubemap_active=nearest cubemap_mips=prefilter cocoon=max " \
+    trace " cubemap_select=score cubemap_trace=march resolve=hit resolve.fog=false blur=plus temporal=rough " \
     "upscale=best_match resolve_sharp=hit temporal_sharp=clamped compose=brdf"
+#define BY_HIZ PIPELINE("screen_trace=hiz screen_trace.cells=65536 screen_trace.cells_lq=65536")
+#define BY_STEPS PIPELINE("screen_trace=linear")
 #define FLOOR "every texel's ray meets the wall where the closed form has it, and shows its light; every pixel is written, and finite"
 #define FLOOR_REASON "thirty roundings of 2^-24 of the wall's depth, a division being 2.5 ULP; light errs by 5e-4 in bilinear interpolation and twice 2.4e-4 as half floats: 2e-3 of that counts"
 #define RAYS(text, n, slow) {text ", in a pyramid", "rays of every direction between boards at all angles", SCREEN_UNIT, 5e-6, SCREEN_REASON, check_rays, SCREEN_HIZ, n, slow}
-#define WHOLE(text, n, slow) {text ", whole", FLOOR, "of the depth", 2e-6, FLOOR_REASON, check_pipeline, PIPELINE, n, slow}
+#define WHOLE(text, use, n, slow) {text ", whole", FLOOR, "of the depth", 2e-6, FLOOR_REASON, check_pipeline, use, n, slow}
 static const struct trial_case items[] = {
     RAYS("1 x 1", 0, false), RAYS("7 x 3", 1, false), RAYS("641 x 359", 2, true), RAYS("1919 x 1079", 3, true),
-    WHOLE("1 x 1", 0, false), WHOLE("7 x 3", 1, false), WHOLE("641 x 359", 2, false), WHOLE("1919 x 1079", 3, true), WHOLE("3840 x 2160", 4, true),
+    WHOLE("1 x 1", BY_HIZ, 0, false), WHOLE("7 x 3", BY_HIZ, 1, false), WHOLE("641 x 359", BY_HIZ, 2, false), WHOLE("641 x 359 in steps", BY_STEPS, 2, false), WHOLE("1919 x 1079", BY_HIZ, 3, true), WHOLE("3840 x 2160", BY_HIZ, 4, true),
 };
 /* clang-format on */
 
