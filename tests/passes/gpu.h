@@ -17,7 +17,7 @@ struct gpu {
 };
 
 /* Group set-up and tear-down for cmocka: *state becomes a struct gpu with the pipeline of plain.json. The tear-down fails when the
-   validation layer said anything. */
+   validation layer said anything; GLINT_TEST_UNCHECKED in the environment leaves it out, for mutants. */
 int gpu_set_up(void **state);
 int gpu_tear_down(void **state);
 /* A fresh pipeline of plain.json. */

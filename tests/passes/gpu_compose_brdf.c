@@ -1,4 +1,4 @@
-/* compose/brdf: what does not reflect stays as it was. */
+/* compose: what does not reflect stays as it was, and what does takes the share that its material says. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -97,8 +97,89 @@ static void materials_say_how_reflectance_rises(void **state) {
     free(lit), free(reflection);
 }
 
+enum { WIDE = 48, HIGH = 32 };
+
+/* Mirrors of all kinds: metals and dielectrics, coloured, leaning to all sides, some without specular. */
+static void collect(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        const double x = i % WIDE, y = i / WIDE, lean[3] = {0.8 * sin(0.5 * x), 0.7 * cos(0.3 * x + 0.4 * y), 1};
+        const double length = sqrt(lean[0] * lean[0] + lean[1] * lean[1] + 1);
+        for (uint32_t k = 0; k < 3; ++k) {
+            values[(PLAIN_NORMAL_X + k) * pixels + i] = (float)(lean[k] / length);
+            values[(PLAIN_ALBEDO_R + k) * pixels + i] = (float)(0.1 + 0.3 * k + 0.1 * sin(x + 2 * y));
+        }
+        values[PLAIN_METALNESS * pixels + i] = (i % 3) ? 0.5f * (float)(i % 3) : 0;
+        values[PLAIN_SPECULAR * pixels + i] = (i % 5) ? 0.25f * (float)(i % 5) : 0;
+    }
+}
+
+static double at_pixel(const float *gbuffer, uint32_t i, int channel) {
+    return (double)gbuffer[9 * i + (uint32_t)channel];
+}
+
+/* Schlick's Fresnel from reflectance at normal incidence, Burley's 0.08 specular or a metal's colour, to 1, or to what is less
+   than 2 % fifty times. Of the G-buffer as it was written: normal, albedo, metalness, specular, depth. */
+static void schlick(const float *gbuffer, uint32_t i, double weight[3]) {
+    const double half = tan(30 * 3.14159265358979323846 / 180);
+    const double view[3] = {half * WIDE / HIGH * ((2.0 * (i % WIDE) + 1) / WIDE - 1),
+                            half * (1 - (2.0 * (i / WIDE) + 1) / HIGH), -1};
+    double cosine = 0, length = 0, normal = 0, most = 0, f0[3];
+    for (int k = 0; k < 3; ++k) {
+        const double n = at_pixel(gbuffer, i, k);
+        cosine -= view[k] * n, length += view[k] * view[k], normal += n * n;
+        f0[k] = 0.08 * at_pixel(gbuffer, i, 7) * (1 - at_pixel(gbuffer, i, 6)) +
+                at_pixel(gbuffer, i, 3 + k) * at_pixel(gbuffer, i, 6);
+        most = fmax(most, f0[k]);
+    }
+    cosine = fmin(fmax(cosine / sqrt(length * normal), 0), 1);
+    const double f90 = fmin(50 * most, 1);
+    for (int k = 0; k < 3; ++k) weight[k] = f0[k] + (f90 - f0[k]) * pow(1 - cosine, 5);
+}
+
+static void mirrors_compose_by_schlick(void **state) {
+    struct gpu *gpu = *state;
+    static const char *const variants[] = {"compose=brdf", "compose=contribution"};
+    for (int v = 0; v < 2; ++v) {
+        char path[256];
+        plain_capture(gpu_path(gpu, "mirrors", path),
+                      &(struct plain){.width = WIDE, .height = HIGH, .fov_y_degrees = 60, .spoil = collect});
+        gpu_load(gpu, "mirrors");
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_use(gpu, variants[v]);
+        if (v) gpu_set(gpu, "compose.modulate=false");
+        gpu_set(gpu, "compose.intensity=0.75");
+        gpu_shader(gpu, "resolve", "stand_in.comp");
+        gpu_set(gpu, "resolve.texel_scale=1");
+        gpu_run(gpu);
+        float *composed = gpu_floats(gpu, "composed", NULL, NULL), *color = gpu_floats(gpu, "reflection", NULL, NULL);
+        float *lit = gpu_part(gpu, "lit", (const char *[]){"R", "G", "B"}, 3),
+              *gbuffer = gpu_part(gpu, "gbuffer",
+                                  (const char *[]){"normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G",
+                                                   "albedo.B", "material.metalness", "material.specular", "depth.Z"},
+                                  9);
+        double worst = 0, strongest = 0;
+        for (uint32_t i = 0; i < WIDE * HIGH; ++i) {
+            double weight[3];
+            schlick(gbuffer, i, weight);
+            for (uint32_t k = 0; k < 3; ++k) {
+                const double below = (double)lit[3 * i + k], above = (double)color[4 * i + k], part = 0.75 * weight[k];
+                const double expected = v ? below + part * (above - below) : below + part * above;
+                worst = fmax(worst, fabs((double)composed[4 * i + k] - expected));
+                strongest = fmax(strongest, weight[k]);
+            }
+        }
+        print_message("# %s: worst difference %.2e, weights up to %.2f\n", variants[v], worst, strongest);
+        /* Sums of floats below 4. The environment's fit holds a mirror's terms exactly. */
+        assert_true(worst < 4e-6 && strongest > 0.9);
+        free(composed), free(color), free(lit), free(gbuffer);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(matte_stays_lit), cmocka_unit_test(matte_was_traced),
-                                       cmocka_unit_test(materials_say_how_reflectance_rises)};
+                                       cmocka_unit_test(materials_say_how_reflectance_rises),
+                                       cmocka_unit_test(mirrors_compose_by_schlick)};
     return cmocka_run_group_tests_name("gpu_compose_brdf", tests, gpu_set_up, gpu_tear_down);
 }

@@ -102,9 +102,34 @@ static void each_term_alone_and_together_decides(void **state) {
     check(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
 }
 
+/* Right in a cube map's centre no direction is more along the ray than another. */
+static void a_start_in_a_centre_has_a_score(void **state) {
+    struct gpu *gpu = *state;
+    enum { ODD = 33, MIDDLE = ODD / 2 * ODD + ODD / 2 };
+    char path[256];
+    struct plain plain = {
+        .width = ODD, .height = ODD, .fov_y_degrees = 60, .cube_size = 8, .cube_count = 2, .cube = sphere};
+    plain.cubes[0].center[0] = 2, plain.cubes[0].center[2] = -2;
+    plain.cubes[1].center[2] = -5; /* where the ray of the pixel in the middle starts */
+    plain_capture(gpu_path(gpu, "middle", path), &plain);
+    gpu_load(gpu, "middle");
+    gpu_reset(gpu);
+    gpu_use(gpu, "downsample=none");
+    gpu_use(gpu, "cubemap_select=score");
+    gpu_set(gpu, "screen_trace.length_m=0");
+    gpu_set(gpu, "downsample.jitter=false");
+    gpu_run(gpu);
+    uint32_t *best = gpu_uints(gpu, "cubemap_best", NULL, NULL), *index = gpu_uints(gpu, "active_index", NULL, NULL);
+    assert_true(best[MIDDLE] < 2);
+    assert_int_equal(index[best[MIDDLE]], 1);
+    assert_int_equal(index[best[MIDDLE + 1]], 1);
+    free(best), free(index);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_term_alone_and_together_decides),
+        cmocka_unit_test(a_start_in_a_centre_has_a_score),
     };
     return cmocka_run_group_tests_name("gpu_cubemap_select", tests, gpu_set_up, gpu_tear_down);
 }

@@ -209,6 +209,33 @@ static void rejected_tiles_contribute_nothing(void **state) {
     images_free(&images[1]);
 }
 
+static void metals(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < pixels; ++i) {
+        values[PLAIN_SPECULAR * pixels + i] = 0;
+        values[PLAIN_METALNESS * pixels + i] = i % plain->width + 1 == plain->width ? 1 : 0;
+    }
+}
+
+/* Of an odd picture the last texel's middle lies on the border: its material is that of the last pixel. A tile holds it alone. */
+static void the_last_texel_is_worth_its_own_material(void **state) {
+    struct gpu *gpu = *state;
+    enum { ODD = 65, ROWS = 32, TEXELS = (ODD + 1) / 2 };
+    char path[256];
+    set_up(gpu);
+    plain_capture(gpu_path(gpu, "metals", path),
+                  &(struct plain){.width = ODD, .height = ROWS, .fov_y_degrees = degrees, .spoil = metals});
+    gpu_load(gpu, "metals");
+    gpu_use(gpu, "downsample=bilinear");
+    gpu_use(gpu, "classify=coarse");
+    gpu_set(gpu, "classify.by_view=false");
+    gpu_run(gpu);
+    uint32_t width, *rejected = gpu_uints(gpu, "screen_rejected", &width, NULL);
+    assert_int_equal(width, TEXELS);
+    for (uint32_t i = 0; i < TEXELS * ROWS / 2; ++i) assert_int_equal(rejected[i], i % TEXELS + 1 != TEXELS);
+    free(rejected);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_attenuation_and_their_product),
@@ -216,6 +243,7 @@ int main(void) {
         cmocka_unit_test(colour_is_looked_up_where_the_ray_ends),
         cmocka_unit_test(alpha_stays_within_one_and_the_picture_a_mixture),
         cmocka_unit_test(rejected_tiles_contribute_nothing),
+        cmocka_unit_test(the_last_texel_is_worth_its_own_material),
     };
     return cmocka_run_group_tests_name("gpu_kf2", tests, gpu_set_up, gpu_tear_down);
 }

@@ -23,6 +23,12 @@ static void colored_by_direction(uint32_t number, const double direction[3], flo
     out[4] = 5;
 }
 
+/* What rays must not see through maps that are closed. */
+static void dark(const double direction[3], float out[3]) {
+    (void)direction;
+    out[0] = out[1] = out[2] = 0;
+}
+
 static void load(struct gpu *gpu) {
     char path[256];
     const struct plain plain = {.width = 16,
@@ -32,7 +38,8 @@ static void load(struct gpu *gpu) {
                                 .color_only = true,
                                 .cube_size = SIZE,
                                 .cube_count = 2,
-                                .cube = colored_by_direction};
+                                .cube = colored_by_direction,
+                                .sky = dark};
     plain_capture(gpu_path(gpu, "directions", path), &plain);
     gpu_load(gpu, "directions");
     gpu_reset(gpu);
@@ -166,6 +173,41 @@ static void filled_levels_meet_at_the_rim(void **state) {
     assert_true(dark[1] <= 0.13 && dark[0] > 2 * dark[1]);
 }
 
+/* A texel of a coarser level is the mean of four, by the solid angle that each stands for: of a place at r from the middle, in
+   radii of the disc, 4/(1 + r²)² times its area. */
+static void levels_are_means_by_solid_angle(void **state) {
+    struct gpu *gpu = *state;
+    for (int by_angle = 0; by_angle < 2; ++by_angle) {
+        load(gpu);
+        gpu->float_precision = true;
+        gpu_set(gpu, by_angle ? "cubemap_convert.solid_angle=true" : "cubemap_convert.solid_angle=false");
+        gpu_run(gpu);
+        float *fine = gpu_floats(gpu, "paraboloids", NULL, NULL);
+        double worst = 0;
+        for (int level = 1, size = SIZE / 2; level < 6; ++level, size /= 2) {
+            char name[32];
+            snprintf(name, sizeof name, "paraboloids.level%d", level);
+            float *coarse = gpu_floats(gpu, name, NULL, NULL);
+            for (int i = 0; i < 4 * size * size; ++i) {
+                double sum[4] = {0}, total = 0;
+                for (int c = 0; c < 4; ++c) {
+                    const int x = 2 * (i % size) + c % 2, y = 2 * (i / size) + c / 2;
+                    const double u = ((x + 0.5) / size - 1) / disc, v = ((y % (2 * size) + 0.5) / size - 1) / disc;
+                    const double weight = by_angle ? 4 / pow(1 + u * u + v * v, 2) : 1;
+                    for (int k = 0; k < 4; ++k) sum[k] += weight * (double)fine[4 * (y * 2 * size + x) + k];
+                    total += weight;
+                }
+                for (int k = 0; k < 4; ++k) worst = fmax(worst, fabs((double)coarse[4 * i + k] - sum[k] / total));
+            }
+            free(fine);
+            fine = coarse;
+        }
+        free(fine);
+        print_message("# %s: worst difference %.2g\n", by_angle ? "by solid angle" : "by area", worst);
+        assert_true(worst < 1e-6); /* sums of four floats below 1 */
+    }
+}
+
 static void rays_see_the_direction_they_go_in(void **state) {
     struct gpu *gpu = *state;
     load(gpu);
@@ -194,6 +236,7 @@ int main(void) {
         cmocka_unit_test(directions_come_back),
         cmocka_unit_test(the_rim_has_more_texels_than_the_pole),
         cmocka_unit_test(filled_levels_meet_at_the_rim),
+        cmocka_unit_test(levels_are_means_by_solid_angle),
         cmocka_unit_test(rays_see_the_direction_they_go_in),
     };
     return cmocka_run_group_tests_name("gpu_paraboloid", tests, gpu_set_up, gpu_tear_down);

@@ -1,0 +1,136 @@
+/* blur/mips against its definition in double precision: boxes of boxes, between which a pixel's cone chooses. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { SIZE = 128, HALF = SIZE / 2, LEVELS = 7 };
+
+/* Roughness in stripes, depths in steps of a third; a corner is sky. */
+static void stripes(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        const uint32_t x = i % SIZE / 2, y = i / SIZE / 2;
+        values[PLAIN_ROUGHNESS * pixels + i] = 0.1f * (float)(x / 4 % 8);
+        values[i] = x < 12 && y < 9 ? INFINITY : 3 + (float)(y / 16);
+    }
+}
+
+static void far_away(uint32_t number, const double direction[3], float out[5]) {
+    (void)number;
+    for (int k = 0; k < 4; ++k) out[k] = 1;
+    out[4] = direction[0] > 0 ? 40 : INFINITY;
+}
+
+/* R, weight, of each level. */
+struct chain {
+    double texels[LEVELS][HALF * HALF][2];
+};
+
+static void build(struct chain *chain, const float *color, const float *depth) {
+    for (size_t i = 0; i < HALF * HALF; ++i) {
+        const bool usable = isfinite(depth[i]) && isfinite(color[4 * i]);
+        chain->texels[0][i][0] = usable ? (double)color[4 * i] : 0;
+        chain->texels[0][i][1] = usable;
+    }
+    for (int l = 1; l < LEVELS; ++l) {
+        const size_t width = HALF >> l;
+        for (size_t i = 0; i < width * width; ++i)
+            for (int k = 0; k < 2; ++k) {
+                double sum = 0;
+                for (size_t c = 0; c < 4; ++c)
+                    sum += chain->texels[l - 1][(2 * (i / width) + c / 2) * 2 * width + 2 * (i % width) + c % 2][k];
+                chain->texels[l][i][k] = sum / 4;
+            }
+    }
+}
+
+/* Bilinear around a place in pixels of level 0, held at the border. */
+static void tap(const struct chain *chain, int level, double x, double y, double out[2]) {
+    const int width = HALF >> level;
+    const double u = x / (1 << level) - 0.5, v = y / (1 << level) - 0.5, left = floor(u), top = floor(v);
+    out[0] = out[1] = 0;
+    for (int c = 0; c < 4; ++c) {
+        const int column = (int)fmin(fmax(left + c % 2, 0), width - 1),
+                  row = (int)fmin(fmax(top + c / 2, 0), width - 1);
+        const double part = (c % 2 ? u - left : 1 - u + left) * (c / 2 ? v - top : 1 - v + top);
+        for (int k = 0; k < 2; ++k) out[k] += part * chain->texels[level][row * width + column][k];
+    }
+}
+
+/* The cone at the reflection's image, which lies as far behind the surface as the ray went, in texels. */
+static double level_of(size_t i, double depth_m, double travelled_m, double cone, uint32_t pick, double widest) {
+    const double half = tan(30 * 3.14159265358979323846 / 180);
+    const double x = half * ((2 * (2 * (double)(i % HALF) + (pick & 1)) + 1) / SIZE - 1),
+                 y = half * ((2 * (2 * (double)(i / HALF) + (pick >> 1)) + 1) / SIZE - 1);
+    const double away_m = depth_m * sqrt(1 + x * x + y * y);
+    const double part = isfinite(travelled_m) ? travelled_m / (travelled_m + away_m) : 1;
+    const double radius = tan(fmin(cone, 1.57)) * part / (2 * half) * HALF;
+    return log2(fmax(fmin(radius, 0.5 * widest * HALF), 1));
+}
+
+static void a_cone_chooses_between_boxes(void **state) {
+    struct gpu *gpu = *state;
+    static const double widths[] = {0.25, 0.05};
+    for (int w = 0; w < 2; ++w) {
+        char path[256];
+        plain_capture(gpu_path(gpu, "stripes", path), &(struct plain){.width = SIZE,
+                                                                      .height = SIZE,
+                                                                      .fov_y_degrees = 60,
+                                                                      .spoil = stripes,
+                                                                      .cube_size = 8,
+                                                                      .cube_count = 1,
+                                                                      .cube = far_away});
+        gpu_load(gpu, "stripes");
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_set(gpu, "downsample.share=0");
+        gpu_use(gpu, "blur=mips");
+        gpu_set(gpu, w ? "blur.widest=0.05" : "blur.widest=0.25");
+        gpu_shader(gpu, "resolve", "stand_in.comp");
+        gpu_set(gpu, "resolve.texel_scale=2");
+        gpu_run(gpu);
+        float *color = gpu_floats(gpu, "reflection_half", NULL, NULL),
+              *depth = gpu_floats(gpu, "depth_half", NULL, NULL), *travelled = gpu_floats(gpu, "travelled", NULL, NULL),
+              *cone = gpu_floats(gpu, "cone_half", NULL, NULL),
+              *found = gpu_floats(gpu, "reflection_blurred", NULL, NULL);
+        uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL);
+        static struct chain chain;
+        build(&chain, color, depth);
+        double worst = 0, sharpest = INFINITY, widest = 0;
+        for (size_t i = 0; i < HALF * HALF; ++i) {
+            if (!isfinite(depth[i])) {
+                assert_true(found[4 * i] == (isfinite(color[4 * i]) ? color[4 * i] : 0));
+                continue;
+            }
+            const double level =
+                level_of(i, (double)depth[i], (double)travelled[i], (double)cone[i], pick[i], widths[w]);
+            const int fine = (int)floor(level);
+            double a[2], b[2], mean[2];
+            tap(&chain, fine, (double)(i % HALF) + 0.5, (double)(i / HALF) + 0.5, a);
+            tap(&chain, fine + 1, (double)(i % HALF) + 0.5, (double)(i / HALF) + 0.5, b);
+            for (int k = 0; k < 2; ++k) mean[k] = a[k] + (level - fine) * (b[k] - a[k]);
+            if (mean[1] > 0) worst = fmax(worst, fabs((double)found[4 * i] - mean[0] / mean[1]));
+            sharpest = fmin(sharpest, level), widest = fmax(widest, level);
+        }
+        print_message("# up to %g of the width: levels %.2f to %.2f, worst difference %.4f\n", widths[w], sharpest,
+                      widest, worst);
+        /* Vulkan lets filters and levels have weights in steps of 1/256: two, of colours up to 2, over weights of which those
+           of a hundredth of the texels are missing. */
+        assert_true(worst < 3 * 2.0 / 256 && sharpest == 0 && widest > (w ? 0.6 : 2.9));
+        free(color), free(depth), free(travelled), free(cone), free(found), free(pick);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_cone_chooses_between_boxes)};
+    return cmocka_run_group_tests_name("gpu_blur_mips", tests, gpu_set_up, gpu_tear_down);
+}
