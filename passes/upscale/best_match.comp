@@ -68,8 +68,8 @@ void store(ivec2 pixel, Pixel p, bool found, ivec2 own, ivec2 best) {
 
 // The best of the texels around, relative to the pixels' own. The four nearest are the own one and those on the pixel's side
 // of it. On even surfaces two texels are often as good: what is better by less than the rounding of half floats can make up
-// does not decide, but the order does.
-const float ALIKE = 1e-3;
+// does not decide, but the order does. Normals are apart by the square of that; equal roughnesses by two half steps, 2^-11.
+const float ALIKE = 1e-3, ROUNDING = 1.0 / 2048.0;
 void match_block(ivec2 own) {
     ivec2 size = ivec2(frame.size.xy);
     vec4 depths_m = textureGather(sampler2D(depth_full, nearest_clamp), vec2(2 * own + 1) / vec2(size)).wzxy;
@@ -79,6 +79,7 @@ void match_block(ivec2 own) {
         p[i] = pixel_at(pixel, depths_m[i], texelFetch(normal_full, min(pixel, size - 1), 0));
     }
     vec4 least = vec4(LARGEST);
+    float alike = ALIKE + roughness_weight * ROUNDING;
     ivec2 best[4] = ivec2[](ivec2(0), ivec2(0), ivec2(0), ivec2(0));
     ivec2 middle = ivec2(gl_LocalInvocationID.xy) + 1;
     for (int n = 0; n < 9; ++n) {
@@ -90,7 +91,7 @@ void match_block(ivec2 own) {
             ivec2 side = 2 * ivec2(i & 1, i >> 1) - 1;
             if (!around && (beside.x == -side.x || beside.y == -side.y)) continue;
             float c = cost(p[i], surface, place);
-            if (c < least[i] - ALIKE) {
+            if (c < least[i] - alike) {
                 least[i] = c;
                 best[i] = beside;
             }

@@ -97,9 +97,44 @@ static void rough_pixels_keep_what_was_upscaled(void **state) {
     free(source);
 }
 
+/* Half a step of a half float, up or down. */
+static void rounded(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i)
+        values[PLAIN_ROUGHNESS * pixels + i] += (i * 2654435761U >> 20 & 1 ? 1.0F : -1.0F) / 4096;
+}
+
+/* On an even wall every sample fits; which one a pixel takes must not hang on the last bit of how rough it is. */
+static void rounding_of_roughness_chooses_no_other_sample(void **state) {
+    struct gpu *gpu = *state;
+    float *color[2];
+    size_t other = 0;
+    for (int i = 0; i < 2; ++i) {
+        char path[256];
+        plain_capture(
+            gpu_path(gpu, "wall", path),
+            &(struct plain){
+                .width = SIZE, .height = SIZE, .roughness = 0.75F, .fov_y_degrees = 60, .spoil = i ? rounded : NULL});
+        gpu_load(gpu, "wall");
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_use(gpu, "upscale=best_match");
+        gpu_shader(gpu, "resolve", "stand_in.comp");
+        gpu_set(gpu, "resolve.texel_scale=1"); /* another colour in each sample */
+        gpu_run(gpu);
+        color[i] = gpu_floats(gpu, "reflection", NULL, NULL);
+    }
+    for (size_t i = 0; i < 4 * SIZE * SIZE; ++i) other += color[0][i] != color[1][i];
+    print_message("# %zu of %d pixels take another sample\n", other / 3, SIZE * SIZE);
+    assert_true(other == 0 && color[0][0] > 0);
+    free(color[0]);
+    free(color[1]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_takes_a_sample_of_its_own_surface),
+        cmocka_unit_test(rounding_of_roughness_chooses_no_other_sample),
         cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),
         cmocka_unit_test(rough_pixels_keep_what_was_upscaled),
     };
