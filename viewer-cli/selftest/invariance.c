@@ -1,6 +1,7 @@
 /* The group "invariance": one court under every convention that FORMAT.md allows, replayed to the same picture. */
 #include <math.h>
 
+#include "numbers_depth.h"
 #include "same.h"
 
 /* ---- The world's axes ---- */
@@ -107,6 +108,20 @@ static const struct same moves[] = {
     {"packed motion", "16 bits", {.encodings.motion = GLINT_MOTION_PACKED16}, 4.5e-4, .reason = "half a step of 1/32767 is 1.5e-3 pixels in each of two frames, over a history that changes by 0.15 a pixel"},
     {"packed motion of depth", "16 bits for metres", {.encodings.motion_depth = GLINT_MOTION_DEPTH_PACKED16}, 2e-5, .reason = ROUNDED},
 };
+
+/* Whole presets with a mirror: rough surfaces draw directions about the world's axes, and so does the cocoon of mafia3 its taps. */
+static const struct same wholes[] = {
+    {"anything, mafia3", "conventions drawn by chance, all at once, but for the world's axes", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything_unturned},
+};
+static const struct same wholes_kf2[] = {
+    {"anything, kf2", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
+};
+static const struct same wholes_gtav[] = {
+    {"anything, gtav", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
+};
+static const struct same wholes_mafia_de[] = {
+    {"anything, mafia_de", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
+};
 /* clang-format on */
 
 #define CASES(list) .cases = list, .count = sizeof list / sizeof *list
@@ -118,25 +133,54 @@ static const struct same_kind kinds[] = {
      .frames = 3,
      .usual = {.roughness = 0.3f, .travel_m = {0.05, 0.01, -0.03}},
      CASES(moves)},
+    {.preset = "mafia3", .image = "composed", CASES(wholes)},
+    {.preset = "kf2", .image = "composed", CASES(wholes_kf2)},
+    {.preset = "gtav", .image = "composed", CASES(wholes_gtav)},
+    {.preset = "mafia_de", .image = "composed", CASES(wholes_mafia_de)},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static size_t count(void) {
+/* ---- Resolution ---- */
+
+static const struct resolution {
+    const char *name, *what, *downsample;
+    uint32_t width, height;
+} resolutions[] = {
+    /* clang-format off */
+    {"half of 192 x 128", "half the resolution, of a picture twice as wide: the double replay's answer", "downsample=pick", 192, 128},
+    {"all of 96 x 64", "the same number of rays, of a picture half as wide: the double replay's answer", "downsample=none", 96, 64},
+    /* clang-format on */
+};
+enum { RESOLUTIONS = sizeof resolutions / sizeof *resolutions };
+
+static size_t same_count(void) {
     size_t all = 0;
     for (size_t k = 0; k < KINDS; k++) all += kinds[k].count;
     return all;
 }
+static size_t count(void) {
+    return same_count() + RESOLUTIONS;
+}
 static struct selftest_case get(size_t i) {
     size_t k = 0;
-    while (i >= kinds[k].count) i -= kinds[k++].count;
-    return same_case(&kinds[k].cases[i]);
+    for (; k < KINDS && i >= kinds[k].count; k++) i -= kinds[k].count;
+    if (k < KINDS) return same_case(&kinds[k].cases[i]);
+    struct selftest_case c = numbers_depth_get(0); /* the same claim, unit and bound */
+    c.name = resolutions[i].name, c.what = resolutions[i].what;
+    return c;
 }
 
 static bool run(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
                 struct glint_error *err) {
     bool ok = true;
-    for (size_t k = 0, first = 0; ok && k < KINDS; first += kinds[k++].count)
+    size_t first = 0;
+    for (size_t k = 0; ok && k < KINDS; first += kinds[k++].count)
         ok = same_run(test, &kinds[k], chosen + first, findings + first, err);
+    for (size_t i = 0; ok && i < RESOLUTIONS; i++) {
+        const struct court court = {.width = resolutions[i].width, .height = resolutions[i].height};
+        if (!chosen[same_count() + i]) continue;
+        ok = numbers_depth_check(test, &court, resolutions[i].downsample, &findings[same_count() + i], err);
+    }
     return ok;
 }
 

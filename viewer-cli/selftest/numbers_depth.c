@@ -149,19 +149,41 @@ static void check(struct tally *t, const double place[2], float depth_found, boo
     (hits ? check_hit : check_rest)(t, &c, place, &ray, finished, travelled);
 }
 
-static bool run_case(struct pictures *pictures, struct tally *tally, struct glint_error *err) {
+static bool check_all(struct pictures *pictures, struct tally *tally, struct glint_error *err) {
     struct picture_of depth = {0}, pick = {0}, finished = {0}, travelled = {0};
     bool ok = pictures_court(pictures, tally->court, err) && pictures_read(pictures, "depth_half", &depth, err) &&
               pictures_read(pictures, "pick", &pick, err) &&
               pictures_read(pictures, "screen_finished", &finished, err) &&
               pictures_read(pictures, "screen_travelled", &travelled, err);
+    const uint32_t scale = ok ? (court_of(tally->court).width + depth.width - 1) / depth.width : 1;
     for (uint32_t y = 0; ok && y < depth.height; y++)
         for (uint32_t x = 0; x < depth.width; x++) {
             const size_t i = (size_t)y * depth.width + x;
-            const double place[2] = {2 * x + (pick.whole[i] & 1) + 0.5, 2 * y + (pick.whole[i] >> 1) + 0.5};
+            const uint32_t chosen = scale == 1 ? 0 : pick.whole[i];
+            const double place[2] = {scale * x + (chosen & 1) + 0.5, scale * y + (chosen >> 1) + 0.5};
             check(tally, place, depth.values[i], finished.whole[i], travelled.values[i]);
         }
     free(depth.values), free(pick.values), free(finished.values), free(travelled.values);
+    return ok;
+}
+
+static bool begin(struct pictures *pictures, const struct selftest *test, const struct trace *trace,
+                  struct glint_error *err) {
+    return pictures_begin(pictures, test, trace->slots, err) &&
+           glint_pipeline_use(pictures->pipeline, trace->use, err) &&
+           glint_pipeline_set(pictures->pipeline, trace->set, err);
+}
+
+bool numbers_depth_check(const struct selftest *test, const struct court *court, const char *downsample,
+                         struct selftest_finding *finding, struct glint_error *err) {
+    bool ok = true;
+    for (size_t v = 0; ok && v < sizeof traces / sizeof *traces; v++) {
+        struct pictures pictures = {0};
+        struct tally tally = {court, &traces[v], finding};
+        ok = begin(&pictures, test, &traces[v], err) && glint_pipeline_use(pictures.pipeline, downsample, err) &&
+             check_all(&pictures, &tally, err);
+        pictures_end(&pictures);
+    }
     return ok;
 }
 
@@ -170,13 +192,11 @@ bool numbers_depth_run(const struct selftest *test, const bool *chosen, struct s
     bool ok = true;
     for (size_t v = 0; ok && v < (test->quick ? 1 : sizeof traces / sizeof *traces); v++) {
         struct pictures pictures = {0};
-        ok = pictures_begin(&pictures, test, traces[v].slots, err) &&
-             glint_pipeline_use(pictures.pipeline, traces[v].use, err) &&
-             glint_pipeline_set(pictures.pipeline, traces[v].set, err) &&
+        ok = begin(&pictures, test, &traces[v], err) &&
              glint_pipeline_set(pictures.pipeline, "downsample.edges=false", err);
         for (size_t i = 0; ok && i < numbers_depth_count(); i++) {
             struct tally tally = {&cases[i].court, &traces[v], &findings[i]};
-            if (chosen[i]) ok = run_case(&pictures, &tally, err);
+            if (chosen[i]) ok = check_all(&pictures, &tally, err);
         }
         pictures_end(&pictures);
     }
