@@ -14,6 +14,7 @@
 #define PRESET(name, reach) {"bad pixels of every kind, " name, "14 kinds in pixels of the floor: every other pixel is as without them, and all are finite", name, .list = KINDS, .roughness = 0.3f, .reach_px = reach, .bound = 1e-6, .reason = ROUNDS}
 #define SKY(name) {"stale channels under sky, " name, "normals, roughness, colours and motion of the sky's pixels, which mean nothing: nothing changes", name, .where = GARBAGE_SKY, .list = {{"gbuffer", "normal.X", NAN}, {"gbuffer", "normal.Y", 1e9f}, {"gbuffer", "normal.Z", -1}, {"gbuffer", "material.roughness", INFINITY}, {"gbuffer", "material.metalness", NAN}, {"gbuffer", "material.specular", 1}, {"gbuffer", "albedo.R", INFINITY}, {"gbuffer", "albedo.G", 1}, {"gbuffer", "albedo.B", NAN}, {"gbuffer", "motion.X", NAN}, {"gbuffer", "motion.Y", 5}}, .roughness = 0.3f, .frames = 2, .reason = "nothing reads them"}
 #define LIGHT(name, with, bare, last, bad, part, value) {name, "two pixels of walls: what does not mirror them is as without them, and all but them are finite", with, .direct = bare, .where = GARBAGE_WALL, .list = {{part, "G", value}}, .roughness = 0.05f, .frames = last, .bad_frame = bad, .reach_px = 16, .bound = 1e-6, .reason = ROUNDS}
+#define ROUGH(name, part, only, place, last) {name, "what many rays of a rough floor look at, in pixels of walls or in a texel: all but it is finite", "mafia3", only, .where = place, .list = {{part, "G", NAN}}, .roughness = 0.5f, .frames = last, .bad_frame = 1, .cube_size = 64, .reach_px = INFINITY, .reason = "filters drop it"}
 #define TEXEL(name, with, bare, channel, value) {name, "one texel of each cube map, and no screen: rays that end elsewhere bring what they do without it", with, bare ? NULL : "screen_trace.length_m=0", .cube_size = bare ? 32 : 64, .direct = bare, .where = GARBAGE_TEXEL, .list = {{"cubemap", channel, value}}, .roughness = 0.05f, .bound = 1e-6, .reason = ROUNDS}
 
 static const struct garbage_case bads[] = {
@@ -36,6 +37,9 @@ static const struct garbage_case bads[] = {
     SKY("mafia3"), SKY("kf2"), SKY("gtav"), SKY("mafia_de"),
     LIGHT("light NaN", "mafia3", false, 1, 1, "lit", NAN),
     LIGHT("light infinite", "mafia3", false, 1, 1, "lit", INFINITY),
+    ROUGH("light NaN, rough floor", "lit", NULL, GARBAGE_WALL, 1),
+    ROUGH("light NaN in the first frame, rough floor", "lit", NULL, GARBAGE_WALL, 2),
+    ROUGH("cube colour NaN, rough floor", "cubemap", "screen_trace.length_m=0", GARBAGE_TEXEL, 1),
     LIGHT("light NaN, kf2", "kf2", true, 1, 1, "scene", NAN),
     LIGHT("light NaN, mafia_de", "mafia_de", true, 1, 1, "lit", NAN),
     LIGHT("light of 10^6", "mafia3", false, 1, 1, "lit", 1e6f),

@@ -27,7 +27,7 @@ struct garbage_case {
     uint32_t cube_size;         /* 0: the court's own */
     uint32_t frames, bad_frame; /* of a shot, compared is the last; 0: 1, the last */
     bool direct;                /* pixels within reach depend on bad values directly, nothing is between */
-    double reach_px, bound;
+    double reach_px, bound;     /* infinite: every pixel may change */
     const char *reason;
 };
 

@@ -130,7 +130,8 @@ void garbage_mask(const struct garbage_case *c, const struct court *court, const
         for (uint32_t x = 0; x < court->width; x++) {
             const double place[2] = {x + 0.5, y + 0.5};
             const bool near =
-                c->where == GARBAGE_TEXEL ? near_texel(court, travelled, x, y) : near_bad(c, court, place, c->reach_px);
+                c->reach_px > court->width || (c->where == GARBAGE_TEXEL ? near_texel(court, travelled, x, y)
+                                                                         : near_bad(c, court, place, c->reach_px));
             const bool bad = c->where == GARBAGE_WALL && near_bad(c, court, place, 0);
             effects[(size_t)y * court->width + x] = bad || (near && c->direct) ? GARBAGE_SPOILS
                                                     : near                     ? GARBAGE_CHANGES
