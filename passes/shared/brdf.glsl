@@ -23,7 +23,7 @@ float face_reflectance(float cosine, float index) {
 // height-correlated Smith masking and Schlick's Fresnel: x scales F0, y scales F90. A least-squares fit of our own: what
 // masking loses of a white surface, over (1 - s), and what roughness takes from Fresnel's (1 - cosine)^5, over (1 - s),
 // are cubic in s = cosine/(cosine + alpha) and in alpha or roughness. A mirror (s = 1) is exact. Farther than 0.025 in x
-// and 0.016 in y it is from the integral nowhere (tests/passes/gpu_functions.c); the common fits are 0.1 to 0.4 off at
+// and 0.016 in y it is from the integral nowhere (glint selftest); the common fits are 0.1 to 0.4 off at
 // grazing angles.
 vec2 environment_brdf(float roughness, float cosine) {
     const mat4 lost = mat4(0.0071, -0.0093, 0.0077, 0.0032,

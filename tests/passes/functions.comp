@@ -24,10 +24,6 @@ vec3 unit_vector(int i) {
 
 vec4 evaluate(int row, int i) {
     vec4 u = random4(uvec2(i, row), 1u, 2u);
-    if (row == ROW_BRDF) {
-        float r = float(i % 16) / 15.0, cosine = (float(i / 16) + 0.5) / 16.0;
-        return vec4(r, cosine, environment_brdf(r, cosine));
-    }
     if (row == ROW_EXACT_MIRROR) {
         vec3 h = sample_blinn_phong(u.xy, 0.0, u.z, THRESHOLD);
         vec3 g = sample_ggx_visible(u.xy, unit_vector(i), 0.0, 1.0);

@@ -1,11 +1,10 @@
 /* The table of functions.comp, read by C and GLSL. */
-#define ROW_BRDF 0
-#define ROW_EXACT_MIRROR 1
-#define ROW_GRAZING 2
-#define ROW_VISIBLE 3 /* and the 31 after it */
+#define ROW_EXACT_MIRROR 0
+#define ROW_GRAZING 1
+#define ROW_VISIBLE 2 /* and the 31 after it */
 #define ROW_POINTS                                                                                                     \
-    35 /* of the same pixel's rays: x and y of the first ones, z and w of the stretch after RAYS_SPREAD */
-#define ROWS 36
+    34 /* of the same pixel's rays: x and y of the first ones, z and w of the stretch after RAYS_SPREAD */
+#define ROWS 35
 #define COLUMNS 256
 #define VISIBLE_ANGLE 1.2
 #define VISIBLE_ALPHA 0.35
