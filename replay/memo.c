@@ -90,7 +90,8 @@ static bool given_key(const struct run *run, size_t i, uint64_t *key, struct gli
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
     const struct glint_pass *pass = step->pass->pass;
     if (!spirv_find(&step->spirv, &run->replay->device->shaders, step->pass->entry, err) ||
-        !constants_init(&step->constants, &run->graph, step->pass, run->options->diagnostics, err))
+        !constants_init(&step->constants, &run->graph, step->pass, run->options->diagnostics,
+                        !run->options->float_precision, err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
     /* The first constant switches diagnostics on, which changes nothing else; what a user's shader makes of it is not known. */

@@ -24,7 +24,7 @@ struct constants {
     uint32_t push_count;
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
-                    bool diagnostics, struct glint_error *err);
+                    bool diagnostics, bool halves, struct glint_error *err);
 
 struct program {
     uint64_t key;

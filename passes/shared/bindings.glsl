@@ -25,6 +25,7 @@
 // frame.flags.x is 1; otherwise they are stand-ins of one texel with the image's "nothing" value.
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
+layout(constant_id = 3) const bool halves = true; // images declared as halves are that, and not floats instead
 #define PASS(title, source)
 #define SLOT(title)
 #define READ(kind, name) layout(set = 0, binding = __LINE__) uniform kind name;

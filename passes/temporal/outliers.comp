@@ -50,6 +50,6 @@ void main() {
         if (most > 0.0 && bright > most) color.rgb *= most / bright;
         color = joined(past_of(pixel, center), color, age);
     }
-    imageStore(reflection_temporal, pixel, color);
+    imageStore(reflection_temporal, pixel, halves ? nearest_half(color) : color);
     imageStore(temporal_age, pixel, vec4(age));
 }

@@ -41,6 +41,6 @@ void main() {
         if (past.age == 0.0 && extra) color = with_extra(pixel, center, color, age);
         color = joined(past, color, age);
     }
-    imageStore(reflection_temporal, pixel, color);
+    imageStore(reflection_temporal, pixel, halves ? nearest_half(color) : color);
     imageStore(temporal_age, pixel, vec4(age));
 }

@@ -57,5 +57,6 @@ void main() {
             color = finite(color) ? mix(past, color, 1.0 / (longest + 1.0)) : past;
         }
     }
-    imageStore(reflection_stable, pixel, finite(color) ? color : vec4(0.0));
+    if (!finite(color)) color = vec4(0.0);
+    imageStore(reflection_stable, pixel, halves ? nearest_half(color) : color);
 }

@@ -141,10 +141,8 @@ static void random_numbers_are_uniform_and_inside(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roughness_zero_is_an_exact_mirror),
-        cmocka_unit_test(without_specular_nothing_reflects),
-        cmocka_unit_test(points_of_a_pixels_rays_are_a_net),
-        cmocka_unit_test(visible_normals_follow_their_density),
+        cmocka_unit_test(roughness_zero_is_an_exact_mirror),     cmocka_unit_test(without_specular_nothing_reflects),
+        cmocka_unit_test(points_of_a_pixels_rays_are_a_net),     cmocka_unit_test(visible_normals_follow_their_density),
         cmocka_unit_test(random_numbers_are_uniform_and_inside),
     };
     return cmocka_run_group_tests_name("gpu_functions", tests, evaluate, release);

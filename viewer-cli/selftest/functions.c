@@ -104,7 +104,7 @@ static const char *const shared[] = {"constants",  "stable",     "random", "baye
                                      "cone",       "cubemap",    "edges",  "facet", "fog",        "sampling", "levels",
                                      "cube_chain", "paraboloid", "plus",   "reuse", "steps"};
 static const char helpers[] = "mat2x3 frame_of(vec3 n) { vec3 t, b; tangent_frame(n, t, b); return mat2x3(t, b); }\n"
-                              "vec4 halves(uvec4 v) { uvec2 w = v.xz ^ v.yw; return vec4(w.x >> 16u, w.x & 0xFFFFu, "
+                              "vec4 words(uvec4 v) { uvec2 w = v.xz ^ v.yw; return vec4(w.x >> 16u, w.x & 0xFFFFu, "
                               "w.y >> 16u, w.y & 0xFFFFu); }\n";
 static const char tail[] =
     "    return y;\n" /* one for all: a device may nest what follows a return, and some count how deep */

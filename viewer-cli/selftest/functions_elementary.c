@@ -56,6 +56,19 @@ static void expect_unit(const double *x, double *y) {
     const double v[3] = {x[0] / most, x[1] / most, x[2] / most}, l = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     for (int k = 0; k < 3; k++) y[k] = v[k] / l;
 }
+/* Steps of 2^-10 of the power of two below, and of 2^-24 below 2^-14; a half at most is 65504. */
+static void expect_nearest_half(const double *x, double *y) {
+    int exponent;
+    for (int k = 0; k < 4; k++) {
+        frexp(x[k], &exponent);
+        const double apart = ldexp(1, exponent < -13 ? -24 : exponent - 11);
+        y[k] = fabs(x[k]) < 65504 ? apart * nearbyint(x[k] / apart) : x[k]; /* ties to even */
+    }
+}
+static void ties_of_halves(float *x) {
+    x[2] = (float)(1024 + floor((double)x[2])) + 0.5f; /* between two of them */
+    if (x[3] < 0) x[3] = NAN;
+}
 static void expect_finite(const double *x, double *y) {
     y[0] = isfinite(x[0]) && fabs(x[0]) < 3e38;
 }
@@ -163,6 +176,9 @@ static const struct function list[] = {
     {"unit vectors", "of vectors as short and as long as floats are", "unit(a.xyz), 0.0", "x y z length",
      {{LOG, 1e-3, 1, ZERO | NEGATIVE}, {LOG, 1e-3, 1, NEGATIVE}, {LINEAR, 0.1, 1, 0}, {LOG, 1e-35, 3e38, 0}}, vector_of_any_length,
      expect_unit, 3, ABSOLUTE, 5e-7, "a division, 2.5 ULP, an inverse root, 2 ULP (Vulkan), of numbers up to 1"},
+    {"nearest half", "what an image of halves holds, ties to even, small and huge ones too", "nearest_half(a)", "x y tie z",
+     {{LOG, 1e-9, 1e6, ZERO | ENDLESS | NEGATIVE}, {LOG, 3e-8, 3e-4, NEGATIVE}, {LINEAR, 0, 1023, 0}, {LOG, 65000, 66000, ENDLESS | NEGATIVE}}, ties_of_halves,
+     expect_nearest_half, 4, ABSOLUTE, 0, "exact"},
     {"finite colours", "which values may take part in a mean", "finite(vec4(0.0, a.x, 0.0, 1.0))", "x nan",
      {{LOG, 1e-38, 3.39e38, ZERO | ENDLESS | NEGATIVE}, {LINEAR, 0, 1, 0}}, sometimes_nan, expect_finite, 1, ABSOLUTE, 0, "a decision"},
 

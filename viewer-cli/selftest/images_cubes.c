@@ -243,7 +243,7 @@ static struct cocoon_point point_of(uint32_t x, uint32_t y) {
     struct cocoon_point p;
     double u[4], w[4], l = 0;
     random4(x, y, 1, u), random4(x, y, 2, w);
-    p.scale = u[3] < 0.5 ? 1 : 40; /* some start far outside */
+    p.scale = u[3] < 0.05 ? 0 : u[3] < 0.2 ? 0.05 : u[3] < 0.5 ? 1 : 40; /* in the centre to far outside */
     p.place = w[3] < 0.5 ? 0 : 1;
     for (int k = 0; k < 3; k++) p.v[k] = (2 * u[k] - 1) * p.scale;
     for (int k = 0; k < 3; k++) l += (2 * w[k] - 1) * (2 * w[k] - 1);
@@ -261,13 +261,15 @@ static void expect_gauge(const struct cocoon_point *p, double y[2]) {
                                      {0, 1},  {0, 1}, {0, -1}}; /* axis and sign of s, and of t */
     static const int down[6][2] = {{1, -1}, {1, -1}, {2, 1}, {2, -1}, {1, -1}, {1, -1}};
     const double a[3] = {fabs(p->v[0]), fabs(p->v[1]), fabs(p->v[2])}, major = fmax(a[0], fmax(a[1], a[2]));
+    y[0] = y[1] = 0;
+    if (!(major > 0)) return;
     const int axis = a[2] == major ? 2 : a[1] == major ? 1 : 0, face = 2 * axis + (p->v[axis] < 0);
     const double x = (0.5 + 0.5 * across[face][1] * p->v[across[face][0]] / major) * (COCOON - 1);
     const double z = (0.5 + 0.5 * down[face][1] * p->v[down[face][0]] / major) * (COCOON - 1);
     const double i = fmin(floor(x), COCOON - 2), j = fmin(floor(z), COCOON - 2), u = x - i, v = z - j;
     const double upper = room_sample((size_t)face, i, j) * (1 - u) + room_sample((size_t)face, i + 1, j) * u;
     const double lower = room_sample((size_t)face, i, j + 1) * (1 - u) + room_sample((size_t)face, i + 1, j + 1) * u;
-    y[0] = y[1] = major * (upper * (1 - v) + lower * v) / (p->place ? 4 : 1) / p->scale;
+    y[0] = y[1] = major * (upper * (1 - v) + lower * v) / (p->place ? 4 : 1) / fmax(p->scale, 0.05);
 }
 /* Where the ray leaves the box, by its slabs; -1: it never comes in. Within less than a step either will do. */
 enum { STEPS = 16 };
@@ -301,7 +303,8 @@ static bool check_cocoon(struct frames *frames, const struct image_case *which, 
                                 "    ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
                                 "    if (any(greaterThanEqual(at, imageSize(travelled)))) return;\n"
                                 "    vec4 u = random4(uvec2(at), 5u, 1u), w = random4(uvec2(at), 5u, 2u);\n"
-                                "    vec3 v = (2.0 * u.xyz - 1.0) * (u.w < 0.5 ? 1.0 : 40.0);\n"
+                                "    float scale = u.w < 0.05 ? 0.0 : u.w < 0.2 ? 0.05 : u.w < 0.5 ? 1.0 : 40.0;\n"
+                                "    vec3 v = (2.0 * u.xyz - 1.0) * scale;\n"
                                 "    vec3 direction = normalize(2.0 * w.xyz - 1.0);\n"
                                 "    uint place = w.w < 0.5 ? 0u : 1u;\n"
                                 "    imageStore(travelled, at, vec4(%s));\n"
@@ -381,6 +384,17 @@ static bool check_sphere(struct frames *frames, const struct image_case *which, 
         }
         free(found);
     }
+    float *found = ok ? read(frames, "cocoon", GLINT_F32, 12 * COCOON * COCOON, err) : NULL;
+    ok = found != NULL;
+    for (size_t i = 0; ok && i < 12 * COCOON * COCOON; i++) {
+        const double u = 2.0 * (double)(i % COCOON) / (COCOON - 1) - 1;
+        const double v = 2.0 * (double)(i / COCOON % COCOON) / (COCOON - 1) - 1;
+        const double y =
+            i < 6 * COCOON * COCOON ? sqrt(1 + u * u + v * v) / 3 : 0; /* samples lie on the borders, too */
+        image_compare(finding, (double)found[i], y, y, "sample %zu,%zu, layer %zu", i % COCOON, i / COCOON % COCOON,
+                      i / COCOON / COCOON);
+    }
+    free(found);
     free(c);
     return ok;
 }
@@ -439,7 +453,7 @@ static bool check_nearest(struct frames *frames, const struct image_case *which,
 
 static const struct cocoon_case rooms = {room_sample, expect_gauge}, boxes = {box_sample, expect_left};
 
-#define GAUGE "cocoon_gauge(cocoon, v, place) / (u.w < 0.5 ? 1.0 : 40.0)"
+#define GAUGE "cocoon_gauge(cocoon, v, place) / max(scale, 0.05)"
 #define LEAVES "part_of(leaves_cocoon(cocoon, v, direction, place, 16, 64), max(length(v), 0.1))"
 #define NEAREST "load_active_centers():nearest_active(point)"
 
@@ -447,9 +461,9 @@ static const struct cocoon_case rooms = {room_sample, expect_gauge}, boxes = {bo
 static const struct image_case list[] = {
     {{"box mean of a face", "cube maps of 17, 8, 4, 2: exact shares, NaN and infinite texels left out, nothing where all are", "box_color(faces, at, size, level), face_size(faces, level)", "absolute", 2e-6, "nine products and sums of colours below 2, a division, 2.5 ULP (Vulkan)"}, check_box, NULL, NULL},
     {{"pre-filtered texels", "harmonics of a cube map of 128, all faces to their edges, levels 1 to 4", "prefiltered(box, faces, at, size, level, 3, 3.5, 0.1)", "absolute", 4e-3, "box means of and straight lines between texels an eighth wide at level 4 leave out h²/6 of a curvature of 1.5, and at corners, where a device has three texels for four, a part of their width; errors of finer levels are multiplied by how much narrower texels are"}, check_prefiltered, NULL, NULL},
-    {{"gauge of a cocoon", "its samples lie on the faces' borders too; two cube maps", "direction_of_sample(texel, face): " GAUGE, "absolute", 1.3e-4, "a device filters with 8 bits (Vulkan: at least 4) on either axis, between samples that differ by 0.032 and less"}, check_cocoon, GAUGE, &rooms},
+    {{"gauge of a cocoon", "its samples lie on the faces' borders too; two cube maps", GAUGE, "absolute", 1.3e-4, "a device filters with 8 bits (Vulkan: at least 4) on either axis, between samples that differ by 0.032 and less"}, check_cocoon, GAUGE, &rooms},
     {{"rays that leave a cocoon", "from inside, from outside into it, past it: as t/(t + start), start from the centre", LEAVES, "absolute", 4e-6, "a gauge of up to 10, rounded by 6e-7, which falls at least a tenth as fast as its places move; 64 secants have converged"}, check_cocoon, LEAVES, &boxes},
-    {{"cocoon of a sphere", "weighted maximum by pairs, the widest kernel, a third of it sky; and nothing but sky", NULL, "absolute", 4e-6, "three divisions, 2.5 ULP each (Vulkan), of 3, on each of three levels"}, check_sphere, NULL, "cocoon.maximum=pairs"},
+    {{"cocoon of a sphere", "weighted maximum by pairs, the widest kernel, a third of it sky; and nothing but sky", "direction_of_sample(texel, face), texel_direction(texel, size, layer)", "absolute", 4e-6, "three divisions, 2.5 ULP each (Vulkan), of 3, on each of three levels"}, check_sphere, NULL, "cocoon.maximum=pairs"},
     {{"cocoon of a sphere, by samples", "the same of single samples", NULL, "absolute", 4e-6, "a product of a difference that is 0"}, check_sphere, NULL, "cocoon.maximum=samples"},
     {{"nearest active cube map", "of four, relative to a camera elsewhere", NEAREST, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, NEAREST, NULL},
 };

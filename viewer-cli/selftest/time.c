@@ -116,6 +116,7 @@ static bool run_shot(const struct shot *s, struct bench *bench, struct selftest_
                      struct glint_error *err) {
     static const char *const half[] = {"downsample", "temporal", NULL}, *const full[] = {"temporal_sharp", NULL};
     const int most = bench->frames.test->quick ? 20 : s->frames;
+    bench->frames.half = s->half;
     bool ok = frames_pipeline(&bench->frames, s->sharp ? full : half, s->settings, err);
     for (int n = 1; ok && n <= s->frames && n <= most; n++) ok = run_frame(s, bench, n, finding, err);
     return ok;

@@ -16,6 +16,7 @@ struct shot {
     const char *settings[5]; /* as frames_begin() takes them; NULL-terminated */
     bool sharp;              /* temporal_sharp is looked at, not temporal */
     bool summed;             /* compared with the double's own history, not with what the device had a frame before */
+    bool half;               /* images as passes declare them */
     int frames;
     void (*stage)(struct frame *frame, int n); /* what is not ordinary in frame n, from 1; NULL: nothing */
     /* From *past, which is the pixel's own place and 15 samples, to what the pixel has; NULL: it stays. */

@@ -29,6 +29,10 @@ static void even_colour(struct frame *frame, int n) {
     (void)n;
     EACH(i) frame->color[0][i] = frame->color[1][i] = frame->color[2][i] = 0.7f;
 }
+static void colours_in_halves(struct frame *frame, int n) {
+    (void)n;
+    EACH(i) for (int k = 0; k < 3; k++) frame->color[k][i] = floorf(512 * frame->color[k][i]) / 512;
+}
 static void cut_at_4(struct frame *frame, int n) {
     frame->info.cut = n == 4;
 }
@@ -221,6 +225,8 @@ static const struct shot list[] = {
     {"running mean", "a still camera: each of n frames weighs 1/n up to 16 of them, then the new one 1/16", {ALONE}, .frames = 20, .bound = 1.6e-6, .reason = ONE},
     {"mean of 256 frames", "none of them weighs more than another, the first not less than the last", {ALONE, "temporal.history=255"}, .summed = true, .frames = 256, .past = up_to_255,
      .bound = 2e-4, .reason = ONE ", in each frame, of which the mean of n keeps n/2"},
+    {"mean in halves", "is the nearest half, whether a device rounds or cuts what it stores", {ALONE}, .half = true, .frames = 20, .stage = colours_in_halves,
+     .bound = 4.9e-4, .reason = "half of the last place of a half below 2, 2^-11, and " ONE},
     {"one colour for ever", "variance zero: the mean neither rises nor falls in 48 frames", {ALONE}, .summed = true, .frames = 48, .stage = even_colour,
      .bound = 9e-6, .reason = ONE ": 16 frames' of 0.7"},
     {"history of none", "0 keeps nothing", {ALONE, "temporal.history=0"}, .frames = 3, .past = nothing, .bound = 0, .reason = "the frame's own bits"},
