@@ -72,6 +72,12 @@ static void ties_of_halves(float *x) {
 static void expect_finite(const double *x, double *y) {
     y[0] = isfinite(x[0]) && fabs(x[0]) < 3e38;
 }
+static void expect_storable(const double *x, double *y) {
+    for (int k = 0; k < 3; k++) y[k] = x[k] > x[3] ? x[3] : x[k]; /* a NaN stays one */
+}
+static void one_nan(float *x) {
+    if (x[2] < 0) x[2] = NAN;
+}
 static void sometimes_nan(float *x) {
     if (x[1] > 0.5f) x[0] = NAN;
 }
@@ -176,6 +182,9 @@ static const struct function list[] = {
     {"unit vectors", "of vectors as short and as long as floats are", "unit(a.xyz), 0.0", "x y z length",
      {{LOG, 1e-3, 1, ZERO | NEGATIVE}, {LOG, 1e-3, 1, NEGATIVE}, {LINEAR, 0.1, 1, 0}, {LOG, 1e-35, 3e38, 0}}, vector_of_any_length,
      expect_unit, 3, ABSOLUTE, 5e-7, "a division, 2.5 ULP, an inverse root, 2 ULP (Vulkan), of numbers up to 1"},
+    {"storable colours", "held at the largest that an image holds, infinite ones too; NaN stays", "storable(a.xyz, a.w), 0.0", "r g b largest",
+     {{LOG, 1e-3, 1e6, ZERO | ENDLESS | NEGATIVE}, {LOG, 65000, 66000, ENDLESS}, {LINEAR, -1, 1e5, 0}, {LOG, 65504, 1e5, ENDLESS}}, one_nan,
+     expect_storable, 3, ABSOLUTE, 0, "a decision"},
     {"nearest half", "what an image of halves holds, ties to even, small and huge ones too", "nearest_half(a)", "x y tie z",
      {{LOG, 1e-9, 1e6, ZERO | ENDLESS | NEGATIVE}, {LOG, 3e-8, 3e-4, NEGATIVE}, {LINEAR, 0, 1023, 0}, {LOG, 65000, 66000, ENDLESS | NEGATIVE}}, ties_of_halves,
      expect_nearest_half, 4, ABSOLUTE, 0, "exact"},
