@@ -62,7 +62,8 @@ vec3 sample_ggx_visible(vec2 u, vec3 view, float alpha, float kept) {
     float away = kept * u.x * (1.0 + stretched.z); // 1 - z
     float sine = sqrt(max(away * (2.0 - away), 0.0));
     float phi = 2.0 * PI * u.y;
-    vec3 h = vec3(sine * cos(phi), sine * sin(phi), 1.0 - away) + stretched;
+    // z + stretched.z as a product: opposite to the view both are nearly gone
+    vec3 h = vec3(sine * vec2(cos(phi), sin(phi)) + stretched.xy, (1.0 + stretched.z) * (1.0 - kept * u.x));
     return normalize(vec3(alpha * h.xy, max(h.z, 1e-20)));
 }
 
