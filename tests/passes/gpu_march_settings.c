@@ -146,6 +146,31 @@ static void no_hit_lies_beyond_the_length(void **state) {
     rays_free(&rays);
 }
 
+/* A first step that is given is taken, however short, and no choice is void. */
+static void each_choice_moves_rays(void **state) {
+    static const char *const choices[] = {
+        "first_step_m=0.25", "secant=false", "verify=false",     "bilinear=false",  "step_back=false",
+        "mass=radial",       "mass_step=0",  "mass_m=3",         "fallback=lookup", "cocoon_start=surface",
+        "depth=captured",    "chain=1",      "clamp_part=0.001", "bias=0.05",       "bias_m=0.2",
+        "verify_part=0.2"};
+    static const char *const base[] = {CUBES, "cocoon=max", NULL};
+    struct rays plain = rays_of(*state, base);
+    bool all = true;
+    for (size_t k = 0; k < sizeof choices / sizeof *choices; ++k) {
+        char word[64];
+        snprintf(word, sizeof word, "cubemap_trace.%s", choices[k]);
+        struct rays rays = rays_of(*state, (const char *const[]){CUBES, "cocoon=max", word, NULL});
+        size_t moved = 0;
+        for (size_t i = 0; i < COUNT; ++i)
+            moved += memcmp(&plain.travelled[i], &rays.travelled[i], sizeof(float)) != 0 || plain.end[i] != rays.end[i];
+        print_message("# %s: %zu rays move\n", word, moved);
+        all = all && moved > 0;
+        rays_free(&rays);
+    }
+    rays_free(&plain);
+    assert_true(all);
+}
+
 /* A cocoon that caps nothing and that no ray falls back to is as none. */
 static void captured_depth_knows_no_cocoon(void **state) {
     static const char *const words[3][6] = {
@@ -170,7 +195,7 @@ int main(void) {
         cmocka_unit_test(steps_cost_their_fetches),         cmocka_unit_test(looking_again_costs_a_fetch),
         cmocka_unit_test(proxies_cost_their_planes),        cmocka_unit_test(lookups_take_no_steps),
         cmocka_unit_test(classes_have_values_of_their_own), cmocka_unit_test(no_hit_lies_beyond_the_length),
-        cmocka_unit_test(captured_depth_knows_no_cocoon),
+        cmocka_unit_test(captured_depth_knows_no_cocoon),   cmocka_unit_test(each_choice_moves_rays),
     };
     return cmocka_run_group_tests_name("gpu_march_settings", tests, gpu_set_up, gpu_tear_down);
 }

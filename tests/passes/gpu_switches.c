@@ -1,0 +1,109 @@
+/* No switch is void: with any of them turned, some image of the room is another. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "room.h"
+
+enum { WORDS = 16 };
+static const char *const images[] = {"travelled",      "reflection_half",      "reflection_blurred",
+                                     "reflection",     "reflection_sharp",     "composed",
+                                     "composed_water", "composed_transparent", NULL};
+
+struct way {
+    const char *base[WORDS], *switches[WORDS]; /* NULL ends both */
+};
+#define CUBES "screen_trace.length_m=0"
+static const struct way ways[] = {
+    {{"downsample=pick", "screen_trace.dither=false"},
+     {"screen_trace.dither=true", "screen_trace.interpolate=false", "screen_trace.refine=false",
+      "screen_trace.verify=false", "screen_trace.back_faces=false", "screen_trace.pass_behind=true",
+      "screen_trace.sky=false", "screen_trace.growth=1", "screen_trace.first_step=0.01", "downsample.edges=false",
+      "downsample.alternate=false", "resolve.filter_color=false", "resolve.check_depth=true", "compose.fresnel=false"}},
+    {{"screen_trace=hiz", "hiz=nearest", "downsample=none"},
+     {"screen_trace.pass_behind=false", "screen_trace.sky=false", "screen_trace.solid=0", "screen_trace.cells_lq=24",
+      "screen_trace.thickness_m=0.2", "screen_trace.length_m=2"}},
+    {{"screen_trace=linear_binary", "downsample=none"},
+     {"screen_trace.dither=false", "screen_trace.refinements=1", "screen_trace.sky=true", "screen_trace.bias=0.05"}},
+    {{"screen_trace=dda", "downsample=pick", "downsample.jitter=true", "downsample.share=0.5", "lit_mips=cone",
+      "sky_mips=prefilter", "cubemap_mips=prefilter", "blur=plus", "upscale=best_match", "resolve_sharp=hit"},
+     {"downsample.shuffle=false", "downsample.horizon=false", "downsample.lobe=reflection",
+      "downsample.ndf=blinn_phong", "downsample.pattern=white", "downsample.cone_factor=0",
+      "resolve.cone_cubemap=false", "resolve.cone_screen=false", "cubemap_mips.reach=0", "lit_mips.reach=0",
+      "sky_mips.reach=0", "blur.brdf=false", "upscale.around=false", "resolve_sharp.blend=0"}},
+    {{CUBES, "cocoon=max", "cubemap_select=score", "cubemap_trace.cocoon_start=surface", "cubemap_trace.mass_m=0"},
+     {"cocoon.reach=0", "cocoon.maximum=samples", "cubemap_select.visibility=0", "cubemap_select.distance=0",
+      "cubemap_select.direction=0"}},
+    {{CUBES, "cubemap_trace=box"}, {"cubemap_trace.sky=false", "cubemap_trace.grow_m=0.3"}},
+    {{CUBES, "cubemap_trace=exact"}, {"cubemap_trace.interpolate=false", "cubemap_trace.unseen=stop"}},
+    {{"downsample=mips", "downsample.jitter=true", "screen_trace=dda", "blur=upscale_blur", "blur.width=1",
+      "upscale=edges"},
+     {"blur.edges=false", "blur.radius=1", "upscale.lobes=false", "downsample.edges=false"}},
+    {{"screen_trace=dda", "resolve=blurred", "compose=contribution"},
+     {"resolve.viewer=false", "resolve.edge=false", "resolve.back_face=false", "resolve.blur=0",
+      "compose.modulate=false", "compose.brdf=false"}},
+    {{"screen_trace=dda", "water=combine", "transparent_downsample=nearest", "transparent_screen_trace=linear",
+      "transparent_cubemap_trace=march", "transparent_resolve=hit", "transparency=trace"},
+     {"water.refraction=false", "water.depth=false", "water.fresnel=false", "water.environment=false",
+      "transparency.fresnel=false", "transparent_cubemap_trace.secant=false", "transparent_downsample.jitter=false"}},
+};
+
+/* The images of a run, one after the other. */
+struct images {
+    float *values;
+    size_t count;
+};
+
+static struct images images_of(struct gpu *gpu, const char *const *base, const char *word) {
+    const char *words[WORDS + 1] = {NULL};
+    size_t n = 0;
+    struct images all = {NULL, 0};
+    for (; base[n]; ++n) words[n] = base[n];
+    words[n] = word;
+    room_arrange(gpu, words);
+    gpu_run(gpu);
+    for (size_t i = 0; images[i]; ++i) {
+        const struct glint_image *image = glint_replay_find_image(gpu->replay, images[i]);
+        if (!image) continue;
+        const size_t count = (size_t)image->width * image->height * image->components;
+        float *values = gpu_floats(gpu, images[i], NULL, NULL);
+        all.values = realloc(all.values, (all.count + count) * sizeof *all.values);
+        assert_non_null(all.values);
+        memcpy(all.values + all.count, values, count * sizeof *values);
+        all.count += count;
+        free(values);
+    }
+    return all;
+}
+
+static void no_switch_is_void(void **state) {
+    struct gpu *gpu = *state;
+    size_t voids = 0, count = 0;
+    room_load(gpu, false);
+    for (size_t w = 0; w < sizeof ways / sizeof *ways; ++w) {
+        struct images plain = images_of(gpu, ways[w].base, NULL);
+        for (const char *const *word = ways[w].switches; *word; ++word, ++count) {
+            struct images turned = images_of(gpu, ways[w].base, *word);
+            assert_int_equal(turned.count, plain.count);
+            size_t moved = 0;
+            for (size_t i = 0; i < plain.count; ++i)
+                moved += memcmp(&plain.values[i], &turned.values[i], sizeof(float)) != 0;
+            if (!moved) print_message("# void beside %s: %s\n", ways[w].base[0], *word);
+            voids += !moved;
+            free(turned.values);
+        }
+        free(plain.values);
+    }
+    print_message("# %zu switches, %zu of them void\n", count, voids);
+    assert_int_equal(voids, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_switch_is_void)};
+    return cmocka_run_group_tests_name("gpu_switches", tests, gpu_set_up, gpu_tear_down);
+}
