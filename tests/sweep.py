@@ -17,21 +17,33 @@ import time
 import pages
 
 SCENES, SIZE, CUBE, TRUTH = "street,room", "960x540", "256", "64"
-RAYS, SETS = 8, 4
-STEPS = "4..128:log11"
-# Thickness and cube maps as the reference has them: all that differs is how a ray is followed.
-SCREEN = "screen_trace=linear screen_trace.thickness=0.01 screen_trace.first_step=0.001"
-CUBES = ("cubemap_trace=march cubemap_trace.hq_roughness=1 cubemap_trace.first_step_m=0.05 cubemap_trace.length_m=300 "
-         "cubemap_active.chain=8 cubemap_trace.chain=8 cubemap_trace.fallback=lookup cubemap_trace.exhausted=fallback")
+RAYS, SETS, OTHER_SETS = 8, 4, 2
+STEPS = "4,6,8,11,16,23,32,45,64,91,128,256,512,1024"
+# What a surface is, its thickness and the cube maps as the reference has them: all that differs is how a ray is followed.
+SCREEN = "screen_trace=linear_facets screen_trace.thickness=0.01 screen_trace.solid=32 screen_trace.first_step=0.001"
+CUBES = ("cubemap_trace=march cubemap_trace.surfaces=exact cubemap_trace.bias=0 cubemap_trace.hq_roughness=1 "
+         "cubemap_trace.first_step_m=0.01 cubemap_trace.length_m=300 cubemap_active.chain=8 cubemap_trace.chain=8 "
+         "cubemap_trace.fallback=lookup cubemap_trace.exhausted=fallback")
+THICK = CUBES.replace("surfaces=exact cubemap_trace.bias=0", "surfaces=thick")
+# The march's own limit: the reference's tracer, following the same cube maps by a fifth of its steps; and by those that it has.
+CHAIN = "cubemap_trace.maps=chain cubemap_trace.unseen=stop cubemap_active.chain=8"
+OWN = f"{CHAIN} cubemap_trace.texel_part=0.1 cubemap_trace.skip=false cubemap_trace.steps=1000000"
 CURVES = {
-    "screen": ("`screen_trace/linear`", SCREEN, "screen_trace.steps"),
-    "cubes": ("`cubemap_trace/march`", CUBES, "cubemap_trace.steps_hq"),
+    "screen": ("`linear_facets`", SCREEN, "screen_trace.steps"),
+    "cubes": ("`march`", CUBES, "cubemap_trace.steps_hq"),
     "both": ("both", f"{SCREEN} {CUBES}", "screen_trace.steps+cubemap_trace.steps_hq"),
-    "stopped": ("`cubemap_trace/march`, out of steps: where it stopped", CUBES.replace("exhausted=fallback", "exhausted=stopped"),
+    "hiz": ("`screen_trace/hiz`, cells looked at", "screen_trace=hiz hiz=nearest screen_trace.thickness=0.01 screen_trace.solid=32",
+            "screen_trace.cells+screen_trace.cells_lq"),
+    "linear": ("`screen_trace/linear`", "screen_trace=linear screen_trace.thickness=0.01 screen_trace.first_step=0.001", "screen_trace.steps"),
+    "thick": ("`march`, surfaces with a thickness", THICK, "cubemap_trace.steps_hq"),
+    "stopped": ("`march`, the same, out of steps: where it stopped", THICK.replace("exhausted=fallback", "exhausted=stopped"),
                 "cubemap_trace.steps_hq"),
-    "chain4": ("`cubemap_trace/march`, 4 cube maps a ray", CUBES.replace("chain=8", "chain=4"), "cubemap_trace.steps_hq"),
+    "chain4": ("`march`, the same, 4 cube maps a ray", THICK.replace("chain=8", "chain=4"), "cubemap_trace.steps_hq"),
 }
 SHOWN = ("screen", "cubes", "both")
+ANSWERS = {"own": "its own limit", "reference": "the reference", "truth": "the truth"}
+DRAWN = {"reference": [("screen", "reference"), ("cubes", "own"), ("cubes", "reference"), ("both", "own"), ("both", "reference")],
+         "truth": [(key, "truth") for key in SHOWN]}
 
 
 def swept(glint, capture, folder, words, vary, reference, rays):
@@ -46,6 +58,29 @@ def figures(row):
     return {**errors, "steps": row["steps"], "fetches": row["fetches"]}
 
 
+def measure_set(given, found, capture, folder, n):
+    """One set of rays: the references of them, and what each curve is away from them."""
+    def against(words, vary, reference, name):
+        return [(steps, figures(row)) for steps, row in swept(given.glint, capture, f"{folder}-{name}", words, vary, reference, rays)]
+
+    rays, once = f"pipeline.rays={given.rays} pipeline.first_ray={n * given.rays}", f"pipeline.rays={given.rays}"
+    full, own = f"{folder}-full", f"{folder}-own"
+    for run, words in ((full, ""), (own, OWN)):
+        pages.run(given.glint, "replay", capture, "-p", "reference", *pages.options(f"{words} {rays}"), "-o", run, "--outputs", "reflection")
+    found["reference"].append(against("", once, full, "f")[0][1])
+    found["own"].append(against(OWN, once, full, "o")[0][1])
+    found["half"].append(against(CHAIN, once, own, "h")[0][1])
+    for key, (_, words, vary) in CURVES.items():
+        if key not in SHOWN and n >= given.other_sets:
+            continue
+        rows = against(words, f"{vary}={given.steps}", full, key)
+        limits = dict(against(words, f"{vary}={given.steps}", own, f"{key}-own")) if key in ("cubes", "both") else {}
+        for steps, row in rows:
+            if steps in limits:
+                row["own"] = limits[steps]["reference"]
+            found["curves"][key].setdefault(steps, []).append(row)
+
+
 def measure(given):
     record = {"size": given.size, "cube": given.cube, "rays": given.rays, "sets": given.sets, "truth": given.truth, "scenes": {}}
     record["device"] = json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]
@@ -54,17 +89,11 @@ def measure(given):
         for scene in given.scenes.split(","):
             start = time.monotonic()
             capture = pages.sample(given.glint, scene, folder, given.size, given.cube, "--truth", given.truth)
-            found = record["scenes"][scene] = {"curves": {key: {} for key in CURVES}, "reference": []}
+            found = record["scenes"][scene] = {"curves": {key: {} for key in CURVES}, "reference": [], "own": [], "half": []}
             for n in range(given.sets):
-                rays, reference = f"pipeline.rays={given.rays} pipeline.first_ray={n * given.rays}", folder / f"{scene}-{n}"
-                pages.run(given.glint, "replay", capture, "-p", "reference", *pages.options(rays), "-o", reference, "--outputs", "reflection")
-                (own,) = swept(given.glint, capture, folder / f"{scene}-{n}-own", "", f"pipeline.rays={given.rays}", reference, rays)
-                found["reference"].append(figures(own[1]))
-                for key, (_, words, vary) in CURVES.items():
-                    for steps, row in swept(given.glint, capture, folder / f"{scene}-{n}-{key}", words, f"{vary}={given.steps}", reference, rays):
-                        found["curves"][key].setdefault(steps, []).append(figures(row))
+                measure_set(given, found, capture, folder / f"{scene}-{n}", n)
+                given.output.write_text(json.dumps(record, indent=1) + "\n")
             print(f"{scene}: {time.monotonic() - start:.0f} s", flush=True)
-    given.output.write_text(json.dumps(record, indent=1) + "\n")
 
 
 def estimate(sets, answer, metric="rmse"):
@@ -85,30 +114,53 @@ def rises(curve, answer):
     return found
 
 
+def falling(values):
+    """The least squares fit that rises nowhere: neighbours that rise are pooled."""
+    pools = []
+    for value in values:
+        pools.append((value, 1))
+        while len(pools) > 1 and pools[-2][0] < pools[-1][0]:
+            (a, n), (b, m) = pools[-2:]
+            pools[-2:] = [((a * n + b * m) / (n + m), n + m)]
+    return [value for value, n in pools for _ in range(n)]
+
+
 def knee(curve, answer):
-    """Where more steps begin to buy less: the point furthest below the line from the first to the last, over the logarithm of steps."""
+    """Where more steps begin to buy less, or None. Satopaa et al., Finding a "Kneedle" in a Haystack, 2011, with S = 1, over the
+    logarithm of steps, on the fit that rises nowhere in place of their smoothing spline: both axes to 0..1, the last local maximum
+    of the fall less the way that is followed by a drop of more than the mean way between points."""
     points = sorted(curve, key=int)
     x = [math.log(int(p)) for p in points]
-    y = [estimate(curve[p], answer)[0] for p in points]
-    below = [y[0] + (y[-1] - y[0]) * (a - x[0]) / (x[-1] - x[0]) - b for a, b in zip(x, y)]
-    return points[below.index(max(below))]
+    y = falling([estimate(curve[p], answer)[0] for p in points])
+    if not y[0] > y[-1]:
+        return None
+    above = [(y[0] - b) / (y[0] - y[-1]) - (a - x[0]) / (x[-1] - x[0]) for a, b in zip(x, y)]
+    found = None
+    for i in range(1, len(above) - 1):
+        if above[i] > 0 and above[i - 1] <= above[i] > above[i + 1]:
+            until = next((k for k in range(i + 1, len(above) - 1) if above[k] >= above[i]), len(above))
+            if min(above[i + 1:until]) < above[i] - 1 / (len(above) - 1):
+                found = points[i]
+    return found
 
 
-def chart(scene, found, answer):
+def chart(scene, found, kind):
     series, marks = [], []
-    for key in SHOWN:
+    for key, answer in DRAWN[kind]:
         curve, points = found["curves"][key], []
         for steps in sorted(curve, key=int):
             value, noise = estimate(curve[steps], answer)
             points.append({"x": int(steps), "y": value, "low": value - 2 * noise, "high": value + 2 * noise, "name": f"{steps} steps"})
         name = CURVES[key][0].replace("`", "")
-        series.append({"name": name, "kind": "line", "points": points})
+        series.append({"name": f"{name}, {ANSWERS[answer]}" if kind == "reference" else name, "kind": "line", "points": points})
         at = knee(curve, answer)
-        marks.append({"x": int(at), "y": estimate(curve[at], answer)[0], "label": f"knee, {at}"})
-    floor = estimate(found["reference"], answer)[0]
-    marks.append({"y": floor, "label": "the reference itself"})
-    return {"title": f"{scene}: RMSE against the {answer}", "series": series, "marks": marks,
-            "x": {"name": "steps", "scale": "log", "min": 4, "max": 128, "ticks": [4, 8, 16, 32, 64, 128]}, "y": {"name": "RMSE", "min": 0}}
+        if at:
+            marks.append({"x": int(at), "y": estimate(curve[at], answer)[0], "label": f"knee, {at}"})
+    if kind == "truth":
+        marks.append({"y": estimate(found["reference"], kind)[0], "label": "the reference itself"})
+    return {"title": f"{scene}: RMSE against the {kind}", "series": series, "marks": marks,
+            "x": {"name": "steps", "scale": "log", "min": 4, "max": 1024, "ticks": [4, 8, 16, 32, 64, 128, 256, 512, 1024]},
+            "y": {"name": "RMSE", "min": 0}}
 
 
 def draw(glint, charts, docs):
@@ -123,42 +175,55 @@ def told(value, noise):
     return f"{value:.4f} ± {noise:.4f}"
 
 
+COLUMNS = [("screen", "reference"), ("cubes", "own"), ("cubes", "reference"), ("both", "own"), ("both", "reference"),
+           *((key, "truth") for key in SHOWN)]
+
+
 def rows(found):
     curves = found["curves"]
     for steps in sorted(curves["both"], key=int):
-        cells = [told(*estimate(curves[key][steps], answer)) for answer in ("reference", "truth") for key in SHOWN]
+        cells = [told(*estimate(curves[key][steps], answer)) for key, answer in COLUMNS]
         yield [steps, *cells, f"{statistics.mean(s['fetches'] for s in curves['both'][steps]):.0f}"]
-    own = found["reference"]
-    yield ["reference", "0", "0", "0", *[told(*estimate(own, "truth"))] * 3, f"{statistics.mean(s['fetches'] for s in own):.0f}"]
+    full, own, half = found["reference"], found["own"], told(*estimate(found["half"], "reference"))
+    between, truth = told(*estimate(own, "reference")), told(*estimate(full, "truth"))
+    yield ["the reference", "0", "–", "0", "–", "0", truth, truth, truth, f"{statistics.mean(s['fetches'] for s in full):.0f}"]
+    yield ["the march's limit", "–", "0", between, "0", between, "–", *[told(*estimate(own, "truth"))] * 2,
+           f"{statistics.mean(s['fetches'] for s in own):.0f}"]
+    yield ["the same by half texels", "–", half, "–", half, "–", "–", "–", "–", f"{statistics.mean(s['fetches'] for s in found['half']):.0f}"]
+
+
+def fall(found, key, answer):
+    """What is seen of a curve, as a line of a list."""
+    curve = found["curves"][key]
+    up, at, points = rises(curve, answer), knee(curve, answer), sorted(curve, key=int)
+    first, last, limit = (told(*estimate(curve[p], answer)) for p in (points[0], "128", points[-1]))
+    line = (f"- {CURVES[key][0]}, against {ANSWERS[answer]}: {first} at {points[0]} steps, {last} at 128, {limit} at {points[-1]}; "
+            f"{f'knee at {at}' if at else 'no knee'}; ")
+    if not up:
+        return line + "it rises nowhere by more than twice its noise."
+    before, after, rise, noise = max(up, key=lambda r: r[2])
+    return line + (f"**it rises** between {len(up)} pairs of points by more than twice its noise, most from {before} to {after} steps, "
+                   f"by {told(rise, noise)}.")
 
 
 def falls(found):
-    """What is seen of each curve, as lines of a list."""
-    for key, (name, _, _) in CURVES.items():
-        for answer in ("reference", "truth"):
-            curve, up = found["curves"][key], rises(found["curves"][key], answer)
-            first, last = (estimate(curve[p], answer) for p in (min(curve, key=int), max(curve, key=int)))
-            line = f"- {name}, against the {answer}: from {told(*first)} to {told(*last)}, knee at {knee(curve, answer)}; "
-            if not up:
-                yield line + "it rises nowhere by more than twice its noise."
-            else:
-                before, after, rise, noise = max(up, key=lambda r: r[2])
-                yield line + f"**it rises** {len(up)} times by more than twice its noise, most from {before} to {after} steps, by {told(rise, noise)}."
+    others = [(key, answer) for key in CURVES if key not in SHOWN for answer in ("reference", "truth")]
+    return [fall(found, key, answer) for key, answer in COLUMNS + others]
 
 
 def page(given):
     record = json.loads(given.record.read_text())
     charts = {f"sweep-{scene}-{answer}.svg": chart(scene, found, answer) for scene, found in record["scenes"].items()
-              for answer in ("reference", "truth")}
+              for answer in DRAWN}
     draw(given.glint, charts, given.docs)
     text = pathlib.Path(__file__).with_name("sweep.md.in").read_text()
     parts = []
     for scene, found in record["scenes"].items():
-        titles = ["steps", *(f"{CURVES[k][0]}, {a}" for a in ("reference", "truth") for k in SHOWN), "fetches a ray, both"]
+        titles = ["steps", *(f"{CURVES[key][0]}, {ANSWERS[answer]}" for key, answer in COLUMNS), "fetches a ray, both"]
         parts.append(f"## {scene}\n\n![{scene}: error against the reference](sweep-{scene}-reference.svg)\n"
                      f"![{scene}: error against the truth](sweep-{scene}-truth.svg)\n\n{pages.table(titles, rows(found))}\n" + "\n".join(falls(found)))
     for name, value in {"SIZE": record["size"].replace("x", "×"), "CUBE": record["cube"], "RAYS": record["rays"], "SETS": record["sets"],
-                        "TRUTH": record["truth"], "DEVICE": record["device"], "SCREEN": SCREEN, "CUBES": CUBES,
+                        "TRUTH": record["truth"], "DEVICE": record["device"], "SCREEN": SCREEN, "CUBES": CUBES, "OWN": OWN,
                         "SCENES": "\n\n".join(parts)}.items():
         text = text.replace(f"@{name}@", str(value))
     (given.docs / "sweep.md").write_text(text)
@@ -176,6 +241,7 @@ def main():
     measuring.add_argument("--truth", default=TRUTH)
     measuring.add_argument("--rays", type=int, default=RAYS)
     measuring.add_argument("--sets", type=int, default=SETS)
+    measuring.add_argument("--other-sets", type=int, default=OTHER_SETS, help="of the curves that are not drawn")
     measuring.add_argument("--steps", default=STEPS)
     measuring.add_argument("--work", help="folder for temporary files")
     measuring.set_defaults(call=measure)

@@ -12,24 +12,10 @@
 #include "cubemap_trace/place.glsl"
 #include "cubemap_trace/texels.glsl"
 
-// Distance of the surface in a direction, +inf for sky. On a plane, major axis over distance is linear in the place on the
-// face, and stays so across the face's border; four texels that are not of one plane give the nearest.
 float seen_distance(vec3 from_center, uint place) {
     int size = int(frame.counts.z);
-    if (!interpolate || size < 2)
-        return texelFetch(cubemap_distance, face_texel(from_center, place, size), 0).x;
-    vec3 face = face_from_direction(from_center), a = abs(from_center);
-    Patch texels = patch_of(cubemap_distance, face, place, 0);
-    vec2 corner = face.xy * float(size) - 0.5 - texels.part;
-    vec2 low = 2.0 * (corner + 0.5) / float(size) - 1.0, high = low + 2.0 / float(size);
-    vec4 u = vec4(low.x, high.x, high.x, low.x), v = vec4(high.y, high.y, low.y, low.y);
-    vec4 q = sqrt(1.0 + u * u + v * v) / texels.distance_m;
-    float least = min(min(q.x, q.y), min(q.z, q.w)), most = max(max(q.x, q.y), max(q.z, q.w));
-    if (abs(q.x - q.w - (q.y - q.z)) <= 0.02 * least && most < 2.0 * least) {
-        float on_plane = mean_of(Patch(q, texels.part));
-        return length(from_center) / max(a.x, max(a.y, a.z)) / max(on_plane, 0.5 * least);
-    }
-    return nearest_of(texels);
+    if (!interpolate || size < 2) return texelFetch(cubemap_distance, face_texel(from_center, place, size), 0).x;
+    return on_planes(cubemap_distance, from_center, place);
 }
 
 // The ray as one cube map sees it: at parameter t it is at foot + (from_foot + t) · direction, foot being nearest to the
@@ -127,17 +113,33 @@ uint seer(vec3 origin, vec3 direction, float t, float allowed, inout uint fetche
     return best;
 }
 
+// The next cube map of the chain that sees a point of the ray, all of them asked in turn; used: the last one's place in it.
+uint next_seer(vec3 origin, vec3 direction, float t, float allowed, uint best, inout int used, inout uint fetches) {
+    int longest = int(frame.flags.z);
+    for (int i = 1; i <= longest; ++i) {
+        int next = (used + i) % longest;
+        uint place = texelFetch(active_chain, ivec2(next, best), 0).x;
+        if (gap_at(view_of(origin, direction, place), direction, t, fetches) > allowed) continue;
+        used = next;
+        return place;
+    }
+    return NO_PLACE;
+}
+
 // A ray on its way: the cube map that it is followed in, whether that one sees it, and whether it has been in front of a
 // surface there, which it can now go behind.
 struct Walk {
     View view;
     float t;
     bool seen, front;
+    uint best;
+    int used; // place in the chain
 };
 
 // Takes the cube map that sees the ray at t_after; from t_before on if it sees it there in front of a surface, too.
 void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, float t_after, inout uint fetches) {
-    uint place = seer(origin, direction, t_after, tolerance, fetches);
+    uint place = maps == maps_all ? seer(origin, direction, t_after, tolerance, fetches)
+                                  : next_seer(origin, direction, t_after, tolerance, walk.best, walk.used, fetches);
     walk.seen = place != NO_PLACE;
     walk.view = view_of(origin, direction, walk.seen ? place : nearest_active(origin + t_after * direction));
     walk.t = t_after;
@@ -151,6 +153,7 @@ void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, f
 
 // A cube map whose centre is nearer has finer texels here.
 void take_finer_view(inout Walk walk, vec3 origin, vec3 direction, inout uint fetches) {
+    if (maps == maps_chain) return;
     uint nearest = nearest_active(origin + walk.t * direction);
     if (nearest == walk.view.place) return;
     View view = view_of(origin, direction, nearest);
@@ -182,6 +185,8 @@ const float UNSEEN = 4.0;  // steps of a ray that no cube map sees, each of whic
 Result march(vec3 origin, vec3 direction, float start_m, uint best) {
     Result result = Result(start_m, NO_PLACE, END_steps_exhausted, 0u, 0u);
     Walk walk;
+    walk.best = best;
+    walk.used = -1;
     int level = 4, wait = 0;
     change_view(walk, origin, direction, start_m, start_m, result.fetches);
     while (result.steps < uint(steps) && walk.t < length_m && (walk.seen || unseen == unseen_pass)) {

@@ -10,6 +10,7 @@
 #include "cubemap_trace/volume.glsl"
 
 const int COCOON_STEPS = 8, COCOON_REFINEMENTS = 3;
+const int MOST_SAMPLES = 16; // of a step, whatever counts
 
 struct Quality {
     int steps, refinements, level;
@@ -43,6 +44,7 @@ int level_for(float roughness) {
 float seen_distance(vec3 from_center, uint place, int level) {
     if (through_cocoon()) return seen_in(cocoon_distance, from_center, place, level);
     if (has_cubemap_distance_mips && level > 0) return seen_in(cubemap_distance_mips, from_center, place, level);
+    if (surfaces == surfaces_exact) return on_planes(cubemap_distance, from_center, place);
     return seen_in(cubemap_distance, from_center, place, 0);
 }
 
@@ -69,6 +71,7 @@ Quality quality_of(float roughness, uvec2 pixel) {
 }
 
 float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
+    if (surfaces == surfaces_exact) return INFINITE; // whether there is a jump is seen once the step is small
     float advance_m = mass == mass_along ? step_m : abs(dot(from_center, direction)) / distance_m * step_m;
     return mass_m + mass_step * advance_m;
 }
@@ -145,6 +148,9 @@ Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, int leve
     return Sample(t, distance_m - seen_m, distance_m, seen_m, found < 0.0);
 }
 
+// Whether it lies on what is seen, give or take what verify accepts.
+bool on_surface(Sample s) { return s.seen_m < LARGEST && abs(s.gap) <= verify_part * s.seen_m; }
+
 // Between a sample in front and one behind, where the straight line between their gaps is 0. A sample in front of the sky
 // says nothing, its gap is -inf, and so has the sample that there is not.
 precise float secant_between(Sample front, Sample behind) {
@@ -159,7 +165,9 @@ float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
 }
 
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
-// the cube maps' spaces, so that nothing adds up; and the step grows only while no hit is being closed in on.
+// the cube maps' spaces, so that nothing adds up; the step grows only while no hit is being closed in on, and doubles until it is
+// what it was when one came to nothing; and the chain is gone through for each place anew, or finer steps, which notice every
+// strip that a cube map does not see, would use it up.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
     const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0, false);
     int longest = min(chain, int(frame.flags.z));
@@ -168,15 +176,29 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     vec3 from_center = origin - center_of(best);
     precise float step_m = quality.first_m;
     Sample front = NONE, behind = NONE, now = NONE;
-    int used = 0, refined = 0;
+    int used = 0, refused = 0, refined = 0;
+    precise float full_step_m = 0.0; // of a step that is to be regained
+    bool emerged = false; // it has been in front of a surface since the last switch
     if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, best, origin, direction);
-    for (int i = 0; i < quality.steps; ++i) {
+    bool again = false; // the same step in the next cube map
+    for (int i = 0, left = quality.steps; left > 0 && i < MOST_SAMPLES * quality.steps; ++i) {
+        if (count == count_samples || !(again || refined > 0 || step_m < full_step_m)) --left;
+        again = false;
         result.steps++;
         result.fetches += fetches;
         now = sample_at(from_center, direction, now.t + step_m, result.place, quality.level);
-        if (!(now.gap > bias * now.seen_m + bias_m)) {
+        bool seen = !(now.gap > bias * now.seen_m + bias_m);
+        emerged = emerged || seen;
+        if (seen || (surfaces == surfaces_exact && !emerged && on_surface(now))) {
             front = now;
-            if (refined == 0) step_m *= quality.ratio;
+            refused = 0;
+            if (refined > 0) continue;
+            if (step_m < full_step_m) {
+                step_m = min(2.0 * step_m, full_step_m);
+                continue;
+            }
+            step_m *= quality.ratio;
+            full_step_m = 0.0;
             continue;
         }
         if (now.cap) { // nothing to close in on
@@ -187,6 +209,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         vec3 at = from_center + direction * now.t;
         if (now.gap < mass_depth(at, now.distance_m, direction, step_m)) {
             behind = now;
+            if (quality.ratio > 1.0) full_step_m = max(full_step_m, step_m); // of steps that shrink the sum would be more than the length
             if (++refined < quality.refinements) {
                 now.t -= step_m;
                 step_m *= 0.5;
@@ -195,17 +218,19 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             result.travelled_m = secant ? secant_between(front, behind) : behind.t;
             result.end = END_hit;
             if (!verify) return result;
+            if (surfaces == surfaces_exact && (on_surface(front) || on_surface(behind))) return result;
             result.fetches += fetches;
             Sample end = sample_at(from_center, direction, result.travelled_m, result.place, quality.level);
             if (end.cap) end_on_cap(result, quality.roughness);
-            if (end.cap || abs(end.gap) <= verify_part * end.seen_m) return result;
+            if (end.cap || on_surface(end)) return result;
         }
-        if (++used >= longest) {
+        if (++refused >= longest) {
             result.travelled_m = now.t;
             fall_back(result, origin, direction, best, quality.roughness);
             result.end = END_shadow_region;
             return result;
         }
+        if (++used == longest) used = 0;
         result.place = texelFetch(active_chain, ivec2(used, best), 0).x;
         from_center = origin - center_of(result.place);
         if (step_back) now.t -= step_m;
@@ -213,6 +238,8 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);
         front = NONE; // what the last cube map saw says nothing about this one
         refined = 0;
+        emerged = false;
+        again = step_back;
     }
     result.travelled_m = now.t;
     result.end = END_steps_exhausted;

@@ -35,4 +35,22 @@ float nearest_of(Patch p) {
 float mean_of(Patch p) {
     return mix(mix(p.distance_m.w, p.distance_m.z, p.part.x), mix(p.distance_m.x, p.distance_m.y, p.part.x), p.part.y);
 }
+
+// Distance of the surface in a direction, +inf for sky. On a plane, major axis over distance is linear in the place on the
+// face, and stays so across the face's border; four texels that are not of one plane give the nearest.
+float on_planes(texture2DArray faces, vec3 from_center, uint place) {
+    float size = float(frame.counts.z);
+    vec3 face = face_from_direction(from_center), a = abs(from_center);
+    Patch texels = patch_of(faces, face, place, 0);
+    vec2 corner = face.xy * size - 0.5 - texels.part;
+    vec2 low = 2.0 * (corner + 0.5) / size - 1.0, high = low + 2.0 / size;
+    vec4 u = vec4(low.x, high.x, high.x, low.x), v = vec4(high.y, high.y, low.y, low.y);
+    vec4 q = sqrt(1.0 + u * u + v * v) / texels.distance_m;
+    float least = min(min(q.x, q.y), min(q.z, q.w)), most = max(max(q.x, q.y), max(q.z, q.w));
+    if (abs(q.x - q.w - (q.y - q.z)) <= 0.02 * least && most < 2.0 * least) {
+        float on_plane = mean_of(Patch(q, texels.part));
+        return length(from_center) / max(a.x, max(a.y, a.z)) / max(on_plane, 0.5 * least);
+    }
+    return nearest_of(texels);
+}
 #endif

@@ -49,18 +49,19 @@ struct Crossing {
 
 // The ray's inverse depth less the facet's is linear within the texel: positive in front, negative behind. A surface that
 // a viewer sees is crossed from front to behind. A ray that is behind where it comes in and goes deeper met the surface's
-// plane before: within the last texel or so, where two surfaces meet, or by less than the thickness; or it passed a rim.
-Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float inverse, vec2 slopes) {
+// plane before: within the way `unseen` before s_in, where two surfaces meet, or by less than the thickness; or it passed a
+// rim.
+Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float unseen, float inverse, vec2 slopes) {
     vec2 rate = inverse * slopes * ray.across, from = (ray.start - cell - 0.5) * inverse * slopes;
     float at_start = ray.inverse - inverse - from.x - from.y, rise = ray.inverse_rate - rate.x - rate.y;
     float gap_in = at_start + s_in * rise, gap_out = at_start + s_out * rise;
     if (gap_out >= -bias * inverse) return Crossing(CELL_FRONT, s_out);
     // Behind by d: a part thickness of the surface's depth, as 1/z - 1/(z + d) has it.
     float depth = thickness + thickness_m * inverse;
-    float tolerance = inverse * depth / (1.0 + depth), reach = -seam * ray.texel * rise;
+    float tolerance = inverse * depth / (1.0 + depth), reach = -unseen * rise;
     if (thickness_m < EVERYTHING_M && (gap_in < -tolerance - reach || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
-    float s = rise < 0.0 ? clamp(-at_start / rise, s_in - seam * ray.texel, s_out) : s_in;
     bool sure = thickness_m >= EVERYTHING_M || gap_in >= -tolerance;
+    float s = rise < 0.0 ? clamp(-at_start / rise, s_in - (sure ? seam * ray.texel : unseen), s_out) : s_in;
     return Crossing(sure ? CELL_HIT : CELL_SEAM, max(s, 0.0));
 }
 
@@ -89,9 +90,9 @@ struct Hidden {
     float s_first, s_last;
 };
 
-// One more texel behind whose surface a ray went, from s_in to s_out.
-void hide(inout Hidden hidden, CellRay ray, float s_in, float s_out) {
-    if (s_in - hidden.s_last > STIPPLE * ray.texel) hidden.s_first = s_in;
+// One more texel behind whose surface a ray went, from s_in to s_out; of the way `unseen` before s_in nothing is known.
+void hide(inout Hidden hidden, CellRay ray, float s_in, float s_out, float unseen) {
+    if (s_in - hidden.s_last > max(STIPPLE * ray.texel, unseen)) hidden.s_first = s_in;
     hidden.s_last = s_out;
 }
 

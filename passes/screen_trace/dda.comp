@@ -26,7 +26,7 @@ Result march(ScreenRay ray, ivec2 texel) {
             // In front of all that a facet of this depth can be: it rises to twice its inverse depth at most.
             if (min(inverse_at(path, s_in), inverse_at(path, s_out)) * depth_m < 1.0 + STEEPEST) {
                 result.fetches += 5u;
-                crossing = cross(path, cell, s_in, s_out, inverse, facet_slopes_at(ivec2(cell), depth_m));
+                crossing = cross(path, cell, s_in, s_out, seam * path.texel, inverse, facet_slopes_at(ivec2(cell), depth_m));
             }
             if (crossing.what == CELL_SEAM) {
                 vec2 before = cell_before(path, cell);
@@ -40,7 +40,7 @@ Result march(ScreenRay ray, ivec2 texel) {
             if (crossing.what == CELL_HIT)
                 return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
             if (crossing.what == CELL_BEHIND) {
-                hide(hidden, path, s_in, s_out);
+                hide(hidden, path, s_in, s_out, 0.0);
                 if (!pass_behind || blocked(hidden, path, inverse)) {
                     result.end = END_behind;
                     break;

@@ -16,7 +16,7 @@ int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 
 bool passes_behind(inout Hidden hidden, CellRay ray, float s_in, float s_out, float farthest, float highest) {
     if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;
     Hidden ahead = hidden;
-    hide(ahead, ray, s_in, s_out);
+    hide(ahead, ray, s_in, s_out, 0.0);
     float behind = (farthest - highest) * inverse_at(ray, ahead.s_first);
     if (behind < 1.000001 * solid * (ahead.s_last - ahead.s_first) * ray.inverse * farthest) return false;
     hidden = ahead;
@@ -31,7 +31,7 @@ uint meets(CellRay path, ivec2 texel, float s_out, inout Hidden hidden, inout fl
     float inverse = texelFetch(inverse_half, texel, 0).x;
     vec2 slopes = texelFetch(depth_slopes, texel, 0).xy, cell = vec2(texel);
     s = cell_entry(path, cell);
-    Crossing crossing = cross(path, cell, s, s_out, inverse, slopes);
+    Crossing crossing = cross(path, cell, s, s_out, seam * path.texel, inverse, slopes);
     if (crossing.what == CELL_SEAM) {
         vec2 before = cell_before(path, cell);
         fetches += 2u;
@@ -44,7 +44,7 @@ uint meets(CellRay path, ivec2 texel, float s_out, inout Hidden hidden, inout fl
         s = crossing.s;
         return MET;
     }
-    hide(hidden, path, s, s_out);
+    hide(hidden, path, s, s_out, 0.0);
     return !pass_behind || blocked(hidden, path, inverse) ? BLOCKED : PASSED;
 }
 

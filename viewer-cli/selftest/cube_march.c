@@ -173,17 +173,26 @@ struct cube_end cube_march(const struct cubes *cubes, const struct cube_ray *ray
     const uint32_t steps = ray->rough ? 16 : 24, refinements = ray->rough ? 3 : 4;
     double step = total * (ratio - 1) / (pow(ratio, steps) - 1);
     struct sample front = none, behind = none, now = none;
-    uint32_t place = ray->best, used = 0, refined = 0;
+    double full_step = 0; /* regained by doubling after something closed in on was no hit */
+    uint32_t place = ray->best, used = 0, refused = 0, refined = 0;
     now.t = skipped(&m, now.t, step, place);
     for (uint32_t i = 1; i <= steps; i++) {
         now = sample_at(&m, now.t + step, place);
         if (!(now.gap > bias * now.seen_m)) {
             front = now;
-            if (refined == 0) step *= ratio;
+            refused = 0; /* of the cube maps in turn, by which a place is not seen */
+            if (refined > 0) continue;
+            if (step < full_step) {
+                step = fmin(2 * step, full_step);
+                continue;
+            }
+            step *= ratio;
+            full_step = 0;
             continue;
         }
         if (now.gap < mass_m + mass_step * step * (rules->radial ? now.along : 1)) {
             behind = now;
+            full_step = fmax(full_step, step);
             if (++refined < refinements) {
                 now.t -= step;
                 step *= 0.5;
@@ -191,10 +200,11 @@ struct cube_end cube_march(const struct cubes *cubes, const struct cube_ray *ray
             }
             const double t = secant(rules, &front, &behind);
             const struct sample end = sample_at(&m, t, place);
-            if (!rules->verify || fabs(end.gap) <= verify_part * end.seen_m)
+            if (!rules->verify || (end.seen_m < 3e38 && fabs(end.gap) <= verify_part * end.seen_m))
                 return (struct cube_end){t, place, END_hit, i};
         }
-        if (++used >= cubes->longest) return fall_back(&m, now.t, i, END_shadow_region);
+        if (++refused >= cubes->longest) return fall_back(&m, now.t, i, END_shadow_region);
+        used = (used + 1) % cubes->longest;
         place = cubes->chain[ray->best][used];
         if (rules->step_back) now.t -= step;
         else step *= ratio;

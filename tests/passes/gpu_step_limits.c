@@ -1,0 +1,148 @@
+/* What finer steps converge to: screen_trace/linear_facets to dda, and cubemap_trace/march with surfaces=exact to exact with
+   maps=chain. Steps of both differ from texels, so that nothing agrees by construction. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+
+/* Where each ray ended, and in which cube map; the second is NULL for rays on screen. */
+struct ends {
+    size_t count;
+    float *travelled_m;
+    uint32_t *place, *end;
+};
+
+static struct ends ends_of(struct gpu *gpu, const char *travelled, const char *place, const char *end) {
+    uint32_t width, height;
+    gpu_run(gpu);
+    struct ends e = {.travelled_m = gpu_floats(gpu, travelled, &width, &height),
+                     .place = gpu_uints(gpu, place, NULL, NULL),
+                     .end = gpu_uints(gpu, end, NULL, NULL)};
+    e.count = (size_t)width * height;
+    return e;
+}
+
+static void ends_free(struct ends *e) {
+    free(e->travelled_m);
+    free(e->place);
+    free(e->end);
+}
+
+/* Part of the rays that end elsewhere: farther apart than a part of the way, or in another place. */
+static double elsewhere(const struct ends *a, const struct ends *b, double part) {
+    size_t rays = 0, apart = 0;
+    assert_int_equal(a->count, b->count);
+    for (size_t i = 0; i < a->count; ++i) {
+        if (b->end[i] == 0) continue; /* no ray */
+        float s = a->travelled_m[i], t = b->travelled_m[i];
+        bool same = isinf(s) || isinf(t) ? s == t : fabsf(s - t) <= (float)part * t;
+        ++rays;
+        apart += !same || a->place[i] != b->place[i];
+    }
+    assert_true(rays > 1000);
+    return (double)apart / (double)rays;
+}
+
+static void screen_rays(struct gpu *gpu, const char *variant) {
+    static const char *const without[] = {
+        "cubemap_active", "cubemap_select", "cubemap_trace", "resolve", "upscale", "compose", NULL};
+    gpu_reset(gpu);
+    gpu_without(gpu, without);
+    gpu_use(gpu, "downsample=none");
+    gpu_use(gpu, variant);
+    gpu_set(gpu, "screen_trace.thickness=0.01");
+    gpu_set(gpu, "screen_trace.solid=32");
+    gpu->all = true;
+}
+
+static void finer_steps_on_screen_end_as_texel_by_texel(void **state) {
+    static const char *const steps[] = {"8", "32", "128", "4096"};
+    struct gpu *gpu = *state;
+    char text[64];
+    gpu_sample(gpu, "street", "street", &(struct glint_sample_options){.width = 128, .height = 72, .cube_size = 16});
+    screen_rays(gpu, "screen_trace=dda");
+    struct ends walked = ends_of(gpu, "screen_travelled", "screen_finished", "screen_end");
+    double before = 1;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
+        screen_rays(gpu, "screen_trace=linear_facets");
+        gpu_set(gpu, "screen_trace.first_step=0.001");
+        snprintf(text, sizeof text, "screen_trace.steps=%s", steps[i]);
+        gpu_set(gpu, text);
+        struct ends stepped = ends_of(gpu, "screen_travelled", "screen_finished", "screen_end");
+        double part = elsewhere(&stepped, &walked, 1e-4);
+        print_message("# %s steps: %.3f %% of the rays end elsewhere\n", steps[i], 100 * part);
+        assert_true(part < before);
+        before = part;
+        ends_free(&stepped);
+    }
+    /* 4096 steps of a way that crosses 200 texels at most: one in a hundred texels has so little of the ray in it that it can
+       be left out, and a ray ends by few of those that it crosses. */
+    assert_true(before < 0.01);
+    ends_free(&walked);
+}
+
+static void cube_map_rays(struct gpu *gpu, const char *variant) {
+    gpu_reset(gpu);
+    gpu_use(gpu, "downsample=none");
+    gpu_use(gpu, variant);
+    gpu_set(gpu, "cubemap_active.chain=8");
+    gpu_set(gpu, "screen_trace.length_m=0");
+    gpu->all = true;
+}
+
+static struct ends followed(struct gpu *gpu, const char *texel_part) {
+    cube_map_rays(gpu, "cubemap_trace=exact");
+    gpu_set(gpu, "cubemap_trace.maps=chain");
+    gpu_set(gpu, "cubemap_trace.unseen=stop");
+    gpu_set(gpu, "cubemap_trace.steps=1000000");
+    gpu_set(gpu, texel_part);
+    return ends_of(gpu, "travelled", "cubemap_index", "cubemap_end");
+}
+
+static void finer_steps_through_cube_maps_end_as_by_texels(void **state) {
+    static const char *const always[] = {"surfaces=exact", "bias=0",  "hq_roughness=1",  "first_step_m=0.01",
+                                         "length_m=300",   "chain=8", "fallback=lookup", "exhausted=fallback",
+                                         "depth=captured"};
+    static const char *const steps[] = {"8", "32", "128", "1024"};
+    struct gpu *gpu = *state;
+    char text[64];
+    gpu_sample(gpu, "room", "room", &(struct glint_sample_options){.width = 96, .height = 54, .cube_size = 64});
+    struct ends half = followed(gpu, "cubemap_trace.texel_part=0.5"),
+                fine = followed(gpu, "cubemap_trace.texel_part=0.1");
+    double own = elsewhere(&half, &fine, 0.02), before = 1;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
+        cube_map_rays(gpu, "cubemap_trace=march");
+        for (size_t k = 0; k < sizeof always / sizeof *always; ++k) {
+            snprintf(text, sizeof text, "cubemap_trace.%s", always[k]);
+            gpu_set(gpu, text);
+        }
+        snprintf(text, sizeof text, "cubemap_trace.steps_hq=%s", steps[i]);
+        gpu_set(gpu, text);
+        struct ends marched = ends_of(gpu, "travelled", "cubemap_index", "cubemap_end");
+        double part = elsewhere(&marched, &fine, 0.02);
+        print_message("# %s steps: %.2f %% of the rays end elsewhere; of steps of half a texel %.2f %%\n", steps[i],
+                      100 * part, 100 * own);
+        assert_true(part < before);
+        before = part;
+        ends_free(&marched);
+    }
+    /* As near to a tenth of a texel as half a texel is: both only miss what is thinner than their steps. Twice, for the march's
+       first step, which is held. */
+    assert_true(before < 2 * own);
+    ends_free(&half);
+    ends_free(&fine);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finer_steps_on_screen_end_as_texel_by_texel),
+        cmocka_unit_test(finer_steps_through_cube_maps_end_as_by_texels),
+    };
+    return cmocka_run_group_tests_name("gpu_step_limits", tests, gpu_set_up, gpu_tear_down);
+}
