@@ -7,15 +7,15 @@
 #include <string.h>
 
 #include "../text_file.h"
-#include "images.h"
+#include "filter.h"
 
-enum { COLUMNS = 256, LISTS = 4, IMAGE_LISTS = 4 };
+enum { COLUMNS = 256, LISTS = 4, IMAGE_LISTS = 5 };
 
 static const struct function_list *const lists[LISTS] = {&functions_elementary, &functions_patterns,
                                                          &functions_geometry, &functions_lobes};
 
 static const struct image_list *const image_lists[IMAGE_LISTS] = {&images_surfaces, &images_lists, &images_cubes,
-                                                                  &decodings};
+                                                                  &images_filter, &decodings};
 
 static size_t tabled(void) {
     size_t sum = 0;

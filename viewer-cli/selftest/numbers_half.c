@@ -87,7 +87,7 @@ static void compare(const struct images *expected, const struct images *found, c
                     struct selftest_finding *finding) {
     for (size_t i = 0; i < expected->count && i < found->count; i++) {
         const struct picture_of *e = &expected->pictures[i], *f = &found->pictures[i];
-        if (is_of(expected->names[i], image)) pictures_compare(e, f, NULL, finding);
+        if (is_of(expected->names[i], image)) pictures_compare(e, f, NULL, NULL, finding);
         else if (e->whole_numbers && memcmp(e->whole, f->whole, (size_t)e->width * e->height * sizeof *e->whole) != 0) {
             finding->worst = INFINITY;
             snprintf(finding->at, sizeof finding->at, "decisions in %s are not the same", expected->names[i]);

@@ -24,7 +24,7 @@ static bool check_factor(const struct selftest *test, double light, struct selft
               pictures_read(&pictures, "composed", &found, err);
     for (size_t i = 0; ok && i < (size_t)found.width * found.height; i++)
         for (size_t k = 0; k < 3; k++) found.values[4 * i + k] = (float)((double)found.values[4 * i + k] / light);
-    if (ok) pictures_compare(&usual, &found, NULL, finding);
+    if (ok) pictures_compare(&usual, &found, NULL, NULL, finding);
     free(usual.values), free(found.values);
     pictures_end(&pictures);
     return ok;

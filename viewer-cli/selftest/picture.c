@@ -79,14 +79,16 @@ bool pictures_compose(struct pictures *pictures, const char *path, struct pictur
 }
 
 void pictures_compare(const struct picture_of *expected, const struct picture_of *found, const bool *skip,
-                      struct selftest_finding *finding) {
+                      const struct picture_ties *ties, struct selftest_finding *finding) {
     for (size_t i = 0; i < (size_t)expected->width * expected->height; i++)
         for (size_t k = 0; k < expected->components && !(skip && skip[i]); k++) {
             const double e = (double)expected->values[expected->components * i + k],
                          f = (double)found->values[expected->components * i + k];
             const double error = isfinite(e) && isfinite(f) ? fabs(f - e) : e == f ? 0 : (double)INFINITY;
+            const bool tie = ties && error > ties->bound && error <= ties->bound + ties->within;
             finding->values++;
-            if (error <= finding->worst) continue;
+            finding->ties += tie;
+            if (tie || error <= finding->worst) continue;
             finding->worst = error;
             snprintf(finding->at, sizeof finding->at, "pixel %zu,%zu channel %c: found %.9g, expected %.9g",
                      i % expected->width, i / expected->width, "RGBA"[k], f, e);

@@ -39,9 +39,13 @@ bool pictures_read(const struct pictures *pictures, const char *image, struct pi
 /* The composed picture of a capture, in floats. */
 bool pictures_compose(struct pictures *pictures, const char *path, struct picture_of *out, struct glint_error *err);
 
+/* A difference beyond `bound`, by no more than `within`, is a tie. */
+struct picture_ties {
+    double bound, within;
+};
 /* The largest difference of two pictures' components, in absolute values: into a finding. Components that are infinite in
-   both agree. skip: pixels that are not compared; NULL: all are. */
+   both agree. skip: pixels that are not compared; NULL: all are. ties: NULL: none. */
 void pictures_compare(const struct picture_of *expected, const struct picture_of *found, const bool *skip,
-                      struct selftest_finding *finding);
+                      const struct picture_ties *ties, struct selftest_finding *finding);
 
 #endif
