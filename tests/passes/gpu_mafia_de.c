@@ -146,6 +146,26 @@ static void levels_hold_pixels_of_the_picture_and_their_edges(void **state) {
     }
 }
 
+static void stripes_of_roughness(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i)
+        values[PLAIN_ROUGHNESS * pixels + i] = i % plain->width / 8 % 2 ? 0.46f : 0.3f;
+}
+
+/* What is half way between one surface and another is open in part: 0.16 of the 0.2 at which roughness parts them leave 0.4 of
+   1, and what is alike besides, plane and normal, makes it no more. */
+static void edges_are_open_in_part(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = stripes_of_roughness});
+    gpu_run(gpu);
+    uint32_t width, height, *edges = gpu_uints(gpu, "edge_levels", &width, &height);
+    for (uint32_t i = 0; i < width * height; ++i) {
+        if (i % width + 1 < width) assert_int_equal(open_side(edges[i], 1), i % width % 4 == 3 ? 1 : 3);
+        if (i + width < width * height) assert_int_equal(open_side(edges[i], 3), 3);
+    }
+    free(edges);
+}
+
 /* ---- sharing ---- */
 
 static void statistics(struct gpu *gpu, const char *image, double *mean, double *variance) {
@@ -377,6 +397,7 @@ int main(void) {
         cmocka_unit_test(rays_lie_evenly_around_the_mirror_direction),
         cmocka_unit_test(a_mirror_has_its_own_ray),
         cmocka_unit_test(levels_hold_pixels_of_the_picture_and_their_edges),
+        cmocka_unit_test(edges_are_open_in_part),
         cmocka_unit_test(noise_of_rough_surfaces_falls_and_mirrors_keep_theirs),
         cmocka_unit_test(nothing_leaks_over_edges),
         cmocka_unit_test(corners_keep_their_colours),
