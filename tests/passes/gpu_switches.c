@@ -103,7 +103,43 @@ static void no_switch_is_void(void **state) {
     assert_int_equal(voids, 0);
 }
 
+/* Some refine what is there without them, so that most of it stays near. */
+static void refinements_change_little(void **state) {
+    struct gpu *gpu = *state;
+    static const struct {
+        const char *base[4], *word, *image;
+    } cases[] = {
+        {{"downsample=none", "screen_trace=dda"}, "resolve.filter_color=false", "reflection_half"},
+        {{"downsample=none", "screen_trace.dither=false"}, "screen_trace.interpolate=false", "screen_travelled"},
+        {{"downsample=none", "screen_trace=linear_binary"}, "screen_trace.dither=false", "screen_travelled"}};
+    room_load(gpu, false);
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
+        float *values[2];
+        const char *words[5] = {cases[c].base[0], cases[c].base[1], NULL};
+        size_t count = 0, used = 0;
+        for (int turned = 0; turned < 2; ++turned) {
+            words[2] = turned ? cases[c].word : NULL;
+            room_arrange(gpu, words);
+            gpu_run(gpu);
+            const struct glint_image *image = glint_replay_find_image(gpu->replay, cases[c].image);
+            count = (size_t)image->width * image->height * image->components;
+            values[turned] = gpu_floats(gpu, cases[c].image, NULL, NULL);
+        }
+        double *apart = malloc(count * sizeof *apart);
+        assert_non_null(apart);
+        for (size_t i = 0; i < count; ++i) {
+            const double a = (double)values[0][i], b = (double)values[1][i];
+            if (a > 0 && a < 1e30) apart[used++] = b < 1e30 ? (a > b ? a - b : b - a) / (a + b) : 1;
+        }
+        const double median = quantile(apart, used, 0.5);
+        print_message("# %s: %zu values, half of them within %.3f\n", cases[c].word, used, median);
+        assert_true(used > count / 10 && median < 0.1);
+        free(values[0]), free(values[1]), free(apart);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_switch_is_void)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_switch_is_void),
+                                       cmocka_unit_test(refinements_change_little)};
     return cmocka_run_group_tests_name("gpu_switches", tests, gpu_set_up, gpu_tear_down);
 }

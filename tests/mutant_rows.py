@@ -1,0 +1,85 @@
+"""What is asked of the tests that mutants.py tries, and why a mutant that they do not notice is harmless."""
+
+LEAST = 0.85  # of the mutants that are not harmless are noticed
+# A mutant may loop without end. What takes so many times as long as unchanged sources, and this long at least, counts as noticed.
+SLOWER, AT_LEAST_S = 10, 30
+
+OUTSIDE = "invocations beyond the picture fetch nothing that is kept: what is stored outside of an image is discarded, and no workgroup waits for them"
+COUNT = "a count of fetches that diagnostics show; no other bit depends on it"
+
+# (file, line as it is, line as it becomes): why.
+HARMLESS = {
+    ("compose/brdf.comp", "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);",
+     "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 2.0);"):
+        "two unit vectors' product is beyond 1 by a rounding at most, and what is taken of it is the fifth power of 1 less it",
+    ("compose/contribution.comp", "if (any(greaterThanEqual(pixel, imageSize(composed)))) return;", "if (false) return;"): OUTSIDE,
+    ("cubemap_select/nearest.comp", "if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;", "if (false) return;"): OUTSIDE,
+    ("resolve/hit.comp", "if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;", "if (false) return;"): OUTSIDE,
+    ("cubemap_mips/plain.comp", "int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);",
+     "int size = imageSize(cubemap_color_mips).y, level = int(dispatch_level);"): "faces are square",
+    ("cubemap_select/score.comp", "if (!(visibility > 0.0 && sum + visibility > least)) return sum;", "if (!(visibility > 0.0 )) return sum;"):
+        "a cube map that cannot be the best is looked at all the same, and is not the best then either: it spares a fetch",
+    ("cubemap_trace/exact.comp", "fetches += 4u;", "fetches += 5u;"): COUNT,
+    ("cubemap_trace/exact.comp", "vec2 low = face.xy * coarse - 0.5 - cells.part, high = min(low + 2.0, coarse);",
+     "vec2 low = face.xy * coarse - 0.5 - cells.part, high = (low + 2.0);"):
+        "two lines below, whatever is not below `coarse` becomes the face's border",
+    ("cubemap_trace/march.glsl", "float part = random_scale ? random4(pixel, random_frame(), RANDOM_STEP_SCALE).x : 0.5;",
+     "float part = random_scale ? random4(pixel, random_frame(), RANDOM_STEP_SCALE).y : 0.5;"):
+        "another of four numbers that are drawn alike and used for nothing else",
+    ("cubemap_trace/march.glsl", "if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);",
+     "if (skip_volume ) now.t = skipped(now.t, step_m, result.place, origin, direction);"):
+        "a table of volumes that holds none is asked, and says so: the fact spares the asking",
+    ("cubemap_trace/sphere.comp",
+     "if (!fact_volumes) return end_on_proxy(origin, direction, start_m, best, within_sphere(origin - center, direction, default_m), 0u);",
+     "if (false) return end_on_proxy(origin, direction, start_m, best, within_sphere(origin - center, direction, default_m), 0u);"):
+        "a table of volumes that holds none is asked, and leads to the same sphere: the fact spares a fetch",
+    ("screen_trace/linear.glsl", "return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));",
+     "return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 2.0));"):
+        "gap is negative here, so that the quotient of a gap in front is below 1, and that of one behind is no more than 1",
+    ("temporal/history.glsl", "return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(0.0), 0.0);",
+     "return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(1.0), 0.0);"):
+        "a past of age 0 has the weight 0, whatever its colour",
+    ("transparency/trace.comp", "ivec2 texel = clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last);",
+     "ivec2 texel = (corner + ivec2(i & 1, i >> 1));"):
+        "texels beyond the border repeat those at it in the proportions that these have among themselves; not held there they are outside of the "
+        "image, hold no alpha, and are left out of the mean",
+    ("shared/cube_chain.glsl", "if (level == 0 || reach == 0) return texelFetch(faces, at, level);", "if (false) return texelFetch(faces, at, level);"):
+        "nobody asks for level 0, and without neighbours the one tap that is left is the texel itself",
+    ("screen_trace/hiz.comp", "if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;",
+     "if (!pass_behind || highest * fma(thickness_m, farthest, 2.0 + thickness) >= 0.999999 * farthest) return false;"):
+        "cells are looked into that could be passed at once: more steps to the same end",
+    ("downsample/pick.comp", "float depth_m = texelFetch(depth_full, min(block + ivec2(i & 1, i >> 1), last), 0).x;",
+     "float depth_m = texelFetch(depth_full, (block + ivec2(i & 1, i >> 1)), 0).x;"):
+        "choose() looks at no pixel outside of the picture, whatever was fetched there",
+    ("resolve/blurred.comp", "vec3 color = picture(uv + at * radius / vec2(frame.size.xy), finished_picture);",
+     "vec3 color = picture(uv - at * radius / vec2(frame.size.xy), finished_picture);"): "the taps lie evenly on both sides of the middle",
+    ("screen_trace/linear.glsl", "if (verify) result.fetches++;", "if (false) result.fetches++;"): COUNT,
+}
+
+# Not harmless, and not noticed yet: the case that is missing. A new one of these fails the test.
+MISSING = {
+    ("downsample/lobe.glsl", "float sampled = jitter ? share : 0.0, cosine = clamp(dot(normal, to_viewer), 0.0, 1.0);",
+     "float sampled = jitter ? share : 0.0, cosine = (dot(normal, to_viewer));"): "cones of normals that face away from the viewer",
+    ("resolve/color.glsl", "float(findMSB(max(frame.size.x, frame.size.y))));", "float(findMSB((frame.size.x))));"):
+        "cones wider than a picture that is higher than wide",
+    ("resolve/color.glsl", "return filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb : texelFetch(lit, pixel, 0).rgb;",
+     "return filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb : texelFetch(lit, pixel, 0).bgr;"):
+        "colours with `filter_color` off, channel by channel",
+    ("screen_trace/hiz.comp", "if (cells_lq != cells && texelFetch(normal_half, texel, 0).w > hq_roughness) most = cells_lq;",
+     "if (cells_lq != cells ) most = cells_lq;"): "smooth surfaces' rays beside another `cells_lq`",
+    ("screen_trace/screen_ray.glsl", "float near = min(frame.depth_range.x, ray.depth_m), in_front = (ray.depth_m - near) / (-ray.rate * near);",
+     "float near = (frame.depth_range.x), in_front = (ray.depth_m - near) / (-ray.rate * near);"): "starts before the near plane",
+    ("shared/facet.glsl", "return clamp(slope, -STEEPEST, STEEPEST);", "return (slope);"): "slopes that no half float holds, in an image",
+    ("shared/facet_at.glsl", "if (!(depth_m > 0.0 && depth_m < LARGEST)) return vec2(0.0);",
+     "if (!(depth_m > 1.0 && depth_m < LARGEST)) return vec2(0.0);"): "leaning surfaces nearer than a metre",
+    ("transparent_downsample/nearest.comp", "return texelFetch(transparent_color, pixel, 0).a > 0.0 && reflects(depth_m, surface.xyz);",
+     "return texelFetch(transparent_color, pixel, 0).a > 0.0 ;"): "panes with unusable normals beside others in a block",
+    ("upscale/best_match.comp", "roughness_weight * abs(surface.w - p.surface.w) + distance_weight * dot(beside, beside);",
+     "roughness_weight * abs(surface.w + p.surface.w) + distance_weight * dot(beside, beside);"): "matches that roughness alone decides",
+    ("upscale/best_match.comp", "if (!around && (beside.x == -side.x || beside.y == -side.y)) continue;",
+     "if (!around && (beside.x == -side.x || beside.x == -side.y)) continue;"): "which four texels are looked at with `around` off",
+    ("water/combine.comp", "vec2 middle = (vec2(pixel_at(uv)) + 0.5) / vec2(frame.size.xy);",
+     "vec2 middle = (vec2(pixel_at(uv)) - 0.5) / vec2(frame.size.xy);"): "refraction to less than a pixel where the bottom leans",
+    ("water/combine.comp", "color = around.rgb + color * (1.0 - around.a);", "color = around.rgb + color ;"):
+        "water under a cube map that is no sky",
+}
