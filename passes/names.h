@@ -29,6 +29,9 @@
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)
+#define NEEDS_BY(fact, parameter)
+#define READS_LEVELS(image)
+#define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
 #define RESOLUTION(size)
 #define REFERENCE

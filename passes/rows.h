@@ -21,6 +21,9 @@
 #undef PER_RAY
 #undef ACCUMULATE
 #undef NEEDS
+#undef NEEDS_BY
+#undef READS_LEVELS
+#undef SHOWS_ALL
 #undef ASSUMED
 #undef RESOLUTION
 #undef REFERENCE
@@ -77,6 +80,9 @@
 #define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__, .name = ""},
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},
+#define NEEDS_BY(fact, parameter) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact, .image = #parameter},
+#define READS_LEVELS(image_) {.kind = GLINT_ROW_READS_LEVELS, .id = __LINE__, .name = #image_},
+#define SHOWS_ALL(parameter) {.kind = GLINT_ROW_SHOWS_ALL, .id = __LINE__, .name = #parameter},
 #define ASSUMED(parameter) {.kind = GLINT_ROW_ASSUMED, .id = __LINE__, .name = #parameter},
 #define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},
 #define REFERENCE {.kind = GLINT_ROW_REFERENCE, .id = __LINE__, .name = ""},

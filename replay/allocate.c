@@ -84,7 +84,7 @@ bool run_allocate(struct run *run, struct glint_error *err) {
         image->transient = transient;
         run_adopt(run, i, image);
     }
-    replay_trim_images(replay, run->options->keep_bytes); /* before memory is taken for new ones */
+    if (!run->survey) replay_trim_images(replay, run->options->keep_bytes); /* before memory is taken for new ones */
     *end = replay->images;
     replay->images = taken;
     for (size_t i = 0; i < run->graph.image_count; i++)

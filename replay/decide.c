@@ -18,10 +18,31 @@ static void check_slots(const struct graph *graph, const char *option, const cha
     }
 }
 
+/* A fact as the survey is asked for it: with the value of the parameter that it is about. */
+static const char *fact_of(const struct graph_pass *pass, const struct glint_row *row, char text[128]) {
+    const double *values = pass->entry->values;
+    for (size_t r = 0; row->image && values && r < pass->pass->row_count; r++)
+        if (row_is_parameter(&pass->pass->rows[r]) && strcmp(pass->pass->rows[r].name, row->image) == 0) {
+            snprintf(text, 128, "%.64s %.17g", row->name, values[r]);
+            return text;
+        }
+    return row->name;
+}
+
+/* Whether a pass that runs reads levels of what this one makes, though no ray has a cone. */
+static const struct graph_pass *reader_of_levels(const struct graph *graph, const struct glint_pass *maker) {
+    for (size_t i = 0; i < graph->pass_count; i++)
+        for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++)
+            if (graph->passes[i].pass->rows[r].kind == GLINT_ROW_READS_LEVELS &&
+                pass_output(maker, graph->passes[i].pass->rows[r].name))
+                return &graph->passes[i];
+    return NULL;
+}
+
 /* Whether the frame gives the pass something to do, and which of its facts do not hold; the reason states the figures. */
-static bool decide_by_facts(struct graph_pass *pass, const struct facts *facts, struct faults *faults,
-                            struct glint_error *err) {
-    char reason[192];
+static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct facts *facts,
+                            struct faults *faults, struct glint_error *err) {
+    char reason[192], text[128];
     uint32_t fact = 0;
     pass->runs = true;
     for (size_t r = 0; r < pass->pass->row_count; r++) {
@@ -29,36 +50,60 @@ static bool decide_by_facts(struct graph_pass *pass, const struct facts *facts, 
         if (row->kind != GLINT_ROW_NEEDS && row->kind != GLINT_ROW_FACT) continue;
         bool known = true;
         struct glint_error own = {0};
-        bool holds = facts->holds(facts->user, row->name, reason, sizeof reason, &known, &own);
+        bool holds = facts->holds(facts->user, fact_of(pass, row, text), reason, sizeof reason, &known, &own);
         if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
         if (!known) {
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s needs an unknown fact '%s'", pass->pass->slot,
                        pass->pass->variant, row->name);
             continue;
         }
-        if (row->kind == GLINT_ROW_FACT) pass->lacks |= (uint32_t)!holds << fact++;
-        else if (holds && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
-        else if (!holds) {
-            if (pass->runs) pass->reason[0] = 0;
-            pass->runs = false;
-            text_list(pass->reason, sizeof pass->reason, reason);
+        const struct graph_pass *reader =
+            !holds && strcmp(row->name, "cones") == 0 ? reader_of_levels(graph, pass->pass) : NULL;
+        if (reader) {
+            snprintf(reason, sizeof reason, "%s/%s reads its levels", reader->pass->slot, reader->pass->variant);
+            holds = true;
         }
+        if (row->kind == GLINT_ROW_FACT) pass->lacks |= (uint32_t)!holds << fact++;
+        else if (!holds && pass->runs) pass->reason[0] = 0, pass->runs = false;
+        const bool told = strstr(pass->reason, reason) != NULL; /* several facts may have the same figure */
+        if (row->kind == GLINT_ROW_NEEDS && holds == pass->runs && !told)
+            text_list(pass->reason, sizeof pass->reason, reason);
     }
     if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
     return true;
 }
 
+/* Whether the pass works on cube maps, which the capture has not. */
+static bool lacks_cubemaps(const struct glint_pass *pass, const struct facts *facts) {
+    char reason[192];
+    bool known, needs = false;
+    for (size_t r = 0; r < pass->row_count; r++)
+        needs |= pass->rows[r].kind == GLINT_ROW_NEEDS && strcmp(pass->rows[r].name, "cubemaps") == 0;
+    return needs && !facts->holds(facts->user, "cubemaps", reason, sizeof reason, &known, NULL);
+}
+
+static bool makes_list(const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (row_is_output(&pass->rows[r]) && pass->rows[r].size == GLINT_SIZE_LIST) return true;
+    return false;
+}
+
+/* Readers before what they read, so that it is known which of them run. */
 static bool decide(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
                    struct glint_error *err) {
     const struct glint_replay_options *options = inputs->options;
-    for (size_t i = 0; i < graph->pass_count; i++) {
+    for (size_t i = graph->pass_count; i-- > 0;) {
         struct graph_pass *pass = &graph->passes[i];
         const char *slot = pass->pass->slot, *why = NULL;
         if (options->passes && !list_has(options->passes, slot)) why = "not among the passes asked for";
         else if (list_has(options->skip, slot)) why = "skipped on request";
         else if (list_has(options->force, slot)) why = "forced on request", pass->runs = true;
-        else if (options->all) why = "all passes were asked for", pass->runs = true;
-        else if (!decide_by_facts(pass, &inputs->facts, faults, err)) return false;
+        else if (options->all && !options->passes && makes_list(pass->pass)) /* unless it was asked for by name */
+            why = "all pixels were asked for, and a list leaves some out";
+        else if (options->all && !lacks_cubemaps(pass->pass, &inputs->facts))
+            why = "all passes were asked for", pass->runs = true;
+        else if (options->all) why = "the capture has no cube maps";
+        else if (!decide_by_facts(graph, pass, &inputs->facts, faults, err)) return false;
         if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
     }
     return true;

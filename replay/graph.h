@@ -21,6 +21,7 @@ struct graph_image {
     enum source source;
     bool wanted;                /* written out: its memory is its own */
     bool history;               /* of the frame before */
+    bool blank;                 /* NOTHING, in all of its size */
     bool kept;                  /* the next frame's history: its memory is its own */
     size_t maker;               /* MADE: place of the pass in the graph */
     size_t first_use, last_use; /* places of the passes that touch it */

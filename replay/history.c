@@ -33,26 +33,32 @@ static bool on_device(const struct run *run, const char *name, const struct imag
     return false;
 }
 
-/* History is there as a whole or not at all. */
+/* Whether the frame before left the image. */
+static bool is_there(struct run *run, const struct graph_image *image, const struct image_desc *desc) {
+    if (!run->history) return on_device(run, image->name, desc);
+    const struct glint_run_image *given = run_given(run, image, image->name);
+    return given && given->width == desc->width && given->height == desc->height * image_layers(desc);
+}
+
+/* Without a frame before, or after a cut, there is none. Of one whose plan left a pass out, what it would have made is
+   nothing. */
 bool run_history(struct run *run, struct glint_error *err) {
     const struct glint_frame *frame = glint_capture_frame(run->replay->capture);
     if (run->options->history && !(run->history = glint_run_open(run->options->history, err))) return false;
-    size_t count = 0;
-    bool whole = !frame->cut;
+    run->sizes.history = false;
     for (size_t i = 0; i < run->graph.image_count; i++) {
-        const struct graph_image *image = &run->graph.images[i];
+        struct graph_image *image = &run->graph.images[i];
         struct image_desc desc;
         if (!image->history) continue;
+        image->source = SOURCE_HISTORY;
         if (!run_describe_image(run, image, &desc, err)) return false;
-        const struct glint_run_image *given = run->history ? run_given(run, image, image->name) : NULL;
-        whole = whole && (run->history ? given && given->width == desc.width &&
-                                             given->height == desc.height * image_layers(&desc)
-                                       : on_device(run, image->name, &desc));
-        count++;
+        if (frame->cut || !is_there(run, image, &desc)) image->source = SOURCE_NOTHING;
+        else if (run->history) image->source = SOURCE_RUN;
+        run->sizes.history |= image->source != SOURCE_NOTHING;
     }
-    run->sizes.history = whole && count > 0;
-    for (size_t i = 0; i < run->graph.image_count; i++)
-        if (run->graph.images[i].history)
-            run->graph.images[i].source = !whole ? SOURCE_NOTHING : run->history ? SOURCE_RUN : SOURCE_HISTORY;
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        struct graph_image *image = &run->graph.images[i];
+        image->blank = image->history && image->source == SOURCE_NOTHING && run->sizes.history;
+    }
     return true;
 }

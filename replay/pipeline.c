@@ -299,3 +299,15 @@ double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct 
     if (!entry || entry->pass != pass || parameter < pass->rows || parameter >= pass->rows + pass->row_count) return 0;
     return entry->values[parameter - pass->rows];
 }
+
+bool pipeline_shows_all(const struct glint_pipeline *pipeline) {
+    for (size_t p = 0; p < pipeline->count; p++) {
+        const struct glint_pass *pass = pipeline->passes[p].pass;
+        for (size_t r = 0; r < pass->row_count; r++)
+            for (size_t k = 0; pass->rows[r].kind == GLINT_ROW_SHOWS_ALL && k < pass->row_count; k++)
+                if (row_is_parameter(&pass->rows[k]) && strcmp(pass->rows[k].name, pass->rows[r].name) == 0 &&
+                    pipeline->passes[p].values[k] == 0)
+                    return true;
+    }
+    return false;
+}

@@ -27,6 +27,9 @@ bool row_is_parameter(const struct glint_row *row);
 /* Puts a variant into its slot; "none" empties it. */
 bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char *variant, struct glint_error *err);
 
+/* Whether a pass of the pipeline shows the reflections of surfaces without specular and metal, too. */
+bool pipeline_shows_all(const struct glint_pipeline *pipeline);
+
 /* A whole text file of at most `limit` bytes, NUL-terminated. The caller frees it. */
 char *file_text(const char *path, size_t limit, struct glint_error *err);
 

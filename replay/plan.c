@@ -10,7 +10,14 @@
 struct fact_source {
     struct glint_replay *replay;
     const struct glint_pipeline *pipeline;
+    const struct glint_replay_options *options;
 };
+
+static bool pass_reads(const struct glint_pass *pass, const struct glint_row *image) {
+    for (size_t r = 0; pass && r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_READ && strcmp(pass->rows[r].name, image->name) == 0) return true;
+    return false;
+}
 
 /* The G-buffer is read once: what the survey needs together with what the passes will. */
 static bool read_gbuffer(struct glint_replay *replay, const struct glint_pipeline *pipeline, struct glint_error *err) {
@@ -24,11 +31,8 @@ static bool read_gbuffer(struct glint_replay *replay, const struct glint_pipelin
     if (!channels_add_survey(gbuffer, err)) return false;
     for (size_t i = 0; i < count; i++) {
         if (strcmp(rows[i].role, "gbuffer") != 0) continue;
-        bool read = false;
-        for (size_t p = 0; p < pipeline->count; p++)
-            for (size_t r = 0; r < pipeline->passes[p].pass->row_count; r++)
-                read |= pipeline->passes[p].pass->rows[r].kind == GLINT_ROW_READ &&
-                        strcmp(pipeline->passes[p].pass->rows[r].name, rows[i].name) == 0;
+        bool read = replay->device && pass_reads(survey_pass(), &rows[i]);
+        for (size_t p = 0; p < pipeline->count; p++) read |= pass_reads(pipeline->passes[p].pass, &rows[i]);
         size_t before = gbuffer->count;
         if (read && !format_is_uint(rows[i].format) && !channels_add_row(gbuffer, &rows[i], err)) return false;
         for (size_t c = before; c < gbuffer->count; c++)
@@ -39,32 +43,46 @@ static bool read_gbuffer(struct glint_replay *replay, const struct glint_pipelin
     return channels_read(gbuffer, replay->capture, err);
 }
 
-static bool survey(struct glint_replay *replay, const struct glint_pipeline *pipeline, struct glint_error *err) {
+static bool survey(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                   const struct glint_replay_options *options, struct glint_error *err) {
     if (replay->surveyed) return true;
     double start = now_seconds();
-    replay->survey = (struct glint_survey){0};
+    replay->survey_time = (struct glint_time){0};
     if (!read_gbuffer(replay, pipeline, err)) {
         channels_finish(&replay->gbuffer);
         return false;
     }
-    survey_channels(&replay->gbuffer, &replay->survey);
-    survey_capture_parts(replay->capture, &replay->survey);
-    replay->surveyed = true;
     replay->seconds[PHASE_READ] += now_seconds() - start;
+    if (!replay->device || !glint_capture_find(replay->capture, "lit"))
+        survey_channels(&replay->gbuffer, &replay->survey);
+    else if (!survey_on_device(replay, options, err)) return false;
+    replay->surveyed = true;
     return true;
 }
 
 static bool holds(void *user, const char *fact, char *reason, size_t size, bool *known, struct glint_error *err) {
     struct fact_source *source = user;
-    return survey(source->replay, source->pipeline, err) &&
-           survey_fact(&source->replay->survey, fact, reason, size, known);
+    return (fact_is_of_parts(fact) || survey(source->replay, source->pipeline, source->options, err)) &&
+           survey_fact(&source->replay->survey, pipeline_shows_all(source->pipeline), fact, reason, size, known);
+}
+
+bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey **found, struct glint_time *time,
+                         struct glint_error *err) {
+    static const struct glint_pipeline nothing;
+    static const struct glint_replay_options defaults;
+    if (!replay->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
+    const bool ok = survey(replay, &nothing, &defaults, err);
+    channels_finish(&replay->gbuffer);
+    *found = &replay->survey;
+    if (time) *time = replay->survey_time;
+    return ok;
 }
 
 bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                   const struct glint_replay_options *options, const struct glint_run *inputs, struct graph *graph,
                   struct glint_error *err) {
     if (!replay->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
-    struct fact_source source = {replay, pipeline};
+    struct fact_source source = {replay, pipeline, options};
     return graph_init(graph, &(struct graph_inputs){pipeline, options, replay->capture, inputs, {holds, &source}}, err);
 }
 

@@ -62,6 +62,8 @@ bool glint_replay_load(struct glint_replay *replay, struct glint_capture *captur
     replay->capture = capture;
     replay->serial++;
     replay->surveyed = false;
+    replay->survey = (struct glint_survey){0};
+    if (capture) survey_capture_parts(capture, &replay->survey);
     replay->sky_hash = 0;
     replay->hash[0] = 0;
     channels_finish(&replay->gbuffer);
@@ -124,7 +126,7 @@ static bool store_results(struct run *run, struct glint_error *err) {
     return replay->record ? bad_values_of_capture(run, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-static bool run_all(struct run *run, struct glint_error *err) {
+bool run_work(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     const struct glint_replay_options *options = run->options;
     if (options->inputs && !(run->inputs = glint_run_open(options->inputs, err))) return false;
@@ -137,6 +139,7 @@ static bool run_all(struct run *run, struct glint_error *err) {
     const struct glint_part_info *mirror = glint_capture_find(replay->capture, MIRROR_PART);
     run->block.flags.w = run->pipeline->first_ray;
     run->block.up.w = options->float_precision ? INFINITY : HALF_LARGEST;
+    run->block.work = (uvec4){options->all, pipeline_shows_all(run->pipeline), 0, 0};
     if (mirror) frame_block_mirror(&run->block, glint_capture_frame(replay->capture), &mirror->planar);
     if (!run_allocate(run, err)) return false;
     if (options->cache && !replay_hash(replay, run->content, NULL)) run->content[0] = 0;
@@ -148,7 +151,7 @@ static bool run_all(struct run *run, struct glint_error *err) {
     start = now_seconds();
     bool ok = run_prepare(run, err) && run_execute(run, err);
     replay->seconds[PHASE_PASSES] += now_seconds() - start;
-    return ok && store_results(run, err);
+    return ok;
 }
 
 bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
@@ -164,7 +167,7 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
     replay->runs++;
     if (!replay->device) return glint_fail(err, GLINT_ERROR_USAGE, "a replay without a device can only plan");
     struct glint_error own = {0};
-    bool ok = run_all(&run, &own);
+    bool ok = run_work(&run, &own) && store_results(&run, &own);
     channels_finish(&replay->gbuffer);
     channels_finish(&replay->sky);
     if (!ok) forget_results(replay);

@@ -102,7 +102,7 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
                                 .levels = 1,
                                 .buffer = row->size == GLINT_SIZE_LIST};
     if (run->options->float_precision) desc->format = format_widened(row->format);
-    if (image->source == SOURCE_NOTHING) {
+    if (image->source == SOURCE_NOTHING && !image->blank) {
         if (row->size == GLINT_SIZE_LIST) desc->width = LIST_WIDTH; /* the header is there */
         return true;
     }
@@ -142,6 +142,9 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         break;
     case GLINT_SIZE_VOLUME:
         if (existing_size(run, image, found)) expected[0] = found[0], expected[1] = sizes->active;
+        break;
+    case GLINT_SIZE_FIGURES:
+        expected[0] = FIGURES, expected[1] = 1;
         break;
     case GLINT_SIZE_PLANAR:
         expected[0] = sizes->planar[0], expected[1] = sizes->planar[1];

@@ -17,7 +17,8 @@ enum {
     LIST_WIDTH = 256,
     LIST_ITEMS = 64 /* of a workgroup */,
     LIST_BLOCK = 32 /* pixels across, of a maker's workgroup */,
-    COCOON_SIZE = 32 /* shared/cocoon.glsl */
+    COCOON_SIZE = 32 /* shared/cocoon.glsl */,
+    FIGURES = 512 /* survey/gbuffer.comp */
 };
 
 enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE, PHASES };
@@ -30,6 +31,7 @@ struct glint_replay {
     uint64_t runs;    /* how many there were */
     uint64_t serial;  /* of the load: contents of another capture never pass for this one's */
     struct glint_survey survey;
+    struct glint_time survey_time; /* n = 0: it was not the device that counted */
     bool surveyed;
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
     struct channels sky;     /* read for its key, likewise */
@@ -99,7 +101,11 @@ struct run {
     glint_progress progress;
     void *user;
     bool touched; /* images may have changed */
+    bool survey;  /* it comes before another run: what is on the device stays there */
 };
+
+/* replay.c: all of a run but its results. */
+bool run_work(struct run *run, struct glint_error *err);
 
 /* plan.c: survey, graph. */
 bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipeline,
@@ -167,6 +173,10 @@ void rays_release(struct run *run);
 bool run_prepare(struct run *run, struct glint_error *err);
 bool run_execute(struct run *run, struct glint_error *err);
 void run_release(struct run *run);
+
+/* survey_record.c */
+json_t *survey_record(const struct glint_survey *survey, const struct glint_time *time,
+                      const struct glint_frame *frame);
 
 /* record.c: what run.json says of a run. */
 json_t *run_record(const struct run *run);

@@ -1,11 +1,11 @@
-/* What a frame holds: shares of sky and of reflecting surfaces, ranges, and the facts that follow. */
+/* What a frame holds: shares of sky and of reflecting surfaces, ranges. */
 #include "survey.h"
 
-#include <inttypes.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <Imath/half.h>
 
 #include "frame_block.h"
 
@@ -66,11 +66,23 @@ static void widen(float range[2], float value) {
     if (value > range[1]) range[1] = value;
 }
 
+static void count_pixel(struct glint_survey_pixels *pixels, float roughness) {
+    const int bin = (int)(roughness * GLINT_SURVEY_BINS);
+    pixels->count++;
+    widen(pixels->roughness, roughness);
+    pixels->by_roughness[bin < GLINT_SURVEY_BINS ? bin : GLINT_SURVEY_BINS - 1]++;
+}
+
+static float as_stored(float roughness) {
+    const float held = imath_half_to_float(imath_float_to_half(roughness));
+    return held > 0 ? fminf(held, 1) : 0; /* NaN is 0 */
+}
+
 void survey_channels(const struct channels *channels, struct glint_survey *survey) {
     size_t at[4];
     for (size_t i = 0; i < 4; i++) at[i] = channels_find(channels, surveyed[i], strlen(surveyed[i]));
-    float *ranges[] = {survey->depth_m, survey->roughness_range, survey->metalness_range, survey->specular_range};
-    for (size_t i = 0; i < 4; i++) ranges[i][0] = INFINITY, ranges[i][1] = -INFINITY;
+    survey->surfaces = survey->reflecting = (struct glint_survey_pixels){.roughness = {INFINITY, -INFINITY}};
+    survey->depth_m[0] = INFINITY, survey->depth_m[1] = -INFINITY;
     survey->pixels = (uint64_t)channels->part->width * channels->part->height;
     for (uint64_t p = 0; p < survey->pixels; p++) {
         const float *pixel = channels->data + p * channels->count;
@@ -78,15 +90,12 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
             survey->sky++;
             continue;
         }
-        for (size_t i = 0; i < 4; i++) widen(ranges[i], pixel[at[i]]);
-        if (!(pixel[at[2]] > 0) && !(pixel[at[3]] > 0)) continue;
-        survey->reflecting++;
-        survey->smooth += !(pixel[at[1]] > 0.1f);
-        int bin = (int)(fminf(fmaxf(pixel[at[1]], 0), 1) * GLINT_SURVEY_BINS); /* fmaxf turns NaN into 0 */
-        survey->roughness[bin < GLINT_SURVEY_BINS ? bin : GLINT_SURVEY_BINS - 1]++;
+        const float roughness = as_stored(pixel[at[1]]);
+        widen(survey->depth_m, fmaxf(pixel[at[0]], 0));
+        count_pixel(&survey->surfaces, roughness);
+        /* As shared/shown.glsl has it: a value that is none counts. */
+        if (!(pixel[at[2]] == 0 && pixel[at[3]] == 0)) count_pixel(&survey->reflecting, roughness);
     }
-    for (size_t i = 0; i < 4; i++)
-        if (ranges[i][0] > ranges[i][1]) ranges[i][0] = ranges[i][1] = 0; /* nothing but sky */
 }
 
 void survey_capture_parts(const struct glint_capture *capture, struct glint_survey *survey) {
@@ -114,53 +123,4 @@ bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *su
     if (ok) survey_capture_parts(capture, survey);
     channels_finish(&channels);
     return ok;
-}
-
-bool survey_fact(const struct glint_survey *survey, const char *fact, char *reason, size_t size, bool *known) {
-    *known = true;
-    if (strcmp(fact, "reflecting") == 0) {
-        snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels reflect", survey->reflecting, survey->pixels);
-        return survey->reflecting > 0;
-    }
-    if (strcmp(fact, "reflections") == 0) { /* of whatever surface */
-        snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels reflect%s", survey->reflecting, survey->pixels,
-                 survey->has_transparent ? ", and a transparent surface" : "");
-        return survey->reflecting > 0 || survey->has_transparent;
-    }
-    const bool smooth = strcmp(fact, "smooth") == 0;
-    if (smooth || strcmp(fact, "rough") == 0) {
-        const uint64_t count = smooth ? survey->smooth : survey->reflecting - survey->smooth;
-        snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels reflect with roughness %s 0.1", count, survey->pixels,
-                 smooth ? "up to" : "above");
-        return count > 0;
-    }
-    if (strcmp(fact, "cubemaps") == 0) {
-        snprintf(reason, size, "%u cube map%s", survey->cubemaps, survey->cubemaps == 1 ? "" : "s");
-        return survey->cubemaps > 0;
-    }
-    if (strcmp(fact, "volumes") == 0) {
-        snprintf(reason, size, "%u cube map%s with an inner volume", survey->volumes, survey->volumes == 1 ? "" : "s");
-        return survey->volumes > 0;
-    }
-    if (strcmp(fact, "sky") == 0) {
-        snprintf(reason, size, "%" PRIu64 " of %" PRIu64 " pixels are sky", survey->sky, survey->pixels);
-        return survey->sky > 0;
-    }
-    if (strcmp(fact, "transparent") == 0) {
-        snprintf(reason, size, "%s transparent surface", survey->has_transparent ? "a" : "no");
-        return survey->has_transparent;
-    }
-    const bool water = strcmp(fact, "water") == 0;
-    if (water || strcmp(fact, "planar") == 0) {
-        const bool has = water ? survey->has_water : survey->has_planar;
-        snprintf(reason, size, "%s %s", has ? "a" : "no", water ? "water surface" : "planar reflection map");
-        return has;
-    }
-    if (strcmp(fact, "fresnel") == 0) {
-        snprintf(reason, size, "materials %s how they rise towards grazing angles",
-                 survey->has_fresnel ? "say" : "do not say");
-        return survey->has_fresnel;
-    }
-    *known = false;
-    return false;
 }

@@ -20,10 +20,20 @@ bool channels_read(struct channels *channels, struct glint_capture *capture, str
 void channels_finish(struct channels *channels);
 bool channels_add_survey(struct channels *channels, struct glint_error *err);
 
+/* Whether a fact is known without a look at any pixel. */
+bool fact_is_of_parts(const char *fact);
+
+/* survey_device.c. The pass that counts. */
+const struct glint_pass *survey_pass(void);
+/* The figures that only a device counts and those that it counts as the host does. */
+bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, struct glint_error *err);
+
 /* Over channels that hold at least the survey's. */
 void survey_channels(const struct channels *channels, struct glint_survey *survey);
 void survey_capture_parts(const struct glint_capture *capture, struct glint_survey *survey);
-/* Whether a NEEDS row's fact holds; *known is false when there is no such fact. */
-bool survey_fact(const struct glint_survey *survey, const char *fact, char *reason, size_t size, bool *known);
+/* facts.c. Whether a fact holds, as NEEDS rows name it, "rough 0.1" with the value of its parameter; *known is false when
+   there is no such fact. shows_all: every surface's reflection is shown, whatever its material. */
+bool survey_fact(const struct glint_survey *survey, bool shows_all, const char *fact, char *reason, size_t size,
+                 bool *known);
 
 #endif

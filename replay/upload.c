@@ -299,6 +299,7 @@ bool run_upload(struct run *run, struct glint_error *err) {
             if (ok) run->images[i]->key = run->keys[i];
         }
     }
+    if (run->survey) return ok; /* the run that follows may need more of what was read */
     channels_finish(&run->replay->gbuffer);
     channels_finish(&run->replay->sky);
     return ok;

@@ -13,6 +13,9 @@
           "wet road at dusk with puddles, lit windows, stippled shrubs, thin rails, a car that no cube map holds")     \
     SCENE(glasshouse, "hall of glass on a terrace by day: panes before and behind what they reflect")                  \
     SCENE(room, "corridor and room with windows, polished tiles, a metal column, stairs, flower pots")                 \
+    SCENE(desert_night, "dunes by moonlight under a painted dome: one mirror, and no sky")                             \
+    SCENE(rain_street, "cobbled lane in the rain: all of it wet and rough, no mirror")                                 \
+    SCENE(still_life, "table by a window: neither things nor camera move")                                             \
     SCENE(lake, "rippling water between hills, with a jetty and a boathouse; a planar reflection map of it")           \
     SCENE(hotel, "lobby with a gallery and the street before it at night; 22 cube maps on three floors and outdoors")
 

@@ -12,18 +12,20 @@
 
 struct arguments {
     const char *path;
-    bool json, headers;
+    bool json, headers, survey;
 };
 
-enum { KEY_HEADERS = 256 };
+enum { KEY_HEADERS = 256, KEY_SURVEY };
 
 static const struct argp_option options[] = {
     {"headers", KEY_HEADERS, NULL, 0, "Read no pixels: no ranges, no survey", 0},
+    {"survey", KEY_SURVEY, NULL, 0, "What a capture's pixels call for, counted on the device, and nothing else", 0},
     {"json", 'j', NULL, 0, "Print JSON", 0},
     {0},
 };
 static const struct example examples[] = {
     {"glint info street.exr", "parts, channels with their ranges, camera, cube maps"},
+    {"glint info street.exr --survey", "sky, surfaces, weights, motion: what a plan goes by"},
     {"glint info run", "the images of a run; with --json its run.json"},
     {"glint info run/05-cubemap_trace.exr", "any other EXR file: parts and ranges"},
     {"glint info street.exr --json | jq .camera.position", "one fact for a script"},
@@ -40,6 +42,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_HEADERS:
         a->headers = true;
+        return 0;
+    case KEY_SURVEY:
+        a->survey = true;
         return 0;
     case ARGP_KEY_ARG:
         if (a->path) argp_error(state, "one file at a time: %s and %s", a->path, arg);
@@ -102,9 +107,9 @@ static json_t *part_json(const struct glint_part_info *part, const struct channe
 static json_t *survey_json(const struct glint_survey *survey) {
     json_t *bins = json_array();
     for (int i = 0; i < GLINT_SURVEY_BINS; i++)
-        json_array_append_new(bins, json_integer((json_int_t)survey->roughness[i]));
+        json_array_append_new(bins, json_integer((json_int_t)survey->reflecting.by_roughness[i]));
     return json_pack("{s:I, s:I, s:I, s:o}", "pixels", (json_int_t)survey->pixels, "sky", (json_int_t)survey->sky,
-                     "reflecting", (json_int_t)survey->reflecting, "roughness", bins);
+                     "reflecting", (json_int_t)survey->reflecting.count, "roughness", bins);
 }
 
 /* `survey` is NULL when no pixel was read. */
@@ -176,11 +181,39 @@ static enum status print_run(const struct arguments *a) {
     return STATUS_DONE;
 }
 
+static enum status print_survey(const struct arguments *a, struct glint_capture *capture, struct glint_error *err) {
+    const struct glint_survey *survey;
+    struct glint_time time;
+    char *text = NULL;
+    struct glint_device *device = glint_device_create(&(struct glint_device_options){0}, err);
+    struct glint_replay *replay = device ? glint_replay_create(device, err) : NULL;
+    bool ok = replay && glint_replay_load(replay, capture, err) && glint_replay_survey(replay, &survey, &time, err);
+    if (ok && a->json) ok = (text = glint_replay_survey_json(replay, err)) != NULL;
+    if (text) puts(text);
+    else if (ok) info_print_whole_survey(survey, &time, glint_capture_frame(capture));
+    free(text);
+    glint_replay_destroy(&replay);
+    glint_device_destroy(&device);
+    return ok ? STATUS_DONE : command_fail(&cmd_info, err);
+}
+
+static enum status survey_of(const struct arguments *a) {
+    struct glint_error err = {0};
+    struct pipe pipe;
+    const char *path = pipe_input(&pipe, a->path, &err);
+    struct glint_capture *capture = path ? glint_capture_open(path, NULL, &err) : NULL;
+    enum status status = capture ? print_survey(a, capture, &err) : command_fail(&cmd_info, &err);
+    glint_capture_close(&capture);
+    pipe_finish(&pipe);
+    return status;
+}
+
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_info, argc, argv, &a);
     struct stat file;
     if (stat(a.path, &file) == 0 && S_ISDIR(file.st_mode)) return print_run(&a);
+    if (a.survey) return survey_of(&a);
     struct glint_error err = {0};
     struct channel_table all = {0};
     struct glint_survey survey = {0};

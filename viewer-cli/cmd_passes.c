@@ -170,6 +170,7 @@ static void print_pass(const struct glint_pass *pass, const char *previous_slot,
     for (size_t i = 0; i < pass->row_count; i++) {
         if (pass->rows[i].kind != GLINT_ROW_NEEDS) continue;
         printf("%s%s", any ? ", " : "Needed only when the capture shows: ", pass->rows[i].name);
+        if (pass->rows[i].image) printf(" by %s", pass->rows[i].image);
         any = true;
     }
     if (any) fputs(markdown ? ".\n\n" : "\n\n", stdout);

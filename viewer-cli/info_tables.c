@@ -161,23 +161,59 @@ void info_print_camera(const struct glint_frame *frame) {
            number_text(frame->exposure > 0 ? frame->exposure : 1), frame->has_fog ? "fog" : "no fog");
 }
 
-void info_print_survey(const struct glint_survey *survey) {
-    double all = survey->pixels ? (double)survey->pixels : 1, most = 1;
-    printf("%.1f %% sky, %.1f %% reflecting", 100 * (double)survey->sky / all, 100 * (double)survey->reflecting / all);
-    if (survey->reflecting == 0) {
-        puts(": nothing to trace");
-        return;
-    }
-    puts("; reflecting pixels by roughness:");
-    for (int i = 0; i < GLINT_SURVEY_BINS; i++)
-        if ((double)survey->roughness[i] > most) most = (double)survey->roughness[i];
-    for (int i = 0; i < GLINT_SURVEY_BINS; i++) {
-        double share = (double)survey->roughness[i] / (double)survey->reflecting;
-        int length = (int)(40 * (double)survey->roughness[i] / most + 0.5);
-        printf("  %.1f to %.1f %6.1f %% ", 0.1 * i, 0.1 * (i + 1), 100 * share);
+/* A line and a bar for each bin; `of` is what 100 % are. */
+static void print_bins(const char *const *names, const uint64_t *bins, size_t count, uint64_t of) {
+    double most = 1;
+    for (size_t i = 0; i < count; i++)
+        if ((double)bins[i] > most) most = (double)bins[i];
+    for (size_t i = 0; i < count && of; i++) {
+        const int length = (int)(40 * (double)bins[i] / most + 0.5);
+        printf("  %-12s %6.1f %% ", names[i], 100 * (double)bins[i] / (double)of);
         for (int k = 0; k < length; k++) fputs("█", stdout);
         putchar('\n');
     }
+}
+
+static const char *const tenths[] = {"0.0 to 0.1", "0.1 to 0.2", "0.2 to 0.3", "0.3 to 0.4", "0.4 to 0.5",
+                                     "0.5 to 0.6", "0.6 to 0.7", "0.7 to 0.8", "0.8 to 0.9", "0.9 to 1.0"},
+                         *const halvings[] = {"over 1/2",   "over 1/4",    "over 1/8",    "over 1/16",
+                                              "over 1/32",  "over 1/64",   "over 1/128",  "over 1/256",
+                                              "over 1/512", "over 1/1024", "over 1/2048", "less"};
+
+void info_print_survey(const struct glint_survey *survey) {
+    const double all = survey->pixels ? (double)survey->pixels : 1;
+    const struct glint_survey_pixels *reflecting = &survey->reflecting;
+    printf("%.1f %% sky, %.1f %% reflecting", 100 * (double)survey->sky / all, 100 * (double)reflecting->count / all);
+    puts(reflecting->count ? "; reflecting pixels by roughness:" : ": nothing to trace");
+    print_bins(tenths, reflecting->by_roughness, GLINT_SURVEY_BINS, reflecting->count);
+}
+
+static void print_classes(const struct glint_survey *survey, const struct glint_frame *frame) {
+    uint64_t count;
+    for (uint32_t i = 0; i < frame->class_count; i++)
+        if (glint_survey_class(survey, &frame->classes[i], &count))
+            printf("class %s: %llu pixels\n", frame->classes[i].name, (unsigned long long)count);
+}
+
+void info_print_whole_survey(const struct glint_survey *survey, const struct glint_time *time,
+                             const struct glint_frame *frame) {
+    info_print_survey(survey);
+    if (survey->reflecting.count)
+        printf("their roughness lies between %.3g and %.3g\n", (double)survey->reflecting.roughness[0],
+               (double)survey->reflecting.roughness[1]);
+    puts("share of a reflection that they send to the viewer:");
+    print_bins(halvings, survey->weight, GLINT_SURVEY_WEIGHTS, survey->reflecting.count);
+    puts("surfaces by metalness:");
+    print_bins(tenths, survey->metalness, GLINT_SURVEY_BINS, survey->surfaces.count);
+    print_classes(survey, frame);
+    printf("%llu pixels of water, %llu transparent; %s planar reflection map; %u cube maps, %u with an inner volume\n",
+           (unsigned long long)survey->water, (unsigned long long)survey->transparent, survey->has_planar ? "a" : "no",
+           survey->cubemaps, survey->volumes);
+    printf("motion: %s (%llu pixels were elsewhere, %llu move by themselves)\n", glint_survey_motion(survey),
+           (unsigned long long)survey->moved, (unsigned long long)survey->moving);
+    printf("luminance %.3g to %.3g; depth %.3g to %.3g m\n", (double)survey->light[0], (double)survey->light[1],
+           (double)survey->depth_m[0], (double)survey->depth_m[1]);
+    if (time->n) printf("counted in %.3f ms\n", (double)time->median_ns * 1e-6);
 }
 
 void info_print_run(const struct glint_run *run) {

@@ -12,6 +12,9 @@ void info_print_channels(const struct channel_table *all);
 /* Nothing when the capture has no cube maps. */
 void info_print_cubemaps(const struct glint_capture *capture);
 void info_print_survey(const struct glint_survey *survey);
+/* With what a device counts. */
+void info_print_whole_survey(const struct glint_survey *survey, const struct glint_time *time,
+                             const struct glint_frame *frame);
 void info_print_run(const struct glint_run *run);
 const char *cubemap_volume_name(enum glint_volume volume);
 

@@ -14,7 +14,8 @@
 vec4 level_texel(ivec2 pixel, ivec2 size) {
     if (dispatch_level == 0u) {
         vec4 color = texelFetch(reflection_half, pixel, 0);
-        bool usable = reflects(texelFetch(depth_half, pixel, 0).x, texelFetch(normal_half, pixel, 0).xyz) && finite(color);
+        bool usable = reflects(texelFetch(depth_half, pixel, 0).x, texelFetch(normal_half, pixel, 0).xyz) && finite(color) &&
+                      is_pick_shown(texelFetch(pick, pixel, 0).x);
         return usable ? vec4(color.rgb, 1.0) : vec4(0.0);
     }
     return textureLod(sampler2D(chain, linear_clamp), (vec2(pixel) + 0.5) / vec2(size), float(dispatch_level) - 1.0);

@@ -14,18 +14,19 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(reflection_blurred)))) return;
     vec4 color = texelFetch(reflection_half, pixel, 0);
     Surface center = surface_at(pixel);
+    // A surface that shares nothing keeps what it has, whatever that is: as if this pass were not there.
+    bool shares = center.normal.w >= fade_from && fade(center.normal.w, fade_from, fade_to) > 0.0 &&
+                  reflects(center.depth_m, center.normal.xyz);
     float total = 1.0;
-    if (!finite(color)) color = vec4(total = 0.0);
-    if (reflects(center.depth_m, center.normal.xyz)) {
-        for (int i = 0; i < 4; ++i) {
-            ivec2 texel = pixel + PLUS_NEIGHBOURS[i];
-            float weight = neighbour_weight(center, texel);
-            if (weight == 0.0) continue;
-            vec4 other = texelFetch(reflection_half, texel, 0);
-            if (!finite(other)) continue;
-            color += weight * other;
-            total += weight;
-        }
+    if (shares && !finite(color)) color = vec4(total = 0.0);
+    for (int i = 0; i < 4 && shares; ++i) {
+        ivec2 texel = pixel + PLUS_NEIGHBOURS[i];
+        float weight = neighbour_weight(center, texel);
+        if (weight == 0.0) continue;
+        vec4 other = texelFetch(reflection_half, texel, 0);
+        if (!finite(other)) continue;
+        color += weight * other;
+        total += weight;
     }
     imageStore(reflection_blurred, pixel, total > 0.0 ? color / total : vec4(0.0));
 }

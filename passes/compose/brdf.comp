@@ -10,7 +10,7 @@
 #include "shared/camera.glsl"
 
 // How much of the reflection the surface sends to the viewer.
-vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
+vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
     vec4 base = texelFetch(albedo_full, pixel, 0);
     float specular = texelFetch(specular_full, pixel, 0).x;
     vec3 f0 = reflectance_at_normal(base.rgb, base.a, specular);
@@ -37,7 +37,9 @@ void main() {
     vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (reflects(depth_m, surface.xyz))
-        color += intensity * weight(pixel, depth_m, surface) * reflected_color(pixel);
+    if (fact_reflecting && reflects(depth_m, surface.xyz)) {
+        vec3 weight = intensity * weight_of(pixel, depth_m, surface);
+        if (any(greaterThan(weight, vec3(0.0)))) color += weight * reflected_color(pixel);
+    }
     imageStore(composed, pixel, vec4(storable(color, frame.up.w), 1.0));
 }

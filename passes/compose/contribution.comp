@@ -27,7 +27,8 @@ vec3 blended(ivec2 pixel, float depth_m, vec4 surface, vec3 below) {
     ivec2 size = textureSize(contribution, 0);
     float alpha = texelFetch(contribution, has_contribution ? pixel * size / ivec2(frame.size.xy) : ivec2(0), 0).x;
     if (modulate) alpha *= length(color);
-    return mix(below, color, weight(pixel, depth_m, surface) * clamp(intensity * alpha, 0.0, 1.0));
+    vec3 part = weight(pixel, depth_m, surface) * clamp(intensity * alpha, 0.0, 1.0);
+    return any(greaterThan(part, vec3(0.0))) ? mix(below, color, part) : below;
 }
 
 void main() {
@@ -36,6 +37,6 @@ void main() {
     vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
+    if (fact_reflecting && reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
     imageStore(composed, pixel, vec4(color, 1.0));
 }

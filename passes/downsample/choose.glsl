@@ -9,8 +9,9 @@ bool inside(uint candidate, ivec2 block, ivec2 size) {
 }
 
 // The pixel that stands for the block. Inverse depth, 0 for sky and for depths that are none, so that sky is on the far side.
-// size: of the image that the block is of.
-uint choose(ivec2 block, vec4 inverse_depth, ivec2 size) {
+// useful: bits of pixels that come before the others of their side of a discontinuity, because the picture shows their
+// reflections. size: of the image that the block is of.
+uint choose(ivec2 block, vec4 inverse_depth, uint useful, ivec2 size) {
     float near = 0.0, far = LARGEST;
     uint present = 0u, near_side = 0u;
     for (uint i = 0u; i < 4u; ++i) {
@@ -27,6 +28,7 @@ uint choose(ivec2 block, vec4 inverse_depth, ivec2 size) {
         if (tie == tie_split && (near_side == 6u || near_side == 9u)) near_wins = ((block.x ^ block.y) & 2) == 0;
         present = near_wins ? near_side : present & ~near_side;
     }
+    if ((present & useful) != 0u) present &= useful;
     uint preferred = alternate ? PREFERRED[frame.counts.y & 3u] : 0u;
     for (uint i = 0u; i < 4u; ++i)
         if ((present & 1u << (preferred ^ i)) != 0u) return preferred ^ i;

@@ -19,13 +19,14 @@ void pick_pixel(ivec2 texel) {
     vec4 depths_m = textureGather(sampler2D(depth_full, nearest_clamp), vec2(block + 1) / vec2(size)).wzxy;
     vec4 inverse;
     for (int i = 0; i < 4; ++i) inverse[i] = inverse_of(depths_m[i]);
-    uint chosen = choose(block, inverse, size);
+    uint useful = shown_in_block(block), chosen = choose(block, inverse, useful, size);
     ivec2 source = block + ivec2(chosen & 1u, chosen >> 1u);
     vec4 surface = texelFetch(normal_full, source, 0);
-    store_surface(texel, depths_m[chosen], surface, chosen);
+    bool shown = (useful >> chosen & 1u) != 0u;
+    store_surface(texel, depths_m[chosen], surface, chosen, shown);
     bool has_vertex = vertex_planes && textureSize(vertex_normal_full, 0) == size;
     vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).xyz : surface.xyz;
-    bool used = reflects(depths_m[chosen], surface.xyz);
+    bool used = shown && reflects(depths_m[chosen], surface.xyz);
     imageStore(depth_levels, texel, vec4(depths_m[chosen] > 0.0 ? depths_m[chosen] : INFINITE));
     imageStore(normal_levels, texel,
                used ? vec4(normalize(surface.xyz), surface.w > 0.0 ? min(surface.w, 1.0) : 0.0) : vec4(0.0));
@@ -39,7 +40,7 @@ void pick_texel(ivec2 texel) {
     vec4 inverse;
     for (int i = 0; i < 4; ++i)
         inverse[i] = inverse_of(texelFetch(depths, min(block + ivec2(i & 1, i >> 1), size - 1), finer).x);
-    uint chosen = choose(block, inverse, size);
+    uint chosen = choose(block, inverse, 15u, size);
     ivec2 source = block + ivec2(chosen & 1u, chosen >> 1u);
     vec4 vertex = texelFetch(vertex_normals, source, finer);
     uint step = 2u << finer; // a texel of the finer level in pixels

@@ -11,5 +11,5 @@
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(depth_half)))) return;
-    store_surface(pixel, texelFetch(depth_full, pixel, 0).x, texelFetch(normal_full, pixel, 0), 0u);
+    store_surface(pixel, texelFetch(depth_full, pixel, 0).x, texelFetch(normal_full, pixel, 0), 0u, is_shown(pixel));
 }

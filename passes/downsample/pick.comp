@@ -18,8 +18,8 @@ void main() {
         float depth_m = texelFetch(depth_full, min(block + ivec2(i & 1, i >> 1), last), 0).x;
         inverse_depth[i] = depth_m > 0.0 ? 1.0 / depth_m : 0.0;
     }
-    uint chosen = choose(block, inverse_depth, ivec2(frame.size.xy));
+    uint shown = shown_in_block(block), chosen = choose(block, inverse_depth, shown, ivec2(frame.size.xy));
     ivec2 source = block + ivec2(chosen & 1u, chosen >> 1u);
 
-    store_surface(pixel, texelFetch(depth_full, source, 0).x, texelFetch(normal_full, source, 0), chosen);
+    store_surface(pixel, texelFetch(depth_full, source, 0).x, texelFetch(normal_full, source, 0), chosen, (shown >> chosen & 1u) != 0u);
 }

@@ -8,7 +8,8 @@ WRITE(image2D, depth_half, R32F, "m", HALF, "Z", INFINITY, "view-linear depth of
 WRITE(image2D, normal_jittered, RGBA16F, "1", HALF, "X Y Z roughness", 0, "normal drawn from the NDF around normal_half, world axes; w: roughness")
 WRITE(image2D, normal_half, RGBA16F, "1", HALF, "X Y Z roughness", 0, "unit normal as it was, world axes; w: roughness")
 WRITE(image2D, cone_half, R16F, "rad", HALF, "angle", 0, "half-angle of the cone that the ray stands for: what the cut left of the lobe; 0: a ray")
-WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was taken: x + 2y; 4: the block's centre")
+WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was taken: x + 2y; 4: the block's centre; + 8 when the picture does not show its reflection")
 DISPATCH(depth_half)
 NEEDS(reflections)
 PER_RAY
+#include "shared/shown_rows.h"

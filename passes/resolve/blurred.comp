@@ -80,6 +80,7 @@ void main() {
     End end = End(vec4(0.0), vec4(0.0));
     if (reflects(depth_m, normal)) end = end_of(pixel, depth_m, normal);
     imageStore(reflection_half, pixel, end.color);
-    imageStore(contribution, pixel, vec4(end.attenuation.x * end.attenuation.y * end.attenuation.z * end.attenuation.w));
+    float part = end.attenuation.x * end.attenuation.y * end.attenuation.z * end.attenuation.w;
+    imageStore(contribution, pixel, vec4(is_pick_shown(texelFetch(pick, pixel, 0).x) ? part : 0.0));
     if (diagnostics) imageStore(attenuation, pixel, end.attenuation);
 }

@@ -9,12 +9,18 @@
 #include "resolve/color.glsl"
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
+#include "shared/shown.glsl"
 
 // The texel whose ray is taken: upscale's choice, else the pixel's own.
 ivec2 ray_texel(ivec2 pixel) {
     ivec2 own = pixel / int(reduction(frame.size));
     uint source = has_sharp_source ? texelFetch(sharp_source, pixel, 0).x : 0u;
     return source >= 1u && source <= 9u ? own + ivec2((source - 1u) % 3u, (source - 1u) / 3u) - 1 : own;
+}
+
+// Whether the texel has a ray that may be taken.
+bool has_ray(ivec2 texel) {
+    return texelFetch(depth_half, texel, 0).x < LARGEST && is_pick_shown(texelFetch(pick, texel, 0).x);
 }
 
 void main() {
@@ -25,7 +31,8 @@ void main() {
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     ivec2 texel = ray_texel(pixel);
-    if (roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && texelFetch(depth_half, texel, 0).x < LARGEST) {
+    bool sharpened = roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);
+    if (sharpened && has_ray(texel)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         float cone = min(cone_factor * blinn_phong_cone(roughness, 0.0, threshold, 1.0), WIDEST_CONE);
@@ -34,5 +41,5 @@ void main() {
             color_at_end(ray, texelFetch(screen_finished, texel, 0).x != 0u, texelFetch(cubemap_index, texel, 0).x);
         if (sharp.a > 0.0) color = mix(sharp, color, blend > 0.0 ? fade(roughness, sharp_roughness - blend, sharp_roughness) : 0.0);
     }
-    imageStore(reflection_sharp, pixel, finite(color) ? color : vec4(0.0));
+    imageStore(reflection_sharp, pixel, finite(color) || !sharpened ? color : vec4(0.0));
 }

@@ -19,10 +19,11 @@
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 //
 // FACT(name) gives a constant fact_NAME: false when the survey has found that the frame has nothing of the kind, so that the
-// code for it is left out (see survey.c for the names).
+// code for it is left out (see replay/facts.c for the names).
 // OPTIONAL_READ gives a constant has_NAME: false when no pass makes the image and its "nothing" value is bound.
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when
-// frame.flags.x is 1; otherwise they are stand-ins of one texel with the image's "nothing" value.
+// frame.flags.x is 1; what a pass did not make then, because its frame had nothing to do for it, holds the image's "nothing"
+// value. Otherwise they are stand-ins of one texel with that value.
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
 layout(constant_id = 3) const bool halves = true; // images declared as halves are that, and not floats instead
@@ -58,6 +59,9 @@ layout(constant_id = 3) const bool halves = true; // images declared as halves a
 #define PER_RAY
 #define ACCUMULATE(image)
 #define NEEDS(fact)
+#define NEEDS_BY(fact, parameter)
+#define READS_LEVELS(image)
+#define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
 #define RESOLUTION(size)
 #define REFERENCE

@@ -19,8 +19,11 @@ precise vec2 project(vec3 view, vec4 uv_from_view, float front) {
 float reduction(uvec4 size) { return size.xy == size.zw ? 1.0 : 2.0; }
 
 // Where the sample of a texel lies, in full-resolution pixels from the top left corner. `pick` is the image of that name.
+const uint NOT_SHOWN = 8u; // added to a pick of a surface whose reflection the picture does not show
+bool is_pick_shown(uint pick) { return (pick & NOT_SHOWN) == 0u; }
 precise vec2 picked_position(ivec2 texel, uint pick, uvec4 size) {
     if (size.xy == size.zw) return vec2(texel) + 0.5;
+    pick &= 7u;
     return 2.0 * vec2(texel) + (pick < 4u ? vec2(pick & 1u, pick >> 1u) + 0.5 : vec2(1.0));
 }
 precise vec2 picked_uv(ivec2 texel, uint pick, uvec4 size) { return picked_position(texel, pick, size) / vec2(size.xy); }

@@ -26,7 +26,7 @@ Past past_at(vec2 place, Surface center, Reprojection where) {
         if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;
         float depth_m = depths_m[i];
         vec4 surface = texelFetch(previous_normal_half, texel, 0);
-        if (!reflects(depth_m, surface.xyz) || dot(surface.xyz, center.normal.xyz) < history_normal) continue;
+        if (!is_pick_shown(picks[i]) || !reflects(depth_m, surface.xyz) || dot(surface.xyz, center.normal.xyz) < history_normal) continue;
         vec2 uv = picked_uv(texel, picks[i], frame.size);
         vec3 seen = vec3((uv - frame.previous_uv_from_view.zw) / frame.previous_uv_from_view.xy, front) * depth_m;
         if (!in_plane(seen - where.expected, normal, depth_m, history_depth)) continue;

@@ -34,12 +34,15 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(reflection_temporal)))) return;
     vec4 color = current_color(pixel);
     Surface center = surface_at(pixel);
-    float age = finite(color) ? 1.0 : 0.0;
-    if (age == 0.0) color = vec4(0.0);
-    if (reflects(center.depth_m, center.normal.xyz)) {
-        Past past = past_of(pixel, center);
-        if (past.age == 0.0 && extra) color = with_extra(pixel, center, color, age);
-        color = joined(past, color, age);
+    float age = 0.0;
+    if (!(center.normal.w < least_roughness)) { // a smoother surface keeps what it has, as if this pass were not there
+        age = finite(color) ? 1.0 : 0.0;
+        if (age == 0.0) color = vec4(0.0);
+        if (reflects(center.depth_m, center.normal.xyz)) {
+            Past past = past_of(pixel, center);
+            if (past.age == 0.0 && extra) color = with_extra(pixel, center, color, age);
+            color = joined(past, color, age);
+        }
     }
     imageStore(reflection_temporal, pixel, halves ? nearest_half(color) : color);
     imageStore(temporal_age, pixel, vec4(age));

@@ -8,6 +8,7 @@
 };
 #include "shared/reproject.glsl"
 #include "shared/reuse.glsl"
+#include "shared/shown.glsl"
 
 vec4 current_color(ivec2 pixel) {
     return has_reflection_sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
@@ -37,22 +38,28 @@ vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
     return clamp(past, mean - window / open * deviation, mean + window / open * deviation);
 }
 
+// Of the ray of a texel that the picture shows.
+float travelled_at(ivec2 texel) {
+    bool shown = !has_pick || is_pick_shown(texelFetch(pick, texel, 0).x);
+    return shown ? texelFetch(travelled, texel, 0).x : 0.0;
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(reflection_stable)))) return;
     vec4 color = current_color(pixel), surface = texelFetch(normal_full, pixel, 0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
-    bool remembers = frame.flags.x != 0u && frame.flags.y == 0u && history > 0.0;
-    if (remembers && roughness <= sharp_roughness && reflects(depth_m, surface.xyz)) {
+    bool steadied = roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);
+    if (steadied && frame.flags.x != 0u && frame.flags.y == 0u && history > 0.0) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        float travelled_m = texelFetch(travelled, pixel / int(reduction(frame.size)), 0).x;
-        Reprojection where = reproject(uv, mat3(frame.world_from_view) * view, pixel, travelled_m);
+        Reprojection where = reproject(uv, mat3(frame.world_from_view) * view, pixel,
+                                       travelled_at(pixel / int(reduction(frame.size))));
         float longest = history_limit(history, roughness, where.turned);
         bool inside = all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0)));
-        vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(-1.0);
-        if (longest >= 1.0 && finite(past) && past.a >= 0.0) {
+        vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(0.0);
+        if (longest >= 1.0 && finite(past) && past.a > 0.0) {
             if (clamp_history) past = clamped(past, pixel, roughness);
             color = finite(color) ? mix(past, color, 1.0 / (longest + 1.0)) : past;
         }

@@ -23,8 +23,9 @@ void load_tile(ivec2 first, ivec2 last) {
         vec4 surface = texelFetch(normal_half, texel, 0);
         float depth_m = texelFetch(depth_half, texel, 0).x;
         tile_surface[i] = surface;
-        tile_place[i] = vec3(picked_position(texel, texelFetch(pick, texel, 0).x, frame.size),
-                             !outside && reflects(depth_m, surface.xyz) ? depth_m : 0.0);
+        uint picked = texelFetch(pick, texel, 0).x;
+        tile_place[i] = vec3(picked_position(texel, picked, frame.size),
+                             !outside && is_pick_shown(picked) && reflects(depth_m, surface.xyz) ? depth_m : 0.0);
     }
     barrier();
 }
@@ -113,6 +114,7 @@ void main() {
         return;
     }
     Pixel p = pixel_at(own, texelFetch(depth_full, own, 0).x, texelFetch(normal_full, own, 0));
-    bool found = reflects(texelFetch(depth_half, own, 0).x, texelFetch(normal_half, own, 0).xyz);
+    bool found = is_pick_shown(texelFetch(pick, own, 0).x) &&
+                 reflects(texelFetch(depth_half, own, 0).x, texelFetch(normal_half, own, 0).xyz);
     store(own, p, found, own, ivec2(0));
 }

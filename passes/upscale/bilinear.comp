@@ -22,7 +22,8 @@ void main() {
             ivec2 texel = clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last);
             vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
             float weight = side.x * side.y;
-            if (weight == 0.0 || skip_empty && !(texelFetch(depth_half, texel, 0).x < LARGEST)) continue;
+            if (weight == 0.0 || !is_pick_shown(texelFetch(pick, texel, 0).x)) continue;
+            if (skip_empty && !(texelFetch(depth_half, texel, 0).x < LARGEST)) continue;
             sum += weight * half_color(texel);
             total += weight;
         }

@@ -36,6 +36,7 @@ vec4 mixture(ivec2 pixel, float depth_m, vec4 surface) {
         ivec2 texel = corner + ivec2(i & 1, i >> 1);
         vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
         bool used = all(greaterThanEqual(texel, ivec2(0))) && all(lessThanEqual(texel, last)) && depths_m[i] < LARGEST;
+        used = used && is_pick_shown(texelFetch(pick, texel, 0).x);
         near[i] = used ? side.x * side.y : 0.0;
         same[i] = near[i] > 0.0 ? in_same_plane(position, normal, texel, depths_m[i]) : 0.0;
         // Edges lie between texels: which side of them the pixel is on is for its own normal and roughness to say.

@@ -104,7 +104,7 @@ static bool forget_rays(struct glint_replay *replay, struct tracer *tracers, siz
     const uint32_t scale = end->width == full->width && end->height == full->height ? 1 : 2;
     if (image && !pick) return false;
     for (size_t i = 0; i < (size_t)end->width * end->height; i++) {
-        const uint32_t at = pick && scale == 2 && pick[i] < 4 ? pick[i] : 0;
+        const uint32_t picked = pick ? pick[i] & 7 : 0, at = scale == 2 && picked < 4 ? picked : 0;
         uint32_t x = scale * (uint32_t)(i % end->width) + (at & 1), y = scale * (uint32_t)(i / end->width) + (at >> 1);
         if (x < full->width && y < full->height && surfaces[(size_t)y * full->width + x] != GLINT_SURFACE_NONE)
             continue;

@@ -35,7 +35,7 @@ static void start(struct gpu *gpu, const char *name, const struct plain *plain) 
     plain_capture(gpu_path(gpu, name, path), plain);
     gpu_load(gpu, name);
     gpu_reset(gpu);
-    gpu->float_precision = true;
+    gpu->float_precision = gpu->all = true; /* mirrors call for no level */
     gpu_use(gpu, "cubemap_mips=prefilter");
     gpu_use(gpu, "sky_mips=prefilter");
     gpu_use(gpu, "lit_mips=cone");

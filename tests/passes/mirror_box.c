@@ -91,7 +91,7 @@ struct rays rays_of(struct gpu *gpu) {
     assert_non_null(r.expected);
     struct camera camera = camera_of(glint_capture_frame(gpu->capture));
     for (uint32_t i = 0; i < r.width * r.height; ++i) {
-        double x = 2 * (i % r.width) + (pick[i] & 1) + 0.5, y = 2 * (i / r.width) + (pick[i] >> 1) + 0.5;
+        double x = 2 * (i % r.width) + (pick[i] & 1) + 0.5, y = 2 * (i / r.width) + (pick[i] >> 1 & 1) + 0.5;
         r.expected[i] = expect(&camera, x / full_width, y / full_height);
     }
     free(pick);

@@ -1,4 +1,5 @@
 /* Linking, ordering, dropping and faults, on passes made up here. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -240,7 +241,7 @@ static void the_real_passes_link(void **state) {
     graph_finish(&graph);
 }
 
-/* Catches: a fact that counts the limit itself as rough, or pixels that reflect nothing. */
+/* Catches: a fact that leaves out the limit itself, pixels that reflect nothing, values that are none. */
 static void smooth_and_rough_pixels_are_facts(void **state) {
     const struct fixture *fixture = *state;
     struct glint_survey survey;
@@ -248,21 +249,28 @@ static void smooth_and_rough_pixels_are_facts(void **state) {
     char reason[192];
     bool known;
     assert_true(glint_survey_capture(fixture->capture, &survey, &err));
-    assert_true(survey.smooth > 0 && survey.smooth < survey.reflecting);
-    survey = (struct glint_survey){.pixels = 10, .reflecting = 4, .smooth = 4};
-    assert_true(survey_fact(&survey, "smooth", reason, sizeof reason, &known) && known);
-    assert_string_equal(reason, "4 of 10 pixels reflect with roughness up to 0.1");
-    assert_false(survey_fact(&survey, "rough", reason, sizeof reason, &known));
-    assert_true(known);
-    assert_string_equal(reason, "0 of 10 pixels reflect with roughness above 0.1");
-    float pixels[3][4] = {
-        {1, 0.1f, 0, 1}, {1, 0.10001f, 0, 1}, {1, 0, 0, 0}}; /* depth, roughness, metalness, specular */
+    assert_true(survey.reflecting.roughness[0] <= 0.1f && survey.reflecting.roughness[1] > 0.1f);
+    survey = (struct glint_survey){.pixels = 10, .reflecting = {.count = 4, .roughness = {0.05f, 0.1f}}};
+    assert_true(survey_fact(&survey, false, "smooth 0.05", reason, sizeof reason, &known) && known);
+    assert_string_equal(reason, "the smoothest of 4 reflecting pixels has roughness 0.05, the limit is at most 0.05");
+    assert_false(survey_fact(&survey, false, "smooth 0.04", reason, sizeof reason, &known));
+    assert_true(survey_fact(&survey, false, "rough 0.1", reason, sizeof reason, &known) && known);
+    assert_false(survey_fact(&survey, false, "rough 0.11", reason, sizeof reason, &known));
+    assert_string_equal(reason, "the roughest of 4 reflecting pixels has roughness 0.1, the limit is at least 0.11");
+    assert_true(survey_fact(&survey, false, "cones", reason, sizeof reason, &known) && known);
+    survey.reflecting.roughness[1] = 0;
+    assert_false(survey_fact(&survey, false, "cones", reason, sizeof reason, &known));
+    assert_false(survey_fact(&survey, true, "reflecting", reason, sizeof reason, &known)); /* no surface at all */
+    float pixels[5][4] = {{1, 0.1f, 0, 1}, {1, 0.3f, 0, NAN}, {1, NAN, 0.5f, 0}, {1, 1, 0, 0}, {INFINITY, 1, 1, 1}};
     const char *names[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
-    const struct glint_part_info part = {.width = 3, .height = 1};
+    const struct glint_part_info part = {.width = 5, .height = 1};
     survey = (struct glint_survey){0};
     survey_channels(&(struct channels){.part = &part, .names = names, .count = 4, .data = &pixels[0][0]}, &survey);
-    assert_int_equal(survey.reflecting, 2);
-    assert_int_equal(survey.smooth, 1);
+    assert_int_equal(survey.sky, 1);
+    assert_int_equal(survey.surfaces.count, 4);
+    assert_int_equal(survey.reflecting.count, 3);
+    assert_true(survey.reflecting.roughness[0] == 0 && survey.surfaces.roughness[1] == 1);
+    assert_true(fabsf(survey.reflecting.roughness[1] - 0.3f) < 0.3f / 2048); /* half precision */
 }
 
 /* Catches: passes for each ray that are not together, or that one of the others interrupts though it could wait. */

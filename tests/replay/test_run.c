@@ -31,10 +31,10 @@ static void the_survey_counts_what_the_frame_holds(void **state) {
             sky += is_sky;
             reflecting += !is_sky && (channels[y][x][1] > 0 || channels[y][x][2] > 0);
         }
-    for (int b = 0; b < GLINT_SURVEY_BINS; b++) binned += survey.roughness[b];
+    for (int b = 0; b < GLINT_SURVEY_BINS; b++) binned += survey.reflecting.by_roughness[b];
     assert_int_equal(survey.pixels, FIXTURE_WIDTH * FIXTURE_HEIGHT);
     assert_int_equal(survey.sky, sky);
-    assert_int_equal(survey.reflecting, reflecting);
+    assert_int_equal(survey.reflecting.count, reflecting);
     assert_int_equal(binned, reflecting);
     assert_true(sky > 0 && reflecting > 0);
     assert_int_equal(survey.cubemaps, FIXTURE_CUBEMAPS);

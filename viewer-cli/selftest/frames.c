@@ -99,6 +99,8 @@ static bool add_sky(struct glint_writer *writer, struct glint_error *err) {
 
 static bool write_parts(struct glint_writer *writer, const struct frame *f, struct glint_error *err) {
     static const float zero[FRAME_PIXELS] = {0};
+    float half[FRAME_PIXELS]; /* every surface reflects */
+    for (size_t i = 0; i < FRAME_PIXELS; i++) half[i] = 0.5f;
     static const uint32_t not_finished[FRAME_PIXELS] = {0};
     uint32_t nowhere[FRAME_PIXELS]; /* in no cube map */
     for (size_t i = 0; i < FRAME_PIXELS; i++) nowhere[i] = 255;
@@ -106,7 +108,7 @@ static bool write_parts(struct glint_writer *writer, const struct frame *f, stru
     const struct planes parts[] = {
         {"gbuffer", FRAME_WIDTH, FRAME_HEIGHT,
          {"depth.Z", "normal.X", "normal.Y", "normal.Z", "material.roughness", "material.metalness", "material.specular", "albedo.R", "albedo.G", "albedo.B", "motion.X", "motion.Y"},
-         {f->depth, f->normal[0], f->normal[1], f->normal[2], f->roughness, zero, f->roughness, zero, zero, zero, f->motion[0], f->motion[1]}, GLINT_F32, NULL},
+         {f->depth, f->normal[0], f->normal[1], f->normal[2], f->roughness, zero, half, zero, zero, zero, f->motion[0], f->motion[1]}, GLINT_F32, NULL},
         {"lit", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B"}, {zero, zero, zero}, GLINT_F32, NULL},
         {"engine.resolve.reflection_half", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32, NULL},
         {"engine.upscale.reflection", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32, NULL},

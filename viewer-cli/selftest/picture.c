@@ -57,7 +57,7 @@ bool pictures_court(struct pictures *pictures, const struct court *court, struct
     snprintf(path, sizeof path, "%s/court.exr", pictures->test->folder);
     unload(pictures);
     return court_write(court, path, err) &&
-           pictures_replay(pictures, path, &(struct glint_replay_options){.float_precision = true}, err);
+           pictures_replay(pictures, path, &(struct glint_replay_options){.float_precision = true, .all = true}, err);
 }
 
 bool pictures_read(const struct pictures *pictures, const char *name, struct picture_of *out, struct glint_error *err) {

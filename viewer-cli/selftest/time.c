@@ -67,6 +67,7 @@ static void expect_pixel(const struct shot *s, const struct frame *frame, int n,
         past_age += past.weight[i] * before->age[past.pixel[i]];
     }
     past_age = fmin(past_age, past.longest);
+    if (s->sharp && !(then[3] > 0)) past.count = 0; /* no source was found there */
     for (int k = 0; k < 4; k++) color[k] = (double)frame->color[k][pixel];
     if (s->hold && past.count) s->hold(frame, pixel, then);
     if (s->now) s->now(frame, pixel, past_age > 0, color, &samples);

@@ -90,10 +90,6 @@ static void alphas(struct frame *frame, int n) {
     mirrors(frame, n);
     EACH(i) if (n == 1) frame->color[3][i] = alpha[i % 3];
 }
-static void not_negative(const struct frame *frame, int n, size_t pixel, struct past *past) {
-    (void)frame;
-    if (n == 2 && pixel % 3 == 0) past->count = 0;
-}
 
 static void bad_colours(struct frame *frame, int n) {
     mirrors(frame, n);
@@ -136,7 +132,7 @@ static const struct shot list[] = {
     {"mean of mirrors, 3:1", "or a quarter", {OPEN, "temporal_sharp.history=3"}, .sharp = true, .frames = 6, .stage = mirrors, .past = three, .bound = 5e-7, .reason = ONE},
     {"mean of mirrors, 1:1", "or a half", {OPEN, "temporal_sharp.history=1"}, .sharp = true, .frames = 4, .stage = mirrors, .past = one, .bound = 5e-7, .reason = ONE},
     {"mirrors' history of none", "0 keeps nothing", {OPEN, "temporal_sharp.history=0"}, .sharp = true, .frames = 3, .stage = mirrors, .past = none, .bound = 0, .reason = "the frame's own bits"},
-    {"mirrors' rays that found nothing", "a negative alpha is no history; none and half of it are", {OPEN}, .sharp = true, .frames = 3, .stage = alphas, .past = not_negative, .bound = 5e-7, .reason = ONE},
+    {"mirrors' rays that found nothing", "without a source there is no history; with half of one there is", {OPEN}, .sharp = true, .frames = 3, .stage = alphas, .bound = 5e-7, .reason = ONE},
     {"mirrors after a cut", "nothing of the frames before it", {OPEN}, .sharp = true, .frames = 6, .stage = cut_mirrors, .past = nothing_at_4, .bound = 5e-7, .reason = ONE},
     {"history within its neighbours", "held within mean and deviation of nine, the rougher the wider; beyond the limit, none", {NULL}, .sharp = true, .frames = 4, .stage = smooth_by_rows, .past = smooth_alone, .hold = hold, .bound = 1.2e-5, .reason = WINDOW},
     {"narrowest window", "holds a mirror's history at the mean", {"temporal_sharp.window=0"}, .sharp = true, .frames = 4, .stage = mirrors, .hold = hold_at_mean, .bound = 2e-6, .reason = "nine roundings of colours below 2"},

@@ -11,20 +11,23 @@ extern "C" {
 #endif
 
 enum glint_row_kind {
-    GLINT_ROW_PASS,            /* title, source */
-    GLINT_ROW_SLOT,            /* title of the slot */
-    GLINT_ROW_READ,            /* an image that another pass or the capture makes */
-    GLINT_ROW_WRITE,           /* an image that this pass makes */
-    GLINT_ROW_DIAGNOSTIC,      /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
-    GLINT_ROW_CAPTURE,         /* an image that comes from the capture (passes/capture_images.h) */
-    GLINT_ROW_SPEC,            /* a specialization constant */
-    GLINT_ROW_CHOICE,          /* a specialization constant with named values */
-    GLINT_ROW_PUSH,            /* a push constant */
-    GLINT_ROW_DISPATCH,        /* one invocation for each pixel of an image, for cube maps in each face */
-    GLINT_ROW_FACT,            /* a constant: false when the capture shows that this fact does not hold */
-    GLINT_ROW_NEEDS,           /* a fact the capture must show for the pass to be needed */
-    GLINT_ROW_SELF,            /* all levels of an image that this pass writes; `name` is the binding's */
-    GLINT_ROW_HISTORY,         /* what an image held at the end of the previous frame; `name` is the binding's */
+    GLINT_ROW_PASS,         /* title, source */
+    GLINT_ROW_SLOT,         /* title of the slot */
+    GLINT_ROW_READ,         /* an image that another pass or the capture makes */
+    GLINT_ROW_WRITE,        /* an image that this pass makes */
+    GLINT_ROW_DIAGNOSTIC,   /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
+    GLINT_ROW_CAPTURE,      /* an image that comes from the capture (passes/capture_images.h) */
+    GLINT_ROW_SPEC,         /* a specialization constant */
+    GLINT_ROW_CHOICE,       /* a specialization constant with named values */
+    GLINT_ROW_PUSH,         /* a push constant */
+    GLINT_ROW_DISPATCH,     /* one invocation for each pixel of an image, for cube maps in each face */
+    GLINT_ROW_FACT,         /* a constant: false when the capture shows that this fact does not hold */
+    GLINT_ROW_NEEDS,        /* a fact the capture must show for the pass to be needed (replay/facts.c lists them);
+                                  image: a parameter of the pass that the fact is about, or NULL */
+    GLINT_ROW_READS_LEVELS, /* reads an image's levels though no ray has a cone: its maker then needs none */
+    GLINT_ROW_SHOWS_ALL, /* while this parameter is off, every surface's reflection is shown, whatever its material */
+    GLINT_ROW_SELF,      /* all levels of an image that this pass writes; `name` is the binding's */
+    GLINT_ROW_HISTORY,   /* what an image held at the end of the previous frame; `name` is the binding's */
     GLINT_ROW_DISPATCH_LEVELS, /* one dispatch for each of some levels of an image */
     GLINT_ROW_DISPATCH_LIST,   /* instead of the DISPATCH before it: one invocation for each item of a list, if made */
     GLINT_ROW_PER_RAY,         /* the slot's passes run once for each ray of a frame */
@@ -54,6 +57,7 @@ enum glint_size_class {
     GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
     GLINT_SIZE_EIGHTH,   /* the coarsest level of HALF_MIPS3, alone */
     GLINT_SIZE_VOLUME,   /* 2D, what the longest description of an inner volume takes × active cube maps */
+    GLINT_SIZE_FIGURES,  /* 2D, 512 × 1 */
     GLINT_SIZE_PLANAR,   /* 2D, as large as the capture's planar reflection map */
     /* the class of that name with all levels down to 1 × 1 */
     GLINT_SIZE_FULL_MIPS,

@@ -65,14 +65,30 @@ double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct 
 
 /* ---- Survey: what a frame holds, which decides what it calls for ---- */
 
-enum { GLINT_SURVEY_BINS = 10 };
+enum { GLINT_SURVEY_BINS = 10, GLINT_SURVEY_WEIGHTS = 12 };
+/* Some of the pixels. Roughness as the device holds it: half precision, NaN as 0, at most 1. */
+struct glint_survey_pixels {
+    uint64_t count;
+    float roughness[2];                       /* lowest and highest; of none: +inf and -inf */
+    uint64_t by_roughness[GLINT_SURVEY_BINS]; /* bins of 0.1 */
+};
 struct glint_survey {
-    uint64_t pixels, sky, reflecting;      /* reflecting: not sky, and specular or metalness above 0 */
-    uint64_t smooth;                       /* of those, with roughness up to 0.1 */
-    uint64_t roughness[GLINT_SURVEY_BINS]; /* reflecting pixels by roughness, bins of 0.1 */
-    float depth_m[2], roughness_range[2], specular_range[2], metalness_range[2]; /* lowest and highest without sky */
+    uint64_t pixels, sky;
+    struct glint_survey_pixels surfaces; /* not sky */
+    struct glint_survey_pixels
+        reflecting;             /* surfaces with specular or metalness: those that compose shows a reflection of */
+    float depth_m[2];           /* lowest and highest without sky */
     uint32_t cubemaps, volumes; /* volumes: cube maps with an inner volume */
     bool has_sky, has_previous, has_planar, has_water, has_transparent, has_fresnel;
+    /* What the device alone counts; `whole` says that it did. */
+    bool whole;
+    uint64_t metalness[GLINT_SURVEY_BINS]; /* surfaces, bins of 0.1 */
+    uint64_t weight[GLINT_SURVEY_WEIGHTS]; /* reflecting ones by the share of a reflection that they send to the viewer:
+                                                 over 1/2, over 1/4, … over 1/2048, less */
+    uint64_t water, transparent;           /* pixels with such a surface before them */
+    uint64_t moved, moving;                /* surfaces: since the frame before, other than by the camera */
+    uint64_t stencil_bits[8];              /* pixels by the bits of their id */
+    float light[2], transparent_roughness; /* luminance of the lit picture; largest roughness */
 };
 /* Reads the G-buffer. */
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err);
@@ -90,7 +106,9 @@ struct glint_replay_options {
        of from the frame that this replay ran last. */
     const char *history;
     const char *const *skip, *const *force; /* slots, NULL-terminated */
-    bool all;                               /* no pass is dropped for having nothing to do */
+    /* No pass is dropped for having nothing to do, no ray for being seen by nobody; no survey, and no list unless `passes`
+       names its maker. */
+    bool all;
     bool captured;        /* images that are read from the capture are among the run's, with no pass */
     bool diagnostics;     /* end reasons, steps, fetches; changes no bit of the other images */
     bool float_precision; /* every half image as float */
@@ -143,6 +161,16 @@ void glint_replay_destroy(struct glint_replay **replay);
 /* The capture stays the caller's and must outlive its use here; NULL unloads. When its frame is the one after the frame
    that was run last, and no cut, passes that remember find that frame's images. */
 bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err);
+/* The survey of the loaded capture: on the replay's device, when it has one, else what the host counts. *time (NULL: not
+   wanted) receives what it took there. */
+bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey **survey, struct glint_time *time,
+                         struct glint_error *err);
+/* The same as run.json has it; the caller frees it. NULL on failure. */
+char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err);
+/* Pixels of a stencil class. False: the class is not one bit of the id, and by bits alone its pixels are not known. */
+bool glint_survey_class(const struct glint_survey *survey, const struct glint_stencil_class *class_, uint64_t *count);
+/* "none", "camera" or "objects": what moved since the frame before. */
+const char *glint_survey_motion(const struct glint_survey *survey);
 /* What would run. Reads what the survey needs from the capture. *entries is valid until the next call on `replay`. */
 bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                        const struct glint_replay_options *options, const struct glint_plan_entry **entries,
@@ -194,7 +222,7 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
 void glint_run_close(struct glint_run **run);
 /* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
    driver, driver_version, times_are}, "frame", "preset", "rays", "first_ray", "resolution" {full, half}, "precision", "diagnostics", "inputs", "history",
-   "active_cubemaps", "bad_values": [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …], "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
+   "all", "survey" (null when none was asked), "active_cubemaps", "bad_values": [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …], "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
    cached, cached_work, dispatches, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
    unit, meaning, width, height, format}}. */
 const char *glint_run_json(const struct glint_run *run);

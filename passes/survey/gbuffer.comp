@@ -1,0 +1,160 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "gbuffer.pass.h"
+#include "shared/push_begin.glsl"
+#include "gbuffer.pass.h"
+};
+#include "shared/brdf.glsl"
+#include "shared/camera.glsl"
+#include "shared/work_list.glsl"
+
+#define COUNT(name, bins, meaning) const int at_##name = 16 * __LINE__;
+#define LEAST(name, meaning) COUNT(name, 1, meaning)
+#define MOST(name, meaning) COUNT(name, 1, meaning)
+#line 0
+#include "survey/figures.h"
+#undef COUNT
+#undef LEAST
+#undef MOST
+#line 24
+const int FIGURES = 512; // words of a workgroup
+shared uint figures[FIGURES];
+// Bits of floats that are not negative are ordered as they are.
+const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
+uint kind_of(int figure) {
+#define COUNT(name, bins, meaning)
+#define LEAST(name, meaning) if (figure == at_##name) return LOWEST;
+#define MOST(name, meaning) if (figure == at_##name) return HIGHEST;
+#include "survey/figures.h"
+    return COUNTED;
+}
+
+// Of one pixel after the other, kept by the invocation until all are counted.
+struct Sums {
+    uint sky, surfaces, reflecting, water, transparent, moved, moving;
+    vec2 surface_roughness, reflecting_roughness, depth, light; // lowest, highest
+    float transparent_roughest;
+};
+void widen(inout vec2 range, float value) { range = vec2(min(range.x, value), max(range.y, value)); }
+void bin(int figure, int number, int most) { atomicAdd(figures[figure + clamp(number, 0, most)], 1u); }
+float held(float roughness) { return roughness > 0.0 ? min(roughness, 1.0) : 0.0; } // NaN is 0
+
+float weight_of(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specular) {
+    vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
+    vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    float cosine = clamp(dot(-normalize(mat3(frame.world_from_view) * view), normalize(surface.xyz)), 0.0, 1.0);
+    float rise = texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x;
+    vec3 weight = environment_reflectance(reflectance_at_normal(base.rgb, base.a, specular), held(surface.w), cosine, rise);
+    return max(weight.r, max(weight.g, weight.b));
+}
+
+// How far a surface was from here in the frame before, and how far from where a still one would have been, in pixels.
+vec2 moved_px(ivec2 pixel, float depth_m) {
+    vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy), size = vec2(frame.size.xy);
+    if (textureSize(motion_full, 0) != ivec2(frame.size.xy)) return vec2(0.0);
+    vec2 moved = texelFetch(motion_full, pixel, 0).xy;
+    vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    vec3 then = (frame.previous_view_from_world * vec4(position, 1.0)).xyz;
+    if (!(then.z * frame.depth_range.w > 0.0)) return vec2(length(moved * size), INFINITE);
+    vec2 still = project(then, frame.previous_uv_from_view, frame.depth_range.w) - uv;
+    vec2 jitter = frame.previous_uv_from_view.zw - frame.uv_from_view.zw;
+    return vec2(length((moved - jitter) * size), length((moved - still) * size));
+}
+
+void count_surface(ivec2 pixel, float depth_m, inout Sums sums) {
+    vec4 surface = texelFetch(normal_full, pixel, 0), base = texelFetch(albedo_full, pixel, 0);
+    float specular = texelFetch(specular_full, pixel, 0).x, roughness = held(surface.w);
+    sums.surfaces++;
+    widen(sums.surface_roughness, roughness);
+    widen(sums.depth, max(depth_m, 0.0));
+    bin(at_surface_roughness, int(roughness * 10.0), 9);
+    bin(at_metalness, int(held(base.a) * 10.0), 9);
+    vec2 moved = moved_px(pixel, depth_m);
+    if (moved.x > 1.0 / 64.0) sums.moved++;
+    if (moved.y > 0.125) sums.moving++;
+    if (base.a == 0.0 && specular == 0.0) return;
+    sums.reflecting++;
+    widen(sums.reflecting_roughness, roughness);
+    bin(at_reflecting_roughness, int(roughness * 10.0), 9);
+    float weight = reflects(depth_m, surface.xyz) ? weight_of(pixel, depth_m, surface, base, specular) : 0.0;
+    bin(at_weight, weight > 0.0 ? int(ceil(-log2(weight))) - 1 : 11, 11);
+}
+
+bool has_part(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
+
+void count_pixel(ivec2 pixel, inout Sums sums) {
+    float depth_m = texelFetch(depth_full, pixel, 0).x;
+    if (depth_m < INFINITE) count_surface(pixel, depth_m, sums);
+    else sums.sky++;
+    float light = dot(texelFetch(lit, pixel, 0).rgb, vec3(0.2126, 0.7152, 0.0722));
+    if (light >= 0.0 && light < LARGEST) widen(sums.light, light);
+    if (has_part(water_color) && texelFetch(water_color, pixel, 0).a > 0.0) sums.water++;
+    if (has_part(transparent_color) && texelFetch(transparent_color, pixel, 0).a > 0.0) {
+        sums.transparent++;
+        sums.transparent_roughest = max(sums.transparent_roughest, held(texelFetch(transparent_normal, pixel, 0).w));
+    }
+    if (textureSize(stencil_full, 0) == ivec2(frame.size.xy))
+        for (uint left = texelFetch(stencil_full, pixel, 0).x; left != 0u; left &= left - 1u)
+            bin(at_stencil_bits, findLSB(left), 7);
+}
+
+void add_range(int lowest, int highest, vec2 range) {
+    if (range.x > range.y) return;
+    atomicMin(figures[lowest], floatBitsToUint(range.x));
+    atomicMax(figures[highest], floatBitsToUint(range.y));
+}
+
+// 64 x 64 pixels, a row at a time.
+void count_block(int place) {
+    int lane = int(gl_LocalInvocationIndex);
+    for (int i = lane; i < FIGURES; i += 64) figures[i] = kind_of(i) == LOWEST ? 0xFFFFFFFFu : 0u;
+    barrier();
+    const vec2 NONE = vec2(INFINITE, -INFINITE);
+    Sums sums = Sums(0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
+    for (int row = 0; row < 64; ++row) {
+        ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane, row);
+        if (inside(pixel, ivec2(frame.size.xy))) count_pixel(pixel, sums);
+    }
+    atomicAdd(figures[at_sky], sums.sky);
+    atomicAdd(figures[at_surfaces], sums.surfaces);
+    atomicAdd(figures[at_reflecting], sums.reflecting);
+    atomicAdd(figures[at_water], sums.water);
+    atomicAdd(figures[at_transparent], sums.transparent);
+    atomicAdd(figures[at_moved], sums.moved);
+    atomicAdd(figures[at_moving], sums.moving);
+    add_range(at_surface_smoothest, at_surface_roughest, sums.surface_roughness);
+    add_range(at_reflecting_smoothest, at_reflecting_roughest, sums.reflecting_roughness);
+    add_range(at_nearest, at_farthest, sums.depth);
+    add_range(at_darkest, at_brightest, sums.light);
+    atomicMax(figures[at_transparent_roughest], floatBitsToUint(sums.transparent_roughest));
+    barrier();
+    for (int i = lane; i < FIGURES; i += 64) imageStore(survey_blocks, place + i, uvec4(figures[i]));
+}
+
+// Each workgroup sums up some figures over all blocks.
+void join_blocks(int first, int blocks) {
+    int lane = int(gl_LocalInvocationIndex);
+    for (int figure = int(workgroup_index()); figure < FIGURES; figure += blocks) {
+        uint kind = kind_of(figure), own = kind == LOWEST ? 0xFFFFFFFFu : 0u;
+        if (lane == 0) figures[0] = own;
+        barrier();
+        for (int block = lane; block < blocks; block += 64) {
+            uint one = texelFetch(partial, first + FIGURES * block + figure).x;
+            own = kind == COUNTED ? own + one : kind == LOWEST ? min(own, one) : max(own, one);
+        }
+        if (kind == COUNTED) atomicAdd(figures[0], own);
+        else if (kind == LOWEST) atomicMin(figures[0], own);
+        else atomicMax(figures[0], own);
+        barrier();
+        if (lane == 0) imageStore(survey_figures, ivec2(figure, 0), uvec4(figures[0]));
+        barrier();
+    }
+}
+
+void main() {
+    int blocks = int(gl_NumWorkGroups.x * gl_NumWorkGroups.y), first = LIST_ITEMS;
+    if (dispatch_phase == 0u) count_block(first + FIGURES * int(workgroup_index()));
+    else join_blocks(first, blocks);
+}

@@ -1,0 +1,82 @@
+/* The survey on the device: one pass over the capture's images, which stay there for the run that it is for. */
+#include "state.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "timing.h"
+
+enum place {
+#define COUNT(name, bins, meaning) at_##name = 16 * __LINE__,
+#define LEAST(name, meaning) COUNT(name, 1, meaning)
+#define MOST(name, meaning) COUNT(name, 1, meaning)
+#line 1
+#include "survey/figures.h"
+#undef COUNT
+#undef LEAST
+#undef MOST
+};
+
+static float as_float(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static void copy_bins(uint64_t *bins, const uint32_t *figures, size_t count) {
+    for (size_t i = 0; i < count; i++) bins[i] = figures[i];
+}
+
+static void set_range(float range[2], const uint32_t *figures, enum place least, enum place most, bool any) {
+    range[0] = any ? as_float(figures[least]) : INFINITY;
+    range[1] = any ? as_float(figures[most]) : -INFINITY;
+}
+
+static void read_figures(struct glint_survey *survey, const uint32_t *f) {
+    survey->sky = f[at_sky];
+    survey->surfaces.count = f[at_surfaces];
+    survey->reflecting.count = f[at_reflecting];
+    survey->pixels = survey->sky + survey->surfaces.count;
+    survey->water = f[at_water];
+    survey->transparent = f[at_transparent];
+    survey->moved = f[at_moved];
+    survey->moving = f[at_moving];
+    copy_bins(survey->surfaces.by_roughness, f + at_surface_roughness, GLINT_SURVEY_BINS);
+    copy_bins(survey->reflecting.by_roughness, f + at_reflecting_roughness, GLINT_SURVEY_BINS);
+    copy_bins(survey->metalness, f + at_metalness, GLINT_SURVEY_BINS);
+    copy_bins(survey->weight, f + at_weight, GLINT_SURVEY_WEIGHTS);
+    copy_bins(survey->stencil_bits, f + at_stencil_bits, 8);
+    set_range(survey->surfaces.roughness, f, at_surface_smoothest, at_surface_roughest, survey->surfaces.count > 0);
+    set_range(survey->reflecting.roughness, f, at_reflecting_smoothest, at_reflecting_roughest,
+              survey->reflecting.count > 0);
+    set_range(survey->depth_m, f, at_nearest, at_farthest, survey->surfaces.count > 0);
+    set_range(survey->light, f, at_darkest, at_brightest, f[at_darkest] <= f[at_brightest]);
+    survey->transparent_roughness = as_float(f[at_transparent_roughest]);
+    survey->whole = true;
+}
+
+const struct glint_pass *survey_pass(void) {
+    return glint_pass_find("survey", "gbuffer");
+}
+
+bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, struct glint_error *err) {
+    static const char *const outputs[] = {"survey_figures", NULL};
+    double values[64] = {0};
+    struct pipeline_pass entry = {.pass = survey_pass(), .values = values};
+    char name[] = "survey";
+    const struct glint_pipeline pipeline = {.name = name, .passes = &entry, .count = 1};
+    const struct glint_replay_options options = {.outputs = outputs,
+                                                 .repeat = wanted->repeat,
+                                                 .warmup = wanted->warmup,
+                                                 .no_cache = true,
+                                                 .lineage = UINT32_MAX};
+    struct run run = {.replay = replay, .pipeline = &pipeline, .options = &options, .survey = true};
+    uint32_t figures[FIGURES];
+    bool ok = run_work(&run, err);
+    const struct glint_image *image = ok ? glint_replay_find_image(replay, outputs[0]) : NULL;
+    ok = image && glint_replay_read_image(replay, image, GLINT_U32, figures, err);
+    if (ok) read_figures(&replay->survey, figures);
+    if (ok) replay->survey_time = time_statistics(run.steps[0].ns, run.steps[0].timed);
+    run_release(&run);
+    return ok;
+}

@@ -1,0 +1,81 @@
+/* A survey as run.json and glint info --json say it. */
+#include "state.h"
+
+#include <math.h>
+
+static json_t *numbers(const uint64_t *values, size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_integer((json_int_t)values[i]));
+    return list;
+}
+
+/* null where there is none: nothing was counted, or it has no end. */
+static json_t *number(float value) {
+    return isfinite(value) ? json_real((double)value) : json_null();
+}
+
+static json_t *range(const float values[2]) {
+    return json_pack("[oo]", number(values[0]), number(values[1]));
+}
+
+static json_t *pixels(const struct glint_survey_pixels *p) {
+    return json_pack("{sIsoso}", "count", (json_int_t)p->count, "roughness", range(p->roughness), "by_roughness",
+                     numbers(p->by_roughness, GLINT_SURVEY_BINS));
+}
+
+bool glint_survey_class(const struct glint_survey *survey, const struct glint_stencil_class *class, uint64_t *count) {
+    for (unsigned bit = 0; bit < 8; bit++)
+        if (class->value == 1u << bit && class->mask == 1u << bit) {
+            *count = survey->stencil_bits[bit];
+            return true;
+        }
+    return false;
+}
+
+static json_t *stencil(const struct glint_survey *survey, const struct glint_frame *frame) {
+    json_t *classes = json_object();
+    uint64_t count;
+    for (uint32_t i = 0; i < frame->class_count; i++)
+        if (glint_survey_class(survey, &frame->classes[i], &count))
+            json_object_set_new(classes, frame->classes[i].name, json_integer((json_int_t)count));
+    return classes;
+}
+
+const char *glint_survey_motion(const struct glint_survey *survey) {
+    return survey->moving ? "objects" : survey->moved ? "camera" : "none";
+}
+
+json_t *survey_record(const struct glint_survey *survey, const struct glint_time *time,
+                      const struct glint_frame *frame) {
+    json_t *json =
+        json_pack("{sIsIsosososIsIsbsb}", "pixels", (json_int_t)survey->pixels, "sky", (json_int_t)survey->sky,
+                  "surfaces", pixels(&survey->surfaces), "reflecting", pixels(&survey->reflecting), "depth_m",
+                  range(survey->depth_m), "cubemaps", (json_int_t)survey->cubemaps, "volumes",
+                  (json_int_t)survey->volumes, "planar", survey->has_planar, "previous", survey->has_previous);
+    json_object_set_new(json, "counted_on", json_string(survey->whole ? "device" : "host"));
+    if (!json || !survey->whole) return json;
+    json_object_set_new(json, "metalness", numbers(survey->metalness, GLINT_SURVEY_BINS));
+    json_object_set_new(json, "weight", numbers(survey->weight, GLINT_SURVEY_WEIGHTS));
+    json_object_set_new(json, "water", json_integer((json_int_t)survey->water));
+    json_object_set_new(json, "transparent", json_integer((json_int_t)survey->transparent));
+    json_object_set_new(json, "motion", json_string(glint_survey_motion(survey)));
+    json_object_set_new(json, "moved", json_integer((json_int_t)survey->moved));
+    json_object_set_new(json, "moving", json_integer((json_int_t)survey->moving));
+    json_object_set_new(json, "stencil", stencil(survey, frame));
+    json_object_set_new(json, "light", range(survey->light));
+    json_object_set_new(json, "time_ns",
+                        json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
+                                  (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns));
+    return json;
+}
+
+char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err) {
+    const struct glint_survey *survey;
+    struct glint_time time;
+    if (!glint_replay_survey(replay, &survey, &time, err)) return NULL;
+    json_t *json = survey_record(survey, &time, glint_capture_frame(replay->capture));
+    char *text = json_dumps(json, JSON_INDENT(2));
+    json_decref(json);
+    if (!text) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    return text;
+}

@@ -1,0 +1,351 @@
+/* What a plan leaves out makes no difference: the picture is that of a replay that leaves nothing out, bit for bit. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fixture.h"
+#include "glint/samples.h"
+#include "plain_capture.h"
+#include "state.h"
+
+enum { WIDTH = 64, HEIGHT = 36, FACE = 16, FRAMES = 2 };
+
+static void check(bool ok, const struct glint_error *err) {
+    if (!ok) fail_msg("%s", err->message);
+}
+
+/* ---- Two replays of one shot: as planned, and with everything ---- */
+
+/* Both stay for all tests, and so do their programs. */
+struct pair {
+    struct fixture *fixture;
+    struct glint_pipeline *pipeline;
+    struct glint_replay *planned, *whole;
+    void (*lie)(struct glint_survey *survey); /* to the plan, about what the frame holds; NULL: nothing */
+};
+
+static struct pair *pair_of(void **state) {
+    struct pair *pair = *state;
+    void *fixture = pair->fixture;
+    fixture_need_device(&fixture);
+    pair->lie = NULL;
+    return pair;
+}
+
+static void use_preset(struct pair *pair, const char *preset) {
+    struct glint_error err = {0};
+    glint_pipeline_destroy(&pair->pipeline);
+    pair->pipeline = glint_pipeline_create(preset, &err);
+    check(pair->pipeline != NULL, &err);
+    if (glint_pipeline_rays(pair->pipeline) > 1)
+        check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
+}
+
+static int set_up(void **state) {
+    static struct pair pair;
+    void *fixture = NULL;
+    struct glint_error err = {0};
+    if (fixture_setup_device(&fixture) != 0) return -1;
+    pair.fixture = fixture;
+    if (pair.fixture->device) {
+        pair.planned = glint_replay_create(pair.fixture->device, &err);
+        pair.whole = glint_replay_create(pair.fixture->device, &err);
+        if (!pair.planned || !pair.whole) return -1;
+    }
+    *state = &pair;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    struct pair *pair = *state;
+    void *fixture = pair->fixture;
+    glint_replay_destroy(&pair->planned);
+    glint_replay_destroy(&pair->whole);
+    glint_pipeline_destroy(&pair->pipeline);
+    return fixture_teardown(&fixture);
+}
+
+/* The last picture that the pipeline makes, as it is stored. */
+static uint16_t *picture_of(struct glint_replay *replay, size_t *count) {
+    static const char *const pictures[] = {"composed_transparent", "composed_water", "composed"};
+    struct glint_error err = {0};
+    const struct glint_image *image = NULL;
+    for (size_t i = 0; i < 3 && !image; i++) image = glint_replay_find_image(replay, pictures[i]);
+    assert_non_null(image);
+    *count = (size_t)image->width * image->height * image->components;
+    uint16_t *bits = malloc(*count * sizeof *bits);
+    assert_non_null(bits);
+    check(glint_replay_read_image(replay, image, GLINT_F16, bits, &err), &err);
+    return bits;
+}
+
+/* Replays the frame with both, and counts the values that differ. *left_out receives how many passes the plan dropped. */
+static size_t differences(struct pair *pair, struct glint_capture *capture, size_t *left_out) {
+    struct glint_error err = {0};
+    check(glint_replay_load(pair->planned, capture, &err), &err);
+    check(glint_replay_load(pair->whole, capture, &err), &err);
+    if (pair->lie) {
+        check(glint_survey_capture(capture, &pair->planned->survey, &err), &err);
+        pair->lie(&pair->planned->survey);
+        pair->planned->surveyed = true;
+    }
+    check(glint_replay_run(pair->planned, pair->pipeline, NULL, NULL, NULL, &err), &err);
+    check(glint_replay_run(pair->whole, pair->pipeline, &(struct glint_replay_options){.all = true}, NULL, NULL, &err),
+          &err);
+    size_t counts[2], passes, differ = 0;
+    const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);
+    for (size_t i = 0; i < passes; i++) *left_out += !results[i].ran;
+    uint16_t *bits[] = {picture_of(pair->planned, &counts[0]), picture_of(pair->whole, &counts[1])};
+    assert_int_equal(counts[0], counts[1]);
+    for (size_t i = 0; i < counts[0]; i++) differ += bits[0][i] != bits[1][i];
+    free(bits[0]), free(bits[1]);
+    return differ;
+}
+
+static size_t differences_of_file(struct pair *pair, const char *path, size_t *left_out) {
+    struct glint_error err = {0};
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    check(capture != NULL, &err);
+    const size_t differ = differences(pair, capture, left_out);
+    check(glint_replay_load(pair->planned, NULL, &err) && glint_replay_load(pair->whole, NULL, &err), &err);
+    glint_capture_close(&capture);
+    return differ;
+}
+
+/* ---- Every sample scene with every preset ---- */
+
+static const char *sampled(const struct fixture *fixture, const char *scene, int frame, char path[256]) {
+    const struct glint_sample_options options = {.width = WIDTH,
+                                                 .height = HEIGHT,
+                                                 .cube_size = FACE,
+                                                 .planar_width = 32,
+                                                 .planar_height = 16,
+                                                 .frames = FRAMES,
+                                                 .light_samples = 2};
+    struct glint_error err = {0};
+    snprintf(path, 256, "%s/%s.exr", fixture->folder, scene);
+    if (frame == 1) check(glint_sample_write(scene, path, &options, NULL, NULL, &err), &err);
+    snprintf(path, 256, "%s/%s.%04d.exr", fixture->folder, scene, frame);
+    return path;
+}
+
+/* Catches: a rule that drops what the picture depends on, history that a dropped pass would have left, arithmetic that
+   depends on what else is worked on. */
+static void the_picture_of_a_plan_is_the_whole_picture(void **state) {
+    struct pair *pair = pair_of(state);
+    struct fixture *fixture = pair->fixture;
+    size_t scenes, left_out = 0, faults = 0;
+    const struct glint_sample *samples = glint_samples(&scenes);
+    char path[256];
+    for (size_t s = 0; s < scenes; s++) sampled(fixture, samples[s].name, 1, path);
+    for (size_t p = 0; glint_preset(p); p++)
+        for (size_t s = 0; s < scenes; s++) {
+            use_preset(pair, glint_preset(p));
+            for (int frame = 1; frame <= FRAMES; frame++) {
+                snprintf(path, sizeof path, "%s/%s.%04d.exr", fixture->folder, samples[s].name, frame);
+                const size_t differ = differences_of_file(pair, path, &left_out);
+                if (differ)
+                    print_error("%s, %s, frame %d: %zu values differ\n", glint_preset(p), samples[s].name, frame,
+                                differ);
+                faults += differ > 0;
+            }
+        }
+    assert_int_equal(faults, 0);
+    assert_true(left_out > 0);
+    fixture_check_messages(pair->fixture);
+}
+
+/* ---- The survey ---- */
+
+static void check_pixels(const struct glint_survey_pixels *device, const struct glint_survey_pixels *host) {
+    assert_int_equal(device->count, host->count);
+    assert_memory_equal(device->roughness, host->roughness, sizeof host->roughness);
+    assert_memory_equal(device->by_roughness, host->by_roughness, sizeof host->by_roughness);
+}
+
+static uint64_t sum(const uint64_t *values, size_t count) {
+    uint64_t all = 0;
+    for (size_t i = 0; i < count; i++) all += values[i];
+    return all;
+}
+
+/* Catches: pixels at the borders of blocks counted twice or not at all, bins that leave some out. The host counts by
+   itself, in another order. */
+static void the_device_counts_as_the_host_does(void **state) {
+    struct pair *pair = pair_of(state);
+    struct glint_error err = {0};
+    size_t scenes;
+    const struct glint_sample *samples = glint_samples(&scenes);
+    uint64_t water = 0, transparent = 0, moved = 0, moving = 0;
+    for (size_t s = 0; s < scenes; s++) {
+        char path[256];
+        const struct glint_survey *device;
+        struct glint_survey host;
+        struct glint_capture *capture =
+            glint_capture_open(sampled(pair->fixture, samples[s].name, 1, path), NULL, &err);
+        check(capture && glint_replay_load(pair->planned, capture, &err), &err);
+        check(glint_replay_survey(pair->planned, &device, NULL, &err), &err);
+        check(glint_survey_capture(capture, &host, &err), &err);
+        assert_true(device->whole && !host.whole);
+        assert_int_equal(device->pixels, WIDTH * HEIGHT);
+        assert_int_equal(device->sky, host.sky);
+        check_pixels(&device->surfaces, &host.surfaces);
+        check_pixels(&device->reflecting, &host.reflecting);
+        assert_memory_equal(device->depth_m, host.depth_m, sizeof host.depth_m);
+        assert_int_equal(sum(device->weight, GLINT_SURVEY_WEIGHTS), device->reflecting.count);
+        assert_int_equal(sum(device->metalness, GLINT_SURVEY_BINS), device->surfaces.count);
+        assert_true((device->water > 0) == device->has_water && (device->transparent > 0) == device->has_transparent);
+        assert_true(device->light[0] >= 0 && device->light[1] > device->light[0]);
+        if (strcmp(samples[s].name, "still_life") == 0) assert_string_equal(glint_survey_motion(device), "none");
+        if (strcmp(samples[s].name, "matte") == 0) assert_string_equal(glint_survey_motion(device), "camera");
+        water += device->water, transparent += device->transparent, moved += device->moved, moving += device->moving;
+        check(glint_replay_load(pair->planned, NULL, &err), &err);
+        glint_capture_close(&capture);
+    }
+    assert_true(water && transparent && moved && moving);
+    fixture_check_messages(pair->fixture);
+}
+
+/* ---- A shot whose materials change from frame to frame ---- */
+
+enum look { MATTE, MIRROR, GLOSSY, ROUGH, MIXED, LOOKS };
+
+static enum look look_now;
+
+static void paint(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    static const float roughness[MIXED] = {0.5f, 0, 0.09f, 0.6f};
+    for (size_t i = 0; i < pixels; i++) {
+        const size_t column = i % plain->width * MIXED / plain->width;
+        const enum look look = look_now == MIXED ? (enum look)column : look_now;
+        values[PLAIN_ROUGHNESS * pixels + i] = roughness[look];
+        values[PLAIN_METALNESS * pixels + i] = 0;
+        values[PLAIN_SPECULAR * pixels + i] = look == MATTE ? 0.0f : 0.5f;
+    }
+}
+
+static void cube(uint32_t number, const double direction[3], float out[5]) {
+    for (int k = 0; k < 3; k++) out[k] = (float)(1 + 0.5 * direction[k]) + (float)number;
+    out[3] = 1;
+    out[4] = 6;
+}
+
+static struct glint_capture *painted(const struct fixture *fixture, enum look look, uint32_t number) {
+    struct glint_error err = {0};
+    char path[256];
+    const struct plain plain = {.width = 48,
+                                .height = 32,
+                                .fov_y_degrees = 60,
+                                .floor = true,
+                                .frame = number,
+                                .spoil = paint,
+                                .cube_size = FACE,
+                                .cube_count = 1,
+                                .cube = cube};
+    snprintf(path, sizeof path, "%s/painted.exr", fixture->folder);
+    look_now = look;
+    check(plain_write(path, &plain, &err), &err);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    check(capture != NULL, &err);
+    return capture;
+}
+
+/* Catches: history that a frame without some class of surfaces would have handed to one that has them. Every look follows
+   every other one. */
+static void a_plan_may_change_from_frame_to_frame(void **state) {
+    struct pair *pair = pair_of(state);
+    static const enum look shot[] = {MATTE, MIRROR, MATTE, GLOSSY, MATTE, ROUGH,  MATTE, MIXED, MIRROR, GLOSSY, MIRROR,
+                                     ROUGH, MIRROR, MIXED, GLOSSY, ROUGH, GLOSSY, MIXED, ROUGH, MIXED,  MATTE};
+    static const char *const presets[] = {"mafia3", "mafia_de", "mafia3_shipped", "kf2"};
+    size_t faults = 0;
+    for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
+        use_preset(pair, presets[p]);
+        size_t before = 0, changes = 0;
+        for (uint32_t i = 0; i < sizeof shot / sizeof *shot; i++) {
+            struct glint_capture *capture = painted(pair->fixture, shot[i], i + 1);
+            size_t left_out = 0;
+            const size_t differ = differences(pair, capture, &left_out);
+            if (differ) print_error("%s, frame %u: %zu values differ\n", presets[p], i + 1, differ);
+            faults += differ > 0;
+            changes += left_out != before;
+            before = left_out;
+            check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL), NULL);
+            glint_capture_close(&capture);
+        }
+        assert_true(changes > 0);
+    }
+    assert_int_equal(faults, 0);
+    fixture_check_messages(pair->fixture);
+}
+
+/* ---- Rules that are wrong on purpose ---- */
+
+static void nothing_reflects(struct glint_survey *s) {
+    s->reflecting = s->surfaces = (struct glint_survey_pixels){.roughness = {INFINITY, -INFINITY}};
+}
+static void nothing_is_smooth(struct glint_survey *s) {
+    s->reflecting.roughness[0] = s->surfaces.roughness[0] = 1;
+}
+static void nothing_is_rough(struct glint_survey *s) {
+    s->reflecting.roughness[1] = s->surfaces.roughness[1] = 0.01f;
+}
+static void all_are_mirrors(struct glint_survey *s) {
+    s->reflecting.roughness[1] = s->surfaces.roughness[1] = 0;
+}
+static void there_are_no_cubemaps(struct glint_survey *s) {
+    s->cubemaps = 0;
+}
+static void there_are_no_volumes(struct glint_survey *s) {
+    s->volumes = 0;
+}
+static void there_is_no_water(struct glint_survey *s) {
+    s->has_water = false;
+}
+static void there_is_no_planar_map(struct glint_survey *s) {
+    s->has_planar = false;
+}
+static void nothing_is_transparent(struct glint_survey *s) {
+    s->has_transparent = false;
+}
+
+/* Catches: a comparison that finds every plan right. */
+static void a_wrong_rule_is_found(void **state) {
+    struct pair *pair = pair_of(state);
+    static const struct {
+        const char *name, *scene, *preset;
+        void (*lie)(struct glint_survey *survey);
+    } rules[] = {{"reflecting", "room", "mafia3", nothing_reflects},
+                 {"smooth", "room", "mafia3", nothing_is_smooth},
+                 {"rough", "room", "mafia3", nothing_is_rough},
+                 {"cones", "room", "mafia3", all_are_mirrors},
+                 {"cubemaps", "room", "mafia3", there_are_no_cubemaps},
+                 {"volumes", "room", "mafia3_shipped", there_are_no_volumes},
+                 {"water", "lake", "gtav", there_is_no_water},
+                 {"planar", "lake", "gtav", there_is_no_planar_map},
+                 {"transparent", "glasshouse", "mafia_de", nothing_is_transparent}};
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
+        use_preset(pair, rules[i].preset);
+        size_t left_out = 0;
+        char path[256];
+        pair->lie = rules[i].lie;
+        if (differences_of_file(pair, sampled(pair->fixture, rules[i].scene, 1, path), &left_out) == 0)
+            fail_msg("a wrong rule for '%s' changes nothing", rules[i].name);
+    }
+    fixture_check_messages(pair->fixture);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_device_counts_as_the_host_does),
+        cmocka_unit_test(a_plan_may_change_from_frame_to_frame),
+        cmocka_unit_test(a_wrong_rule_is_found),
+        cmocka_unit_test(the_picture_of_a_plan_is_the_whole_picture),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
