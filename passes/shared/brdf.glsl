@@ -46,7 +46,9 @@ vec2 environment_brdf(float roughness, float cosine) {
 // fresnel: what a material makes of the rise towards grazing angles (004, Specular map: fresnel intensity); 0: none.
 vec3 environment_reflectance(vec3 f0, float roughness, float cosine, float fresnel) {
     vec2 scale = environment_brdf(roughness, cosine);
-    return max(f0 * scale.x + mix(f0, vec3(reflectance_at_grazing(f0)), fresnel) * scale.y, 0.0);
+    vec3 grazing = vec3(reflectance_at_grazing(f0));
+    if (fresnel != 1.0) grazing = mix(f0, grazing, fresnel); // whose last bit at 1 is not the same in every specialization
+    return max(f0 * scale.x + grazing * scale.y, 0.0);
 }
 vec3 environment_reflectance(vec3 f0, float roughness, float cosine) { return environment_reflectance(f0, roughness, cosine, 1.0); }
 #endif

@@ -159,12 +159,8 @@ static bool check_all(struct pictures *pictures, struct tally *tally, struct gli
     for (uint32_t y = 0; ok && y < depth.height; y++)
         for (uint32_t x = 0; x < depth.width; x++) {
             const size_t i = (size_t)y * depth.width + x;
-<<<<<<< HEAD
             const uint32_t chosen = scale == 1 ? 0 : pick.whole[i];
-            const double place[2] = {scale * x + (chosen & 1) + 0.5, scale * y + (chosen >> 1) + 0.5};
-=======
-            const double place[2] = {2 * x + (pick.whole[i] & 1) + 0.5, 2 * y + (pick.whole[i] >> 1 & 1) + 0.5};
->>>>>>> 4fe5274 (What a plan leaves out makes no difference: planned and whole pictures are the same bits)
+            const double place[2] = {scale * x + (chosen & 1) + 0.5, scale * y + (chosen >> 1 & 1) + 0.5};
             check(tally, place, depth.values[i], finished.whole[i], travelled.values[i]);
         }
     free(depth.values), free(pick.values), free(finished.values), free(travelled.values);

@@ -105,7 +105,7 @@ static bool run_preset(const struct selftest *test, const char *preset, const bo
     bool ok = images || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     ok = ok && pictures_begin_preset(&pictures, test, preset, err) && pictures_court(&pictures, &court, err) &&
          read_images(&pictures, preset, &images[0], err) &&
-         pictures_replay(&pictures, path, &(struct glint_replay_options){0}, err) &&
+         pictures_replay(&pictures, path, &(struct glint_replay_options){.all = true}, err) &&
          read_images(&pictures, preset, &images[1], err);
     for (size_t i = 0; ok && i < numbers_half_count(); i++)
         if (chosen[i] && strcmp(cases[i].preset, preset) == 0)

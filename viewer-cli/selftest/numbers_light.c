@@ -129,7 +129,7 @@ static bool looks_there(const struct pictures *pictures, const struct court *cou
     struct court_ray ray;
     if (!pictures_read(pictures, "pick", &pick, err)) return false;
     const uint32_t chosen = pick.whole[(size_t)y * pick.width + x];
-    const double place[2] = {2 * x + (chosen & 1) + 0.5, 2 * y + (chosen >> 1) + 0.5};
+    const double place[2] = {2 * x + (chosen & 1) + 0.5, 2 * y + (chosen >> 1 & 1) + 0.5};
     free(pick.values);
     return court_reflect(court, place, &ray) && fabs(ray.end_px[0] - bad_pixel[0] - 0.5) < 1.001 &&
            fabs(ray.end_px[1] - bad_pixel[1] - 0.5) < 1.001;
