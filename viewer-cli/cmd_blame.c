@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "blame.h"
+#include "blame/blame.h"
 #include "pass_names.h"
 #include "pipeline_args.h"
 #include "text_file.h"

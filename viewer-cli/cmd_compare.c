@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "contest.h"
+#include "compare/contest.h"
 #include "pipe.h"
-#include "png_file.h"
+#include "view/png_file.h"
 #include "text_file.h"
 
 struct arguments {

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "args.h"
-#include "diff.h"
+#include "diff/diff.h"
 #include "metric_args.h"
 #include "progress.h"
 

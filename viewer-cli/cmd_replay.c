@@ -7,7 +7,7 @@
 #include "pipe.h"
 #include "pipeline_args.h"
 #include "progress.h"
-#include "report.h"
+#include "report/report.h"
 #include "shot.h"
 #include "table.h"
 

@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "args.h"
-#include "report.h"
+#include "report/report.h"
 
 struct arguments {
     struct list folders, images;

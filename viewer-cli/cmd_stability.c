@@ -2,7 +2,7 @@
 #include "pipe.h"
 #include "pipeline_args.h"
 #include "progress.h"
-#include "stability.h"
+#include "stability/stability.h"
 
 struct arguments {
     struct pipeline_args pipeline;

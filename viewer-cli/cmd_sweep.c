@@ -6,7 +6,7 @@
 
 #include "pass_names.h"
 #include "pipeline_args.h"
-#include "sweep.h"
+#include "sweep/sweep.h"
 #include "text_file.h"
 
 struct arguments {

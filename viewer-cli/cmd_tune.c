@@ -6,7 +6,7 @@
 
 #include "pass_names.h"
 #include "pipeline_args.h"
-#include "tune.h"
+#include "tune/tune.h"
 
 struct arguments {
     struct tune tune;

@@ -6,9 +6,9 @@
 
 #include "args.h"
 #include "pipe.h"
-#include "png_file.h"
+#include "view/png_file.h"
 #include "progress.h"
-#include "render.h"
+#include "view/render.h"
 #include "view/statistics.h"
 #include "view/terminal.h"
 #include "view/tev.h"

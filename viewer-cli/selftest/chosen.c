@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../args.h"
+#include "args.h"
 
 static bool is_chosen(const struct list *only, const struct selftest_group *group, const struct selftest_case *c) {
     for (size_t i = 0; i < only->count; i++)

@@ -2,7 +2,7 @@
 #ifndef GLINT_VIEWER_SELFTEST_CHOSEN_H
 #define GLINT_VIEWER_SELFTEST_CHOSEN_H
 
-#include "../command.h"
+#include "command.h"
 #include "selftest.h"
 
 struct list;

@@ -3,8 +3,8 @@
 
 #include <jansson.h>
 
-#include "../args.h"
-#include "../table.h"
+#include "args.h"
+#include "table.h"
 #include "chosen.h"
 
 static const char *unit_of(const struct selftest_case *c) {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../text_file.h"
+#include "text_file.h"
 #include "noise.h"
 
 /* ---- What is in a frame ---- */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../text_file.h"
+#include "text_file.h"
 #include "filter.h"
 
 enum { COLUMNS = 256, LISTS = 4, IMAGE_LISTS = 5 };

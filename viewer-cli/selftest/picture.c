@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../text_file.h"
+#include "text_file.h"
 
 const struct glint_sample_options pictures_sample = {
     .width = 96, .height = 64, .cube_size = 64, .probes_given = true, .probes = GLINT_PROBES_PERFECT};

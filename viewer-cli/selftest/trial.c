@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../text_file.h"
+#include "text_file.h"
 
 const char *trial_path(const struct trial *trial, const char *name, char path[4096]) {
     snprintf(path, 4096, "%s/%s", trial->test->folder, name);

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../args.h"
-#include "../table.h"
+#include "args.h"
+#include "table.h"
 
 enum { BAR_COLUMNS = 40 };
 

@@ -4,7 +4,7 @@
 
 #include <jansson.h>
 
-#include "../falsecolor.h"
+#include "view/falsecolor.h"
 
 enum { STATISTICS_BINS_MAX = 4096 };
 

@@ -2,7 +2,7 @@
 #ifndef GLINT_VIEWER_VIEW_TERMINAL_H
 #define GLINT_VIEWER_VIEW_TERMINAL_H
 
-#include "../picture.h"
+#include "view/picture.h"
 
 /* How: what the terminal says that it can, or one of these whatever it says. */
 enum terminal_mode { TERMINAL_AUTO, TERMINAL_KITTY, TERMINAL_SIXEL, TERMINAL_ITERM2, TERMINAL_BLOCKS };

@@ -2,7 +2,7 @@
 #ifndef GLINT_VIEWER_VIEW_TEV_H
 #define GLINT_VIEWER_VIEW_TEV_H
 
-#include "../source.h"
+#include "view/source.h"
 
 /* `host` is HOST, HOST:PORT or [IPv6]:PORT; tev listens at 14158. The image is replaced when one of this name is there. */
 bool tev_send(const char *host, const char *name, const struct source *source, struct glint_error *err);

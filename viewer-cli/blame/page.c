@@ -1,0 +1,219 @@
+/* A blame as a page: where the error comes from, and what mending it buys. */
+#include <math.h>
+#include <string.h>
+
+#include "blame/blame.h"
+#include "page/page.h"
+
+/* Players as they run: the first one on top. */
+static size_t player_at(const struct blame *blame, size_t place) {
+    return blame->count - 1 - place;
+}
+
+enum bar { BAR_SHARE, BAR_REMOVED, BAR_MADE, BARS };
+static const char *const bar_names[BARS] = {"share", "removes", "makes"};
+
+static double bar_value(const struct blame_sum *sum, enum bar bar, size_t p, size_t v) {
+    return bar == BAR_SHARE     ? blame_share(sum, p, v)
+           : bar == BAR_REMOVED ? blame_removed(sum, p, v)
+                                : blame_made(sum, p, v);
+}
+
+static json_t *bars_of(const struct blame *blame, const struct blame_sum *sum, enum bar bar, size_t v) {
+    json_t *points = json_array();
+    for (size_t i = 0; i < blame->count; i++) {
+        const size_t p = player_at(blame, i);
+        const double x = bar_value(sum, bar, p, v), half = bar == BAR_SHARE ? blame_half(sum, p, v) : 0;
+        json_t *point = json_pack("{s:o, s:I, s:s, s:[[s, s, s]]}", "x", json_number(x), "y", (json_int_t)i, "name",
+                                  glint_player_name(blame->players, p), "values", "exchanged",
+                                  glint_player_change(blame->players, p), "");
+        if (half > 0) {
+            json_object_set_new(point, "x_low", json_number(x - half));
+            json_object_set_new(point, "x_high", json_number(x + half));
+        }
+        json_array_append_new(points, point);
+    }
+    return points;
+}
+
+/* Where the error comes from: three bars a player. */
+static json_t *shares_chart(const struct blame *blame, const struct blame_sum *sum, size_t answer, const char *title) {
+    json_t *names = json_array(), *series = json_array();
+    char text[300];
+    for (size_t i = 0; i < blame->count; i++)
+        json_array_append_new(names, json_string(glint_player_name(blame->players, player_at(blame, i))));
+    for (int bar = 0; bar < BARS; bar++)
+        json_array_append_new(series, json_pack("{s:s, s:s, s:o}", "name", bar_names[bar], "kind", "bar", "points",
+                                                bars_of(blame, sum, (enum bar)bar, blame_value(answer, 0))));
+    snprintf(text, sizeof text, "Where %s's error comes from: %.200s", glint_pipeline_name(blame->base), title);
+    return json_pack("{s:s, s:I, s:{s:s, s:s}, s:{s:s, s:s, s:o}, s:o}", "title", text, "height",
+                     (json_int_t)(110 + 58 * blame->count), "x", "name", glint_metric(blame->metric)->title, "unit", "",
+                     "y", "name", "", "scale", "category", "categories", names, "series", series);
+}
+
+/* What each millisecond buys. */
+static json_t *bought_chart(const struct blame *blame, const struct blame_sum *sum, size_t answer, const char *title) {
+    json_t *points[2] = {json_array(), json_array()}, *names = json_array();
+    char text[300];
+    for (size_t i = 0; i < blame->count; i++) {
+        const size_t p = player_at(blame, i);
+        const char *name = glint_player_name(blame->players, p);
+        bool already;
+        const double bought = blame_bought(sum, p, blame_value(answer, 0), &already);
+        json_array_append_new(names, json_string(name));
+        if (isfinite(bought))
+            json_array_append_new(points[already],
+                                  json_pack("{s:f, s:I, s:s}", "x", bought, "y", (json_int_t)i, "name", name));
+    }
+    snprintf(text, sizeof text, "What each millisecond buys: %.200s", title);
+    return json_pack("{s:s, s:{s:s, s:s, s:s}, s:{s:s, s:s, s:o}, s:[{s:s, s:s, s:o}, {s:s, s:s, s:o}]}", "title", text,
+                     "x", "name", "error for each millisecond", "unit", glint_metric(blame->metric)->title, "scale",
+                     "log", "y", "name", "", "scale", "category", "categories", names, "series", "name",
+                     "reference buys", "kind", "scatter", "points", points[0], "name", "buys already", "kind",
+                     "scatter", "points", points[1]);
+}
+
+static json_t *share_cell(const struct blame_sum *sum, size_t p, size_t v) {
+    const double share = blame_share(sum, p, v), half = blame_half(sum, p, v);
+    return half > 0 ? page_interval(share, share - half, share + half) : json_number(share);
+}
+
+static void add_players(const struct blame *blame, const struct blame_sum *sum, size_t answer, json_t *blocks) {
+    static const char *const more[][2] = {{"removes", ""},          {"adds", "ms"}, {"buys", "per ms"},
+                                          {"fetches", "per pixel"}, {"makes", ""},  {"saves", "ms"}};
+    const size_t v = blame_value(answer, 0);
+    double shares = 0, removed = 0, made = 0;
+    json_t *table = page_table(blocks);
+    page_column(table, "player", "");
+    page_column(table, "share", "|");
+    page_column(table, "of all", "%");
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++) page_column(table, more[i][0], more[i][1]);
+    for (size_t i = 0; i < blame->count; i++) {
+        const size_t p = player_at(blame, i);
+        const double off = blame_removed(sum, p, v);
+        bool already;
+        shares += blame_share(sum, p, v);
+        removed += off;
+        made += blame_made(sum, p, v);
+        page_row(table,
+                 json_pack("[s, o, o, o, o, o, o, o, o]", glint_player_name(blame->players, p), share_cell(sum, p, v),
+                           json_number(100 * blame_share(sum, p, v) / blame_total(sum, v)), json_number(off),
+                           json_number(sum->time.added[p]), json_number(blame_bought(sum, p, v, &already)),
+                           json_number(sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]),
+                           json_number(blame_made(sum, p, v)), json_number(sum->time.saved[p])));
+    }
+    page_row(table,
+             json_pack("[s, o, o, o, n, n, n, o, n]", "sum", json_number(shares),
+                       json_number(100 * shares / blame_total(sum, v)), json_number(removed), json_number(made)));
+}
+
+/* Shares within each class of surface. */
+static void add_classes(const struct blame *blame, const struct blame_sum *sum, size_t answer, json_t *blocks) {
+    json_t *table = page_table(blocks);
+    page_column(table, "shares by surface", "");
+    for (size_t k = 0; k < BLAME_CLASSES; k++) page_column(table, blame_classes[k], "|");
+    for (size_t i = 0; i < blame->count; i++) {
+        json_t *row = json_pack("[s]", glint_player_name(blame->players, player_at(blame, i)));
+        for (size_t k = 0; k < BLAME_CLASSES; k++)
+            json_array_append_new(row, share_cell(sum, player_at(blame, i), blame_value(answer, k)));
+        page_row(table, row);
+    }
+    static const char *const rows[] = {"error of the preset", "error of its reference"};
+    for (size_t r = 0; r < 2; r++) {
+        json_t *row = json_pack("[s]", rows[r]);
+        for (size_t k = 0; k < BLAME_CLASSES; k++)
+            json_array_append_new(row, json_number((r ? sum->shapley.all : sum->shapley.none)[blame_value(answer, k)]));
+        page_row(table, row);
+    }
+}
+
+static void add_sum(const struct blame *blame, json_t *document, const char *title, const struct blame_sum *sum) {
+    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
+        const size_t v = blame_value(a, 0);
+        char text[500], how[96];
+        if (!isfinite(sum->shapley.none[v])) continue;
+        const char *answer = glint_answer_name(blame_answer(blame, a));
+        snprintf(text, sizeof text, "%.300s, against the %s", title, answer);
+        json_t *blocks = page_section(document, text);
+        page_chart(blocks, shares_chart(blame, sum, a, text));
+        add_players(blame, sum, a, blocks);
+        blame_how(sum, how);
+        snprintf(text, sizeof text,
+                 "%s: %.4g for the preset, %.4g for its reference. Shares of the difference, %.4g, are %s.",
+                 glint_metric(blame->metric)->title, sum->shapley.none[v], sum->shapley.all[v], blame_total(sum, v),
+                 how);
+        page_text(blocks, "text", text);
+        add_classes(blame, sum, a, blocks);
+        if (blame->rounds) page_chart(blocks, bought_chart(blame, sum, a, title));
+    }
+}
+
+static const char meaning[] =
+    "Removes, adds, buys, fetches: this player alone exchanged in the preset: the error that goes, the time it adds, "
+    "the "
+    "error that goes for each millisecond (where exchanging it saves time and errs more: what its own milliseconds buy "
+    "already), texture fetches added. Makes, saves: it alone kept as it is while all others are as in the reference: "
+    "the "
+    "error that comes, the time that it saves. Where removes and makes differ, players interact. The share is the mean "
+    "of "
+    "what a player changes over all orders in which they can be exchanged one after the other; shares add up to the "
+    "error "
+    "of the preset less that of its reference. A negative one: the player makes the picture better than it would be "
+    "without.";
+
+static void add_meaning(const struct blame *blame, json_t *document) {
+    json_t *blocks = page_section(document, "What the players are");
+    page_text(blocks, "text", meaning);
+    json_t *table = page_table(blocks);
+    page_column(table, "player", "");
+    page_column(table, "exchanged", "");
+    page_column(table, "why together", "");
+    for (size_t i = 0; i < blame->count; i++) {
+        const size_t p = player_at(blame, i);
+        page_row(table, json_pack("[s, s, s]", glint_player_name(blame->players, p),
+                                  glint_player_change(blame->players, p), glint_player_why(blame->players, p)));
+    }
+}
+
+static void add_facts(const struct blame *blame, json_t *document) {
+    const struct glint_device_info *device = glint_device_get_info(blame->device);
+    char text[300];
+    for (size_t c = 0; c < blame->captures.count; c++) page_fact(document, "capture", blame->captures.items[c]);
+    page_fact(document, "preset", glint_pipeline_name(blame->base));
+    page_fact(document, "error", glint_metric(blame->metric)->title);
+    page_fact(document, "device", device->name);
+    snprintf(text, sizeof text, "median of %u rounds in turns%s", blame->rounds,
+             device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");
+    if (blame->rounds) page_fact(document, "times", text);
+}
+
+/* Charts of the mean, or of the only capture. */
+static bool write_charts(const struct blame *blame, struct glint_error *err) {
+    for (int bought = 0; bought <= (blame->rounds > 0); bought++) {
+        char path[4096];
+        const char *title = blame->captures.count > 1 ? "mean of the captures" : blame->captures.items[0];
+        json_t *chart = (bought ? bought_chart : shares_chart)(blame, &blame->mean, 0, title);
+        const bool ok = chart ? journal_path(blame->out, bought ? "bought.svg" : "shares.svg", path, err) &&
+                                    page_chart_write(path, chart, err)
+                              : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        json_decref(chart);
+        if (!ok) return false;
+    }
+    return true;
+}
+
+bool blame_write_page(const struct blame *blame, struct glint_error *err) {
+    char title[200], path[4096];
+    snprintf(title, sizeof title, "Where the error of %.100s comes from", glint_pipeline_name(blame->base));
+    json_t *document = page_create(title);
+    if (!document) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    add_facts(blame, document);
+    if (blame->captures.count > 1) add_sum(blame, document, "Mean of the captures", &blame->mean);
+    for (size_t c = 0; c < blame->captures.count; c++)
+        add_sum(blame, document, blame->captures.items[c], &blame->captured[c]);
+    add_meaning(blame, document);
+    const bool ok = journal_path(blame->out, "index.html", path, err) && page_store(blame->out, document, err) &&
+                    page_write(path, document, blame->out, err) && write_charts(blame, err);
+    json_decref(document);
+    return ok;
+}

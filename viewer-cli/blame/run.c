@@ -1,0 +1,254 @@
+/* Looks at coalitions and times some, as far as that is not in the log yet. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blame/blame.h"
+
+/* One capture under way. */
+struct work {
+    struct blame *blame;
+    size_t capture;
+    struct glint_judge *judge;
+    struct glint_capture *open, **before; /* as many as blame->before */
+    size_t done, total;
+    char label[64];
+};
+
+static bool report(void *user, const char *what, double done) {
+    const struct work *work = user;
+    (void)what;
+    return progress_report(work->blame->progress, work->label,
+                           ((double)work->done + done) / (double)(work->total ? work->total : 1));
+}
+
+static const char *base_name(const char *path) {
+    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+}
+
+static bool place_line(const struct work *work, uint32_t coalition, json_t *line, struct glint_error *err) {
+    if (!line) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    json_object_set_new(line, "capture", json_integer((json_int_t)work->capture));
+    json_object_set_new(line, "coalition", json_integer((json_int_t)coalition));
+    return journal_append(&work->blame->journal, line, err);
+}
+
+/* Which slots are exchanged, for errors. */
+static bool fail_coalition(const struct work *work, uint32_t coalition, const struct glint_error *own,
+                           struct glint_error *err) {
+    char names[600] = "";
+    for (size_t p = 0; p < work->blame->count; p++) {
+        const size_t length = strlen(names);
+        if (coalition >> p & 1)
+            snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "",
+                     glint_player_name(work->blame->players, p));
+    }
+    return glint_fail(err, own->code, "%s: with %s as in the reference: %s", work->blame->captures.items[work->capture],
+                      names[0] ? names : "nothing", own->message);
+}
+
+static json_t *look_json(const struct blame *blame, const struct glint_verdict *verdict) {
+    json_t *errors = json_object();
+    for (int k = 0; k < GLINT_ANSWER_COUNT; k++)
+        if (verdict->errors[k].count)
+            json_object_set_new(errors, glint_answer_name((enum glint_answer)k),
+                                errors_json(&verdict->errors[k], blame->metrics));
+    return json_pack("{s:o, s:f, s:f, s:f}", "errors", errors, "fetches_px", verdict->fetches_px, "run_seconds",
+                     verdict->run_seconds, "metric_seconds", verdict->metric_seconds);
+}
+
+/* The frames before in a shot, so that the pipeline finds there what it left itself. */
+static bool run_before(struct work *work, const struct glint_pipeline *pipeline, struct glint_error *err) {
+    struct glint_replay *replay = glint_judge_replay(work->judge);
+    const struct glint_replay_options options = {.all = work->blame->all};
+    const size_t count = work->blame->before.count;
+    for (size_t i = 0; i < count; i++)
+        if (!glint_replay_load(replay, work->before[i], err) ||
+            !glint_replay_run(replay, pipeline, &options, report, work, err))
+            return false;
+    return !count || glint_replay_load(replay, work->open, err);
+}
+
+static bool look(struct work *work, uint32_t coalition, struct glint_error *err) {
+    struct glint_pipeline *pipeline = glint_players_pipeline(work->blame->players, coalition, err);
+    struct glint_verdict verdict = {0};
+    struct glint_error own = {0};
+    if (!pipeline) return false;
+    bool ok =
+        run_before(work, pipeline, &own) && glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
+    if (ok && work->blame->against.truth && verdict.no_truth.code != GLINT_OK)
+        ok = glint_fail(&own, verdict.no_truth.code, "%s", verdict.no_truth.message);
+    for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++)
+        ok = !verdict.errors[k].count ||
+             glint_metrics_valid(&verdict.errors[k], glint_answer_name((enum glint_answer)k), &own);
+    if (ok) ok = place_line(work, coalition, look_json(work->blame, &verdict), err);
+    else if (own.code == GLINT_ERROR_INTERRUPTED) *err = own;
+    else fail_coalition(work, coalition, &own, err);
+    glint_verdict_finish(&verdict);
+    glint_pipeline_destroy(&pipeline);
+    return ok;
+}
+
+static const json_t *found(const struct blame *blame, size_t capture, uint32_t coalition) {
+    char key[64];
+    blame_look_key(capture, coalition, key);
+    return json_object_get(blame->lines, key);
+}
+
+static bool play(void *user, uint32_t coalition, double *values, struct glint_error *err) {
+    struct work *work = user;
+    if (!found(work->blame, work->capture, coalition)) {
+        snprintf(work->label, sizeof work->label, "%.20s: %zu of %zu",
+                 base_name(work->blame->captures.items[work->capture]), work->done + 1, work->total);
+        if (!look(work, coalition, err)) return false;
+    }
+    work->done++;
+    blame_values(work->blame, found(work->blame, work->capture, coalition), values);
+    return true;
+}
+
+static bool time_one(struct work *work, uint32_t coalition, uint32_t round, struct glint_error *err) {
+    struct glint_pipeline *pipeline = glint_players_pipeline(work->blame->players, coalition, err);
+    struct glint_cost cost;
+    bool ok = pipeline && run_before(work, pipeline, err) &&
+              glint_judge_time(work->judge, pipeline, 0, work->blame->shot, &cost, report, work, err);
+    if (ok) {
+        ok = place_line(work, coalition, cost_json(&cost, round), err);
+        glint_cost_finish(&cost);
+    }
+    if (pipeline) glint_pipeline_destroy(&pipeline);
+    return ok;
+}
+
+/* A B C A B C …: what changes with time, as a device's clock, meets all alike. */
+static bool take_turns(struct work *work, struct glint_error *err) {
+    struct blame *blame = work->blame;
+    uint32_t timed[2 * GLINT_PLAYERS_MAX + 2];
+    const size_t count = blame_timed(blame, timed);
+    work->done = 0;
+    work->total = count * blame->rounds;
+    for (uint32_t round = 0; round < blame->rounds; round++) {
+        glint_judge_next_round(work->judge);
+        snprintf(work->label, sizeof work->label, "%.20s: times, round %u",
+                 base_name(blame->captures.items[work->capture]), round + 1);
+        for (size_t i = 0; i < count; i++, work->done++) {
+            char key[64];
+            blame_time_key(work->capture, timed[i], round, key);
+            if (!json_object_get(blame->lines, key) && !time_one(work, timed[i], round, err)) return false;
+        }
+    }
+    return true;
+}
+
+static bool find_shares(struct work *work, struct glint_error *err) {
+    struct blame *blame = work->blame;
+    const struct glint_game game = {.players = blame->count, .values = BLAME_VALUES, .play = play, .user = work};
+    const size_t whole = (size_t)1 << blame->count,
+                 drawn = 2 * blame->count + 2 + blame->options.permutations * blame->count;
+    work->done = 0;
+    work->total = blame->count <= blame->options.exact || drawn > whole ? whole : drawn;
+    return glint_shapley(&game, &blame->options, &blame->captured[work->capture].shapley, err);
+}
+
+/* The answer before the coalitions: it can take longer than they do. */
+static bool find_answer(struct work *work, struct glint_error *err) {
+    const float *error;
+    return work->blame->against.truth || glint_judge_answer(work->judge, GLINT_ANSWER_REFERENCE, work->blame->base,
+                                                            &error, progress_report, work->blame->progress, err);
+}
+
+/* Frames that do not follow each other, or follow a cut, leave no history. */
+static bool open_shot(struct work *work, struct glint_error *err) {
+    const struct list *before = &work->blame->before;
+    const struct glint_capture *last = NULL;
+    if (!(work->before = calloc(before->count + 1, sizeof *work->before)))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i <= before->count; i++) {
+        if (i < before->count && !(work->before[i] = glint_capture_open(before->items[i], NULL, err))) return false;
+        const struct glint_capture *now = i < before->count ? work->before[i] : work->open;
+        const struct glint_frame *frame = glint_capture_frame(now);
+        const uint64_t number = last ? glint_capture_frame(last)->number + 1u : frame->number;
+        if (frame->number != number || (last && frame->cut))
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected frame %llu of the shot, found %s%llu",
+                              glint_capture_path(now), (unsigned long long)number, frame->cut ? "a cut at " : "",
+                              (unsigned long long)frame->number);
+        last = now;
+    }
+    return true;
+}
+
+static bool on_capture(struct work *work, struct glint_error *err) {
+    struct blame *blame = work->blame;
+    const size_t c = work->capture;
+    struct glint_judge_options options = answer_args_judge(&blame->against, blame->out, c);
+    options.truth = true;
+    options.all = blame->all;
+    options.metrics = blame->metrics;
+    const bool ok = (work->open = glint_capture_open(blame->captures.items[c], NULL, err)) && open_shot(work, err) &&
+                    (work->judge = glint_judge_create(blame->device, &options, err)) &&
+                    glint_judge_load(work->judge, work->open, err) && find_answer(work, err) &&
+                    find_shares(work, err) && take_turns(work, err);
+    if (work->judge) glint_judge_destroy(&work->judge);
+    for (size_t i = 0; work->before && i < blame->before.count; i++)
+        if (work->before[i]) glint_capture_close(&work->before[i]);
+    free(work->before);
+    if (work->open) glint_capture_close(&work->open);
+    return ok;
+}
+
+bool blame_run(struct blame *blame, struct glint_error *err) {
+    for (size_t c = 0; c < blame->captures.count; c++) {
+        struct work work = {.blame = blame, .capture = c};
+        if (!on_capture(&work, err)) return false;
+        blame_sum_times(blame, c);
+    }
+    return true;
+}
+
+static bool keep(void *user, json_t *line) {
+    struct blame *blame = user;
+    const json_t *c = json_object_get(line, "capture"), *s = json_object_get(line, "coalition"),
+                 *r = json_object_get(line, "round");
+    char key[64];
+    if (!json_is_integer(c) || !json_is_integer(s)) return false;
+    const json_int_t capture = json_integer_value(c), coalition = json_integer_value(s), round = json_integer_value(r);
+    if (capture < 0 || capture >= (json_int_t)blame->captures.count || coalition < 0 ||
+        coalition >= (json_int_t)1 << blame->count)
+        return false;
+    if (r && (!json_is_integer(r) || round < 0 || round > UINT32_MAX)) return false;
+    if (!r && !json_is_object(json_object_get(line, "errors"))) return false;
+    if (r) blame_time_key((size_t)capture, (uint32_t)coalition, (uint32_t)round, key);
+    else blame_look_key((size_t)capture, (uint32_t)coalition, key);
+    return json_object_set(blame->lines, key, line) == 0;
+}
+
+/* All that lines depend on. How many permutations are drawn is none of it: they share coalitions. */
+static json_t *define(const struct blame *blame, const struct list *shaders, struct glint_error *err) {
+    const struct glint_device_info *device = glint_device_get_info(blame->device);
+    json_t *captures = captures_json(&blame->captures, err), *before = captures_json(&blame->before, err),
+           *sources = captures && before ? shaders_json(shaders, err) : NULL, *players = json_array();
+    for (size_t p = 0; p < blame->count; p++)
+        json_array_append_new(players, json_string(glint_player_change(blame->players, p)));
+    if (!sources) {
+        json_decref(captures);
+        json_decref(before);
+        json_decref(players);
+        return NULL;
+    }
+    json_t *json = json_pack(
+        "{s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:s, s:o, s:I, s:b, s:I, s:[ss]}", "format", 1, "glint", GLINT_VERSION,
+        "captures", captures, "before", before, "pipeline", pipeline_json(blame->base), "shaders", sources, "players",
+        players, "reference", blame->against.truth ? "truth" : "computed", "reference_runs",
+        strings_json(blame->against.references.items), "reference_rays", (json_int_t)blame->against.rays, "all",
+        blame->all, "metrics", (json_int_t)blame->metrics, "device", device->name, device->driver_version);
+    if (!json) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    return json;
+}
+
+bool blame_open(struct blame *blame, const struct list *shaders, struct glint_error *err) {
+    blame->lines = json_object();
+    blame->captured = calloc(blame->captures.count + 1, sizeof *blame->captured);
+    blame->journal = (struct journal){.folder = blame->out, .kind = "blame", .keep = keep, .user = blame};
+    if (!blame->lines || !blame->captured) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    return (blame->definition = define(blame, shaders, err)) && journal_open(&blame->journal, blame->definition, err);
+}

@@ -1,0 +1,149 @@
+/* What the lines of a blame say together. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blame/blame.h"
+
+const char *const blame_classes[BLAME_CLASSES] = {"all", "mirror-like", "glossy", "rough"};
+
+void blame_look_key(size_t capture, uint32_t coalition, char key[64]) {
+    snprintf(key, 64, "look %zu %u", capture, coalition);
+}
+void blame_time_key(size_t capture, uint32_t coalition, uint32_t round, char key[64]) {
+    snprintf(key, 64, "time %zu %u %u", capture, coalition, round);
+}
+
+static double number_of(const json_t *json) {
+    return json_is_number(json) ? json_number_value(json) : (double)NAN;
+}
+
+void blame_values(const struct blame *blame, const json_t *line, double values[BLAME_VALUES]) {
+    const json_t *errors = json_object_get(line, "errors");
+    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
+        const json_t *classes = json_object_get(errors, glint_answer_name(blame_answer(blame, a)));
+        for (size_t k = 0; k < BLAME_CLASSES; k++)
+            values[blame_value(a, k)] = number_of(
+                json_object_get(json_object_get(classes, blame_classes[k]), glint_metric(blame->metric)->name));
+    }
+    values[BLAME_FETCHES] = number_of(json_object_get(line, "fetches_px"));
+}
+
+static uint32_t everyone(const struct blame *blame) {
+    return (1u << blame->count) - 1;
+}
+
+static int by_coalition(const void *a, const void *b) {
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+size_t blame_timed(const struct blame *blame, uint32_t timed[2 * GLINT_PLAYERS_MAX + 2]) {
+    size_t count = 0, kept = 0;
+    timed[count++] = 0;
+    timed[count++] = everyone(blame);
+    for (size_t p = 0; p < blame->count; p++) {
+        timed[count++] = 1u << p;
+        timed[count++] = everyone(blame) & ~(1u << p);
+    }
+    qsort(timed, count, sizeof *timed, by_coalition); /* neighbours have most in common */
+    for (size_t i = 0; i < count; i++)
+        if (!kept || timed[kept - 1] != timed[i]) timed[kept++] = timed[i];
+    return kept;
+}
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Median of the rounds; NAN without any. */
+static double time_of(const struct blame *blame, size_t capture, uint32_t coalition) {
+    double *ms = malloc((blame->rounds + 1) * sizeof *ms), median = (double)NAN;
+    uint32_t count = 0;
+    for (uint32_t r = 0; ms && r < blame->rounds; r++) {
+        char key[64];
+        blame_time_key(capture, coalition, r, key);
+        const json_t *value = json_object_get(json_object_get(blame->lines, key), "frame_ms");
+        if (json_is_number(value)) ms[count++] = json_number_value(value);
+    }
+    if (count) {
+        qsort(ms, count, sizeof *ms, by_value);
+        median = 0.5 * (ms[(count - 1) / 2] + ms[count / 2]);
+    }
+    free(ms);
+    return median;
+}
+
+void blame_sum_times(struct blame *blame, size_t capture) {
+    struct blame_time *time = &blame->captured[capture].time;
+    time->preset = time_of(blame, capture, 0);
+    time->reference = time_of(blame, capture, everyone(blame));
+    for (size_t p = 0; p < blame->count; p++) {
+        time->added[p] = time_of(blame, capture, 1u << p) - time->preset;
+        time->saved[p] = time->reference - time_of(blame, capture, everyone(blame) & ~(1u << p));
+    }
+}
+
+/* Shares of a mean are means of shares; captures are independent of each other, but permutations were drawn alike, so that
+   widths are added as they are. */
+static bool copy_mean(struct blame *blame, struct glint_error *err) {
+    struct glint_shapley *mean = &blame->mean.shapley;
+    const size_t n = blame->count * BLAME_VALUES, size = 4 * n + 2 * BLAME_VALUES;
+    const double part = 1.0 / (double)blame->captures.count;
+    *mean = blame->captured[0].shapley;
+    mean->share = calloc(size + 1, sizeof *mean->share);
+    if (!mean->share) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t c = 0; c < blame->captures.count; c++)
+        for (size_t i = 0; i < size; i++) mean->share[i] += part * blame->captured[c].shapley.share[i];
+    mean->half = mean->share + n;
+    mean->first = mean->half + n;
+    mean->last = mean->first + n;
+    mean->none = mean->last + n;
+    mean->all = mean->none + BLAME_VALUES;
+    return true;
+}
+
+bool blame_sum_up(struct blame *blame, struct glint_error *err) {
+    struct blame_time *time = &blame->mean.time;
+    const double part = 1.0 / (double)blame->captures.count;
+    for (size_t c = 0; c < blame->captures.count; c++) {
+        const struct blame_time *of = &blame->captured[c].time;
+        time->preset += part * of->preset;
+        time->reference += part * of->reference;
+        for (size_t p = 0; p < blame->count; p++) {
+            time->added[p] += part * of->added[p];
+            time->saved[p] += part * of->saved[p];
+        }
+    }
+    return copy_mean(blame, err);
+}
+
+double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bool *already) {
+    const double removed = blame_removed(sum, player, value), ms = sum->time.added[player];
+    *already = ms < 0;
+    return (ms > 0 && removed > 0) || (ms < 0 && removed < 0) ? removed / ms : (double)NAN;
+}
+
+void blame_how(const struct blame_sum *sum, char text[96]) {
+    if (sum->shapley.exact) snprintf(text, 96, "exact, of all %u pipelines", sum->shapley.coalitions);
+    else
+        snprintf(text, 96, "of %u permutations, %u pipelines; ± 95 %%", sum->shapley.permutations,
+                 sum->shapley.coalitions);
+}
+
+void blame_finish(struct blame *blame) {
+    for (size_t c = 0; blame->captured && c < blame->captures.count; c++)
+        glint_shapley_finish(&blame->captured[c].shapley);
+    free(blame->captured);
+    glint_shapley_finish(&blame->mean.shapley);
+    json_decref(blame->lines);
+    json_decref(blame->definition);
+    journal_close(&blame->journal);
+    if (blame->players) glint_players_destroy(&blame->players);
+    if (blame->base) glint_pipeline_destroy(&blame->base);
+    list_free(&blame->captures);
+    list_free(&blame->before);
+    answer_args_finish(&blame->against);
+}

@@ -1,0 +1,153 @@
+/* A blame as tables, for people and as JSON. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blame/blame.h"
+#include "table.h"
+
+static void cell(struct table *table, double value) {
+    if (isfinite(value)) table_cell(table, "%s", number_text(value));
+    else table_cell(table, "–");
+}
+
+static void share_cell(struct table *table, double share, double half) {
+    if (half > 0) table_cell(table, "%s ± %s", number_text(share), number_text(half));
+    else cell(table, share);
+}
+
+static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
+    static const char *const titles[] = {"<player",      ">share",           ">%",     ">removes",  ">adds ms",
+                                         ">buys per ms", ">adds fetches/px", ">makes", ">saves ms", NULL};
+    struct table *table = table_create(titles);
+    const size_t v = blame_value(answer, 0);
+    double shares = 0, removed = 0, made = 0;
+    for (size_t p = blame->count; p-- > 0;) {
+        bool already;
+        const double bought = blame_bought(sum, p, v, &already);
+        shares += blame_share(sum, p, v);
+        removed += blame_removed(sum, p, v);
+        made += blame_made(sum, p, v);
+        table_cell(table, "%s", glint_player_name(blame->players, p));
+        share_cell(table, blame_share(sum, p, v), blame_half(sum, p, v));
+        table_cell(table, "%.1f", 100 * blame_share(sum, p, v) / blame_total(sum, v));
+        cell(table, blame_removed(sum, p, v));
+        cell(table, sum->time.added[p]);
+        if (already && isfinite(bought)) table_cell(table, "%s already", number_text(bought));
+        else cell(table, bought);
+        cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
+        cell(table, blame_made(sum, p, v));
+        cell(table, sum->time.saved[p]);
+    }
+    table_cell(table, "sum");
+    cell(table, shares);
+    table_cell(table, "%.1f", 100 * shares / blame_total(sum, v));
+    cell(table, removed);
+    for (int i = 0; i < 3; i++) table_cell(table, "%s", "");
+    cell(table, made);
+    table_cell(table, "%s", "");
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+static void print_sum(const struct blame *blame, const char *title, const struct blame_sum *sum) {
+    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
+        const size_t v = blame_value(a, 0);
+        char how[96];
+        if (!isfinite(sum->shapley.none[v])) continue;
+        blame_how(sum, how);
+        printf("%s: %s of %s against the %s is %s, its reference's %s; shares of the difference %s (%s):\n\n", title,
+               glint_metric(blame->metric)->title, glint_pipeline_name(blame->base),
+               glint_answer_name(blame_answer(blame, a)), number_text(sum->shapley.none[v]),
+               number_text(sum->shapley.all[v]), number_text(blame_total(sum, v)), how);
+        print_players(blame, sum, a);
+        putchar('\n');
+    }
+}
+
+void blame_print(const struct blame *blame) {
+    const struct glint_device_info *device = glint_device_get_info(blame->device);
+    if (blame->captures.count > 1) print_sum(blame, "mean of the captures", &blame->mean);
+    for (size_t c = 0; c < blame->captures.count; c++) print_sum(blame, blame->captures.items[c], &blame->captured[c]);
+    puts("share: mean of what a player changes over all orders of exchanging them; removes, adds: it alone exchanged "
+         "for "
+         "its reference in the preset;\nbuys: error removed for each ms, or what its own ms buy already; makes, saves: "
+         "it "
+         "alone kept in the reference. Players:");
+    for (size_t p = blame->count; p-- > 0;) {
+        const char *why = glint_player_why(blame->players, p);
+        printf("  %s: %s%s%s%s\n", glint_player_name(blame->players, p), glint_player_change(blame->players, p),
+               why[0] ? " (" : "", why, why[0] ? ")" : "");
+    }
+    if (blame->rounds)
+        printf("times: median of %u rounds in turns on %s%s\n", blame->rounds, device->name,
+               device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+    if (blame->out) printf("page, charts and tables: %s/index.html\n", blame->out);
+}
+
+static json_t *player_json(const struct blame_sum *sum, size_t p, size_t v) {
+    const double share = blame_share(sum, p, v), half = blame_half(sum, p, v);
+    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "share", json_number(share), "low", json_number(share - half), "high",
+                     json_number(share + half), "removed", json_number(blame_removed(sum, p, v)), "made",
+                     json_number(blame_made(sum, p, v)));
+}
+
+/* {ANSWER: {CLASS: {"preset", "reference", "players": {NAME: …}}}} */
+static json_t *errors_of(const struct blame *blame, const struct blame_sum *sum) {
+    json_t *answers = json_object();
+    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
+        json_t *classes = json_object();
+        for (size_t k = 0; k < BLAME_CLASSES; k++) {
+            const size_t v = blame_value(a, k);
+            json_t *players = json_object();
+            if (isfinite(sum->shapley.none[v]))
+                for (size_t p = blame->count; p-- > 0;)
+                    json_object_set_new(players, glint_player_name(blame->players, p), player_json(sum, p, v));
+            if (json_object_size(players))
+                json_object_set_new(classes, blame_classes[k],
+                                    json_pack("{s:o, s:o, s:O}", "preset", json_number(sum->shapley.none[v]),
+                                              "reference", json_number(sum->shapley.all[v]), "players", players));
+            json_decref(players);
+        }
+        if (json_object_size(classes)) json_object_set(answers, glint_answer_name(blame_answer(blame, a)), classes);
+        json_decref(classes);
+    }
+    return answers;
+}
+
+static json_t *sum_json(const struct blame *blame, const struct blame_sum *sum) {
+    json_t *costs = json_object();
+    for (size_t p = blame->count; p-- > 0;)
+        json_object_set_new(costs, glint_player_name(blame->players, p),
+                            json_pack("{s:o, s:o, s:o, s:o}", "added_ms", json_number(sum->time.added[p]), "saved_ms",
+                                      json_number(sum->time.saved[p]), "added_fetches_px",
+                                      json_number(sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]),
+                                      "saved_fetches_px",
+                                      json_number(sum->shapley.last[p * BLAME_VALUES + BLAME_FETCHES])));
+    return json_pack("{s:b, s:I, s:I, s:o, s:{s:o, s:o}, s:{s:o, s:o}, s:o}", "exact", sum->shapley.exact,
+                     "permutations", (json_int_t)sum->shapley.permutations, "pipelines",
+                     (json_int_t)sum->shapley.coalitions, "errors", errors_of(blame, sum), "frame_ms", "preset",
+                     json_number(sum->time.preset), "reference", json_number(sum->time.reference), "fetches_px",
+                     "preset", json_number(sum->shapley.none[BLAME_FETCHES]), "reference",
+                     json_number(sum->shapley.all[BLAME_FETCHES]), "costs", costs);
+}
+
+json_t *blame_json(const struct blame *blame) {
+    const struct glint_device_info *device = glint_device_get_info(blame->device);
+    json_t *players = json_array(), *captures = json_array();
+    for (size_t p = blame->count; p-- > 0;)
+        json_array_append_new(players, json_pack("{s:s, s:s, s:s}", "name", glint_player_name(blame->players, p),
+                                                 "change", glint_player_change(blame->players, p), "why",
+                                                 glint_player_why(blame->players, p)));
+    for (size_t c = 0; c < blame->captures.count; c++) {
+        json_t *capture = sum_json(blame, &blame->captured[c]);
+        json_object_set_new(capture, "capture", json_string(blame->captures.items[c]));
+        json_array_append_new(captures, capture);
+    }
+    return json_pack("{s:i, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:o, s:o}", "format", 1, "preset",
+                     glint_pipeline_name(blame->base), "metric", glint_metric(blame->metric)->name, "against",
+                     glint_answer_name(blame_answer(blame, 0)), "device", "name", device->name, "is_cpu",
+                     device->is_cpu, "rounds", (json_int_t)blame->rounds, "reference_rays",
+                     (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS), "players", players,
+                     "captures", captures, "mean", sum_json(blame, &blame->mean));
+}

@@ -1,0 +1,272 @@
+/* Several presets on the same capture, taking turns. */
+#include "compare/contest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pass_names.h"
+#include "pipeline_args.h"
+#include "view/pixels.h"
+
+const char *const contest_over[CONTEST_OVER] = {"water", "transparent"};
+
+static void label_of(char label[64], const char *preset) {
+    const char *name = strrchr(preset, '/') ? strrchr(preset, '/') + 1 : preset;
+    size_t length = strlen(name);
+    if (length > 5 && !strcmp(name + length - 5, ".json")) length -= 5;
+    snprintf(label, 64, "%.*s", (int)(length < 63 ? length : 63), name);
+}
+
+static struct contestant *find(const struct contest *contest, const char *label, size_t length) {
+    for (size_t i = 0; i < contest->count; i++)
+        if (strlen(contest->contestants[i].label) == length && !memcmp(contest->contestants[i].label, label, length))
+            return &contest->contestants[i];
+    return NULL;
+}
+
+static bool set(const struct contest *contest, const char *setting, struct glint_error *err) {
+    const char *cut = strchr(setting, ':');
+    if (!cut || cut == setting || !cut[1])
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "--set %s: expected PRESET:SLOT.PARAM=VALUE, such as kf2:resolve.blur=0", setting);
+    const struct contestant *contestant = find(contest, setting, (size_t)(cut - setting));
+    if (!contestant)
+        return glint_fail(err, GLINT_ERROR_USAGE, "--set %s: preset %.*s is not among --presets", setting,
+                          (int)(cut - setting), setting);
+    struct glint_error own = {0};
+    return (check_set(cut + 1, &own) && glint_pipeline_set(contestant->pipeline, cut + 1, &own)) ||
+           glint_fail(err, own.code, "preset %s: %s", contestant->label, own.message);
+}
+
+bool contest_begin(struct contest *contest, const char *const *presets, const struct list *settings,
+                   struct glint_error *err) {
+    size_t count = 0;
+    while (presets[count]) count++;
+    contest->contestants = calloc(count + 1, sizeof *contest->contestants);
+    if (!contest->contestants) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < count; i++) {
+        struct contestant *c = &contest->contestants[i];
+        label_of(c->label, presets[i]);
+        if (find(contest, c->label, strlen(c->label)))
+            return glint_fail(err, GLINT_ERROR_USAGE, "preset %s: named twice in --presets", c->label);
+        contest->count++;
+        if (!(c->pipeline = glint_pipeline_create(presets[i], err)) || !pipeline_fog_off(c->pipeline, err))
+            return false;
+    }
+    for (size_t i = 0; i < settings->count; i++)
+        if (!set(contest, settings->items[i], err)) return false;
+    return true;
+}
+
+void contest_finish(struct contest *contest) {
+    for (size_t i = 0; i < contest->count; i++) {
+        glint_pipeline_destroy(&contest->contestants[i].pipeline);
+    }
+    if (contest->judge) glint_judge_destroy(&contest->judge);
+    free(contest->contestants);
+    contest->contestants = NULL;
+    contest->count = 0;
+}
+
+void showing_finish(struct showing *showing) {
+    free(showing->notes);
+    free(showing->frame_ms);
+    free(showing->cubemaps_ms);
+    json_decref(showing->passes);
+    *showing = (struct showing){0};
+}
+
+static void answer_finish(struct answer *answer) {
+    glint_verdict_finish(&answer->verdict);
+    glint_pixels_finish(&answer->picture);
+    *answer = (struct answer){0};
+}
+
+static bool same_reason(const struct glint_verdict_pass *a, const struct glint_verdict_pass *b) {
+    return !a->ran && !b->ran && !strcmp(a->reason, b->reason);
+}
+
+/* "a, b left out: nothing reflects" where `a` is result i, once for all passes of that reason. */
+static void note_reason(FILE *notes, const struct glint_verdict_pass *results, size_t count, size_t i) {
+    if (results[i].ran) return;
+    for (size_t k = 0; k < i; k++)
+        if (same_reason(&results[k], &results[i])) return;
+    if (ftell(notes) > 0) fputs("; ", notes);
+    for (size_t k = i; k < count; k++)
+        if (same_reason(&results[k], &results[i])) fprintf(notes, "%s%s", k > i ? ", " : "", results[k].pass->slot);
+    fprintf(notes, " left out: %s", results[i].reason);
+}
+
+/* Which passes ran, and a note of those that had nothing to do. */
+static bool note_passes(struct showing *s, const struct glint_verdict *verdict, struct glint_error *err) {
+    size_t size = 0;
+    FILE *notes = open_memstream(&s->notes, &size);
+    if (!notes) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    s->passes = json_array();
+    for (size_t i = 0; i < verdict->pass_count; i++) {
+        const struct glint_verdict_pass *p = &verdict->passes[i];
+        json_array_append_new(s->passes, json_pack("{s:s, s:s, s:b, s:s}", "slot", p->pass->slot, "variant",
+                                                   p->pass->variant, "ran", p->ran, "reason", p->reason));
+    }
+    for (size_t i = 0; i < verdict->pass_count; i++) note_reason(notes, verdict->passes, verdict->pass_count, i);
+    return fclose(notes) == 0 || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+static void count_given(struct showing *s, const uint8_t *given, const uint8_t *surfaces, size_t pixels) {
+    for (size_t i = 0; i < pixels; i++) {
+        if (surfaces[i] == GLINT_SURFACE_NONE) continue;
+        s->reflecting[0]++;
+        s->reflecting[surfaces[i]]++;
+        s->given[0] += given[i];
+        s->given[surfaces[i]] += given[i];
+    }
+}
+
+/* The errors of the pixels of a mask. */
+static bool masked_errors(const struct answer *a, const uint8_t *mask, const uint8_t *surfaces,
+                          struct glint_image_errors *errors, struct glint_error *err) {
+    size_t pixels = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
+    uint8_t *kept = malloc(pixels + 1);
+    if (!kept) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < pixels; i++) kept[i] = mask[i] ? surfaces[i] : GLINT_SURFACE_NONE;
+    bool ok = glint_study_image(&a->verdict.reflection, a->truth, 3, kept, a->truth_error, errors, err);
+    free(kept);
+    return ok;
+}
+
+/* The finished picture, and how far it is from the true one where something covers the opaque surfaces. */
+static bool read_picture(struct glint_judge *judge, struct showing *s, struct answer *a, struct glint_error *err) {
+    struct glint_replay *replay = glint_judge_replay(judge);
+    const struct glint_image *image = glint_study_picture(replay);
+    if (!image) return true;
+    snprintf(a->picture_name, sizeof a->picture_name, "%s", image->name);
+    bool ok = pixels_read(replay, image, &a->picture, err);
+    for (int k = 0; ok && k < CONTEST_OVER; k++) {
+        s->over[k].drawn = glint_study_draws(replay, contest_over[k]);
+        ok = glint_study_over(&a->picture, glint_judge_capture(judge), contest_over[k], &s->over[k].error, err);
+    }
+    return ok;
+}
+
+/* The run whose images are looked at: with diagnostics, which the timed ones are without. */
+static bool look(const struct contest *contest, size_t i, struct showing *s, struct answer *a,
+                 struct glint_error *err) {
+    const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
+    const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
+    if (!glint_judge_look(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
+                          err) ||
+        !note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err))
+        return false;
+    s->ends = a->verdict.ends;
+    count_given(s, a->verdict.given, surfaces, (size_t)a->verdict.reflection.width * a->verdict.reflection.height);
+    s->compared = a->verdict.no_truth.code == GLINT_OK;
+    snprintf(s->failure, sizeof s->failure, "%s", a->verdict.no_truth.message);
+    if (!s->compared) return true;
+    a->truth = glint_judge_answer(contest->judge, GLINT_ANSWER_TRUTH, pipeline, &a->truth_error, NULL, NULL, err);
+    return a->truth && masked_errors(a, a->verdict.given, surfaces, &s->own, err);
+}
+
+/* One round after one that warms up, each pass executed. */
+static bool time_round(const struct contest *contest, size_t i, struct showing *s, uint32_t round,
+                       struct glint_error *err) {
+    struct glint_cost cost;
+    if (!glint_judge_time(contest->judge, contest->contestants[i].pipeline, (uint32_t)i, true, &cost, progress_report,
+                          contest->progress, err))
+        return false;
+    s->frame_ms[round] = (double)cost.frame_ns * 1e-6;
+    s->cubemaps_ms[round] = (double)cost.cubemaps_ns * 1e-6;
+    glint_cost_finish(&cost);
+    return true;
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static struct contest_time statistics(double *ms, uint32_t n) {
+    qsort(ms, n, sizeof *ms, ascending);
+    return (struct contest_time){n, ms[0], (ms[(n - 1) / 2] + ms[n / 2]) / 2, ms[n - 1]};
+}
+
+/* Whether a preset's failure ends everything. */
+static bool fail_alone(struct showing *s, const struct contestant *c, const struct glint_error *own,
+                       struct glint_error *err) {
+    if (own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY)
+        return glint_fail(err, own->code, "preset %s: %s", c->label, own->message);
+    s->ran = s->compared = false;
+    snprintf(s->failure, sizeof s->failure, "%s", own->message);
+    return true;
+}
+
+/* A B C A B C …: what changes with time, as a device's clock, meets all alike. */
+static bool take_turns(const struct contest *contest, struct showing *showings, struct glint_error *err) {
+    for (uint32_t round = 0; round < contest->rounds; round++)
+        for (size_t i = 0; i < contest->count; i++) {
+            struct showing *s = &showings[i];
+            struct glint_error own = {0};
+            if (round == 0 && s->ran) {
+                s->frame_ms = calloc(contest->rounds, sizeof *s->frame_ms);
+                s->cubemaps_ms = calloc(contest->rounds, sizeof *s->cubemaps_ms);
+                if (!s->frame_ms || !s->cubemaps_ms) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+            }
+            if (s->ran && !time_round(contest, i, s, round, &own) &&
+                !fail_alone(s, &contest->contestants[i], &own, err))
+                return false;
+        }
+    for (size_t i = 0; i < contest->count; i++) {
+        if (!showings[i].ran) continue;
+        showings[i].frame = statistics(showings[i].frame_ms, contest->rounds);
+        showings[i].cubemaps = statistics(showings[i].cubemaps_ms, contest->rounds);
+    }
+    return true;
+}
+
+/* Errors over the pixels that every preset gives: who gives little, and only what is easy, gains nothing there. */
+static bool share_pixels(const struct contest *contest, struct showing *showings, const struct answer *answers,
+                         const uint8_t *surfaces, size_t pixels, struct glint_error *err) {
+    uint8_t *mask = malloc(pixels + 1);
+    bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok) memset(mask, 1, pixels);
+    for (size_t i = 0; ok && i < contest->count; i++)
+        for (size_t k = 0; showings[i].compared && showings[i].given[0] && k < pixels; k++)
+            mask[k] &= answers[i].verdict.given[k];
+    for (size_t i = 0; ok && i < contest->count; i++)
+        if (showings[i].compared) ok = masked_errors(&answers[i], mask, surfaces, &showings[i].shared, err);
+    free(mask);
+    return ok;
+}
+
+static bool look_at_all(const struct contest *contest, struct showing *showings, struct answer *answers,
+                        struct picture *cells, struct glint_error *err) {
+    const struct glint_pixels *truth = NULL;
+    const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
+    size_t columns = contest->count + 1;
+    for (size_t i = 0; i < contest->count; i++) {
+        const struct contestant *c = &contest->contestants[i];
+        struct glint_error own = {0};
+        showings[i].ran = look(contest, i, &showings[i], &answers[i], &own) &&
+                          (!cells || contest_draw(cells, columns, i + 1, c, &answers[i], surfaces, &own));
+        if (!showings[i].ran && !fail_alone(&showings[i], c, &own, err)) return false;
+        if (!truth && showings[i].compared) truth = answers[i].truth;
+    }
+    return !cells || contest_draw_truth(cells, columns, truth, glint_judge_capture(contest->judge), err);
+}
+
+bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
+                 struct picture *cells, struct glint_error *err) {
+    static const struct glint_judge_options options = {.truth = true};
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
+    struct answer *answers = calloc(contest->count + 1, sizeof *answers);
+    bool ok = (answers || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
+              (contest->judge || (contest->judge = glint_judge_create(contest->device, &options, err))) &&
+              glint_judge_load(contest->judge, capture, err) && look_at_all(contest, showings, answers, cells, err) &&
+              share_pixels(contest, showings, answers, glint_judge_surfaces(contest->judge),
+                           (size_t)gbuffer->width * gbuffer->height, err) &&
+              take_turns(contest, showings, err);
+    for (size_t i = 0; answers && i < contest->count; i++) answer_finish(&answers[i]);
+    if (contest->judge) glint_judge_load(contest->judge, NULL, NULL);
+    free(answers);
+    return ok;
+}

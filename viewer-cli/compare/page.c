@@ -1,0 +1,209 @@
+/* Presets beside each other as a page: error against time, errors by surface, why rays ended, pictures. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/contest.h"
+#include "page/page.h"
+#include "view/png_file.h"
+
+static const struct showing *showing_of(const struct contest_table *t, size_t capture, size_t preset) {
+    return &t->showings[capture * t->contest->count + preset];
+}
+
+static const char *label_of(const struct contest_table *t, size_t preset) {
+    return t->contest->contestants[preset].label;
+}
+
+/* The error where a preset gives a reflection; null without one. [0] is all surfaces. */
+static json_t *error_json(const struct showing *s, int surface) {
+    const struct glint_image_error *e = &s->own.of[surface];
+    return s->ran && s->compared && e->pixels ? json_number(e->symmetric) : json_null();
+}
+
+static json_t *share_json(const struct showing *s, int surface) {
+    uint64_t all = s->ran ? s->reflecting[surface] : 0;
+    return all ? json_real(100 * (double)s->given[surface] / (double)all) : json_null();
+}
+
+static json_t *time_json(const struct contest_time *time) {
+    return time->n ? page_interval(time->median, time->min, time->max) : json_null();
+}
+
+/* ---- Pictures ---- */
+
+static bool keep_picture(const char *folder, const char *file, const struct picture *cell, struct glint_error *err) {
+    char path[4096];
+    if (snprintf(path, sizeof path, "%s/%s", folder, file) >= (int)sizeof path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    return png_file_write(path, cell, err);
+}
+
+static const char *const row_names[CONTEST_ROWS] = {"reflection", "error", "picture"};
+
+/* Keeps one capture's, and appends them to `rows`, and to `presets` beginning with the truth's. */
+static bool keep_pictures(const struct contest_table *t, const char *folder, const struct sheet *sheet, size_t capture,
+                          json_t *rows, json_t *presets, struct glint_error *err) {
+    for (size_t row = 0; row < CONTEST_ROWS; row++) {
+        json_array_append_new(rows, json_array());
+        for (size_t column = 0; column < sheet->columns; column++) {
+            const struct picture *cell = &sheet->cells[(capture * CONTEST_ROWS + row) * sheet->columns + column];
+            if (row == 0) json_array_append_new(presets, json_array());
+            if (!cell->rgba) continue;
+            char file[96];
+            snprintf(file, sizeof file, "pictures/%zu-%zu-%s.png", capture, column, row_names[row]);
+            if (!keep_picture(folder, file, cell, err)) return false;
+            json_t *caption = json_sprintf("%s, %s", column ? label_of(t, column - 1) : "truth", row_names[row]);
+            json_t *picture = json_pack("{s:s, s:o}", "file", file, "caption", caption);
+            json_array_append(json_array_get(rows, row), picture);
+            json_array_append_new(json_array_get(presets, column), picture);
+        }
+    }
+    return true;
+}
+
+/* ---- Charts and tables of one capture ---- */
+
+static json_t *values_of(const struct showing *s) {
+    json_t *values = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+        json_array_append_new(values, json_pack("[o, o, s]",
+                                                json_sprintf("error, %s", glint_surface_name((enum glint_surface)k)),
+                                                error_json(s, k), ""));
+    json_array_append_new(values, json_pack("[s, o, s]", "pixels given", share_json(s, 0), "%"));
+    json_array_append_new(values, json_pack("[s, o, s]", "steps", json_number(s->ends.steps), "a ray"));
+    json_array_append_new(values, json_pack("[s, o, s]", "fetches", json_number(s->ends.fetches), "a ray"));
+    json_array_append_new(values, json_pack("[s, o, s]", "when a cube map changes", time_json(&s->cubemaps), "ms"));
+    return values;
+}
+
+static void add_times(const struct contest_table *t, size_t capture, const json_t *pictures, json_t *blocks) {
+    json_t *series = json_array();
+    for (size_t p = 0; p < t->contest->count; p++) {
+        const struct showing *s = showing_of(t, capture, p);
+        if (!s->ran || !s->compared || s->frame.n == 0) continue;
+        json_array_append_new(series,
+                              json_pack("{s:s, s:s, s:[{s:f, s:f, s:f, s:o, s:s, s:o, s:O}]}", "kind", "scatter",
+                                        "name", label_of(t, p), "points", "x", s->frame.median, "x_low", s->frame.min,
+                                        "x_high", s->frame.max, "y", error_json(s, 0), "name", label_of(t, p), "values",
+                                        values_of(s), "pictures", json_array_get(pictures, p + 1)));
+    }
+    if (json_array_size(series))
+        page_chart(blocks, json_pack("{s:s, s:{s:s, s:s, s:i}, s:{s:s, s:s, s:i}, s:O}", "title", "Error against time",
+                                     "x", "name", "time of a frame", "unit", "ms", "min", 0, "y", "name",
+                                     "symmetric error", "unit", "0 to 1", "min", 0, "series", series));
+    json_decref(series);
+}
+
+static void add_surfaces(const struct contest_table *t, size_t capture, json_t *blocks) {
+    bool compared = false;
+    for (size_t p = 0; p < t->contest->count; p++) compared = compared || showing_of(t, capture, p)->compared;
+    if (!compared) return;
+    json_t *series = json_array(), *names = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+        json_array_append_new(names, json_string(glint_surface_name((enum glint_surface)k)));
+    for (size_t p = 0; p < t->contest->count; p++) {
+        json_t *points = json_array();
+        for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+            json_array_append_new(points, json_pack("[o, i]", error_json(showing_of(t, capture, p), k), k));
+        json_array_append_new(series,
+                              json_pack("{s:s, s:s, s:o}", "kind", "bar", "name", label_of(t, p), "points", points));
+    }
+    page_chart(blocks,
+               json_pack("{s:s, s:{s:s, s:s, s:i}, s:{s:s, s:o}, s:I, s:o}", "title", "Error by surface", "x", "name",
+                         "symmetric error", "unit", "0 to 1", "min", 0, "y", "scale", "category", "categories", names,
+                         "height", (json_int_t)(120 + 4 * (10 + 13 * t->contest->count)), "series", series));
+}
+
+static void add_table(const struct contest_table *t, size_t capture, json_t *blocks) {
+    json_t *table = page_table(blocks);
+    page_column(table, "preset", "");
+    page_column(table, "pixels given", "%");
+    for (int k = 1; k <= GLINT_SURFACE_COUNT; k++)
+        page_column(table, glint_surface_name((enum glint_surface)(k % GLINT_SURFACE_COUNT)), "error");
+    page_column(table, "steps", "a ray");
+    page_column(table, "fetches", "a ray");
+    page_column(table, "frame", "ms");
+    page_column(table, "cube maps", "ms");
+    page_column(table, "notes", "");
+    for (size_t p = 0; p < t->contest->count; p++) {
+        const struct showing *s = showing_of(t, capture, p);
+        json_t *row = json_pack("[s, o]", label_of(t, p), share_json(s, 0));
+        for (int k = 1; k <= GLINT_SURFACE_COUNT; k++)
+            json_array_append_new(row, error_json(s, k % GLINT_SURFACE_COUNT));
+        json_array_append_new(row, s->ends.rays ? json_number(s->ends.steps) : json_null());
+        json_array_append_new(row, s->ends.rays ? json_number(s->ends.fetches) : json_null());
+        json_array_append_new(row, time_json(&s->frame));
+        json_array_append_new(row, time_json(&s->cubemaps));
+        json_array_append_new(row, json_string(s->failure[0] ? s->failure : s->notes ? s->notes : ""));
+        page_row(table, row);
+    }
+}
+
+/* Adds a preset's share of a reason to that reason's bars. */
+static void add_end(json_t *reasons, const struct glint_end_row *row, size_t preset) {
+    char name[200];
+    snprintf(name, sizeof name, "%s: %s", row->tracer, row->text);
+    if (!json_object_get(reasons, name)) json_object_set_new(reasons, name, json_array());
+    json_array_append_new(json_object_get(reasons, name), json_pack("[f, I]", 100 * row->share, (json_int_t)preset));
+}
+
+static void add_ends(const struct contest_table *t, size_t capture, json_t *blocks) {
+    json_t *reasons = json_object(), *presets = json_array(), *series = json_array(), *points;
+    const char *name;
+    for (size_t p = 0; p < t->contest->count; p++) {
+        const struct showing *s = showing_of(t, capture, p);
+        json_array_append_new(presets, json_string(label_of(t, p)));
+        for (size_t i = 0; s->ran && i < s->ends.count; i++) add_end(reasons, &s->ends.rows[i], p);
+    }
+    json_object_foreach(reasons, name, points) json_array_append_new(
+        series, json_pack("{s:s, s:s, s:s, s:O}", "kind", "bar", "stack", "ends", "name", name, "points", points));
+    if (json_array_size(series))
+        page_chart(blocks, json_pack("{s:s, s:{s:s, s:s, s:i, s:i}, s:{s:s, s:O}, s:I, s:O}", "title", "Why rays ended",
+                                     "x", "name", "share of all rays", "unit", "%", "min", 0, "max", 100, "y", "scale",
+                                     "category", "categories", presets, "height",
+                                     (json_int_t)(190 + 30 * t->contest->count), "series", series));
+    json_decref(reasons);
+    json_decref(presets);
+    json_decref(series);
+}
+
+static bool add_capture(json_t *document, const struct contest_table *t, const char *folder, const struct sheet *sheet,
+                        size_t capture, struct glint_error *err) {
+    const char *path = t->captures[capture], *slash = strrchr(path, '/');
+    json_t *blocks = page_section(document, slash ? slash + 1 : path), *rows = json_array(), *presets = json_array();
+    bool ok = keep_pictures(t, folder, sheet, capture, rows, presets, err);
+    if (ok) {
+        add_times(t, capture, presets, blocks);
+        add_surfaces(t, capture, blocks);
+        add_table(t, capture, blocks);
+        add_ends(t, capture, blocks);
+        for (size_t row = 0; row < CONTEST_ROWS; row++)
+            json_array_append_new(blocks, json_pack("{s:O}", "pictures", json_array_get(rows, row)));
+    }
+    json_decref(rows);
+    json_decref(presets);
+    return ok;
+}
+
+bool contest_write_page(const char *folder, const struct contest_table *t, const struct sheet *sheet,
+                        struct glint_error *err) {
+    const struct glint_device_info *device = glint_device_get_info(t->contest->device);
+    char path[4096], text[400];
+    if (snprintf(path, sizeof path, "%s/pictures", folder) >= (int)sizeof path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    if (!glint_make_folder(path, err)) return false;
+    json_t *document = page_create("Presets beside each other");
+    snprintf(text, sizeof text, "median of %u rounds in turns%s", t->contest->rounds,
+             device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");
+    page_fact(document, "device", device->name);
+    page_fact(document, "times", text);
+    page_fact(document, "errors",
+              "mean of |found \u2212 truth| over their sum, 0 to 1, where a preset gives a reflection");
+    bool ok = document || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t c = 0; ok && c < t->capture_count; c++) ok = add_capture(document, t, folder, sheet, c, err);
+    if (ok) snprintf(path, sizeof path, "%.4000s/index.html", folder);
+    ok = ok && page_store(folder, document, err) && page_write(path, document, folder, err);
+    json_decref(document);
+    return ok;
+}

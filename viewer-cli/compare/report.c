@@ -1,0 +1,311 @@
+/* What presets give, as tables: for people, as JSON, as CSV. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/contest.h"
+#include "table.h"
+#include "text_file.h"
+
+static const char *base_name(const char *path) {
+    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+}
+
+static double share(const struct showing *s, int k) {
+    return s->reflecting[k] ? (double)s->given[k] / (double)s->reflecting[k] : 0;
+}
+
+/* "0.093 of 97.2 %" */
+static void error_cell(struct table *table, const struct showing *s, int k) {
+    if (!s->ran || s->reflecting[k] == 0) table_cell(table, "–");
+    else if (!s->compared) table_cell(table, "%.1f %%", 100 * share(s, k));
+    else if (s->own.of[k].pixels == 0) table_cell(table, "none");
+    else table_cell(table, "%.3f of %.1f %%", s->own.of[k].symmetric, 100 * share(s, k));
+}
+
+static void time_cell(struct table *table, const struct contest_time *time) {
+    if (time->n == 0 || time->max <= 0) table_cell(table, "–");
+    else table_cell(table, "%.3f", time->median);
+}
+
+static void print_showing(struct table *table, const struct showing *s) {
+    for (int k = GLINT_SURFACE_MIRROR; k < GLINT_SURFACE_COUNT; k++) error_cell(table, s, k);
+    error_cell(table, s, 0);
+    if (s->compared && s->shared.of[0].pixels) table_cell(table, "%.3f", s->shared.of[0].symmetric);
+    else table_cell(table, "–");
+    if (s->ends.rays) {
+        table_cell(table, "%.1f", s->ends.steps);
+        table_cell(table, "%.1f", s->ends.fetches);
+    } else
+        for (int k = 0; k < 2; k++) table_cell(table, "–");
+    time_cell(table, &s->frame);
+    time_cell(table, &s->cubemaps);
+}
+
+static const struct showing *showing_of(const struct contest_table *t, size_t capture, size_t preset) {
+    return &t->showings[capture * t->contest->count + preset];
+}
+
+static void print_errors(const struct contest_table *t) {
+    static const char *const titles[] = {"<capture", "<preset", ">mirror-like", ">glossy", ">rough",         ">all",
+                                         ">shared",  ">steps",  ">fetches",     ">ms",     ">cube maps, ms", NULL};
+    struct table *table = table_create(titles);
+    for (size_t c = 0; c < t->capture_count; c++)
+        for (size_t p = 0; p < t->contest->count; p++) {
+            table_cell(table, "%s", base_name(t->captures[c]));
+            table_cell(table, "%s", t->contest->contestants[p].label);
+            print_showing(table, showing_of(t, c, p));
+        }
+    puts("error of the reflection where the preset gives one, against the truth (mean of |found - truth| over their "
+         "sum,\n"
+         "0 to 1), of the share of reflecting pixels for which it does; shared: error over the pixels that every "
+         "preset\n"
+         "gives; steps and fetches of a ray:\n");
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+static const struct glint_end_row *same_end(const struct showing *s, const struct glint_end_row *row) {
+    for (size_t i = 0; s->ran && i < s->ends.count; i++)
+        if (!strcmp(s->ends.rows[i].tracer, row->tracer) && !strcmp(s->ends.rows[i].reason, row->reason))
+            return &s->ends.rows[i];
+    return NULL;
+}
+
+/* One tracer's reason, over all presets. */
+static void print_end(struct table *table, const struct contest_table *t, size_t capture,
+                      const struct glint_end_row *row) {
+    table_cell(table, "%s", base_name(t->captures[capture]));
+    table_cell(table, "%s", row->tracer);
+    table_cell(table, "%s", row->text);
+    for (size_t p = 0; p < t->contest->count; p++) {
+        const struct glint_end_row *r = same_end(showing_of(t, capture, p), row);
+        if (!r) table_cell(table, "–");
+        else if (!isfinite(r->error)) table_cell(table, "%.1f %%", 100 * r->share);
+        else table_cell(table, "%.1f %%, %.3f", 100 * r->share, r->error);
+    }
+}
+
+/* Each reason once a capture, in the order in which the presets have them, tracer by tracer. */
+static void fill_ends(struct table *table, const struct contest_table *t, size_t capture, const char *tracer) {
+    for (size_t p = 0; p < t->contest->count; p++) {
+        const struct showing *s = showing_of(t, capture, p);
+        for (size_t i = 0; s->ran && i < s->ends.count; i++) {
+            const struct glint_end_row *row = &s->ends.rows[i];
+            bool told = strcmp(row->tracer, tracer) != 0;
+            for (size_t before = 0; before < p && !told; before++)
+                told = same_end(showing_of(t, capture, before), row) != NULL;
+            if (!told) print_end(table, t, capture, row);
+        }
+    }
+}
+
+/* The tracers of all presets. */
+static size_t list_tracers(const struct contest_table *t, const char *tracers[], size_t capacity) {
+    size_t count = 0;
+    for (size_t k = 0; k < t->capture_count * t->contest->count; k++)
+        for (size_t i = 0; t->showings[k].ran && i < t->showings[k].ends.count && count < capacity; i++) {
+            const char *name = t->showings[k].ends.rows[i].tracer;
+            bool told = false;
+            for (size_t n = 0; n < count; n++) told = told || !strcmp(tracers[n], name);
+            if (!told) tracers[count++] = name;
+        }
+    return count;
+}
+
+static void print_ends(const struct contest_table *t) {
+    const char *tracers[16];
+    size_t presets = t->contest->count, count = list_tracers(t, tracers, sizeof tracers / sizeof *tracers);
+    const char **titles = calloc(presets + 4, sizeof *titles);
+    char(*names)[65] = calloc(presets + 1, sizeof *names);
+    if (count && titles && names) {
+        static const char *const first[] = {"<capture", "<tracer", "<the ray"};
+        memcpy(titles, first, sizeof first);
+        for (size_t p = 0; p < presets; p++) {
+            snprintf(names[p], sizeof names[p], ">%.63s", t->contest->contestants[p].label);
+            titles[3 + p] = names[p];
+        }
+        struct table *table = table_create(titles);
+        for (size_t c = 0; c < t->capture_count; c++)
+            for (size_t n = 0; n < count; n++) fill_ends(table, t, c, tracers[n]);
+        puts("\nwhy rays ended: share of all rays, and the error of the pixels whose ray it is, of those that are "
+             "given:\n");
+        table_print(table, stdout);
+        table_destroy(&table);
+    }
+    free(names);
+    free(titles);
+}
+
+/* Water and glass lie over what the other table compares. */
+static void print_over(const struct contest_table *t) {
+    static const char *const titles[] = {"<capture", "<preset", "<part", ">pixels", ">error", "<", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < t->capture_count * t->contest->count; i++)
+        for (int k = 0; k < CONTEST_OVER; k++) {
+            const struct glint_image_error *e = &t->showings[i].over[k].error;
+            if (!t->showings[i].ran || e->pixels == 0) continue;
+            table_cell(table, "%s", base_name(t->captures[i / t->contest->count]));
+            table_cell(table, "%s", t->contest->contestants[i % t->contest->count].label);
+            table_cell(table, "%s", contest_over[k]);
+            table_cell(table, "%llu", (unsigned long long)e->pixels);
+            table_cell(table, "%.3f", e->symmetric);
+            table_cell(table, "%s", t->showings[i].over[k].drawn ? "" : "not drawn");
+        }
+    if (!table_is_empty(table)) {
+        puts("\nthe finished picture against the capture's scene, where water or glass covers the opaque surfaces:\n");
+        table_print(table, stdout);
+    }
+    table_destroy(&table);
+}
+
+static void print_notes(const struct contest_table *t) {
+    for (size_t c = 0; c < t->capture_count; c++)
+        for (size_t p = 0; p < t->contest->count; p++) {
+            const struct showing *s = showing_of(t, c, p);
+            const char *notes = s->notes ? s->notes : "";
+            uint64_t invalid = s->own.of[0].invalid;
+            if (!s->failure[0] && !notes[0] && !invalid) continue;
+            printf("\n%s, %s: ", base_name(t->captures[c]), t->contest->contestants[p].label);
+            if (s->failure[0]) printf("%s%s%s", s->ran ? "no error: " : "failed: ", s->failure, notes[0] ? "; " : "");
+            if (invalid) printf("NaN or infinite in %llu pixels%s", (unsigned long long)invalid, notes[0] ? "; " : "");
+            fputs(notes, stdout);
+        }
+    putchar('\n');
+}
+
+void contest_print(const struct contest_table *t) {
+    const struct glint_device_info *device = glint_device_get_info(t->contest->device);
+    print_errors(t);
+    printf("\ntimes: median of %u rounds in turns on %s%s\n", t->contest->rounds, device->name,
+           device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+    print_over(t);
+    print_ends(t);
+    print_notes(t);
+}
+
+static json_t *surfaces_json(const struct showing *s) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+        const struct glint_image_error *own = &s->own.of[k], *shared = &s->shared.of[k];
+        if (s->reflecting[k] == 0) continue;
+        json_t *row = json_pack("{s:s, s:I, s:I, s:o}", "surfaces", glint_surface_name((enum glint_surface)k), "pixels",
+                                (json_int_t)s->reflecting[k], "given", (json_int_t)s->given[k], "coverage",
+                                json_number(share(s, k)));
+        if (s->compared && own->pixels)
+            json_object_update_new(row, json_pack("{s:o, s:o, s:o, s:o, s:I}", "symmetric", json_number(own->symmetric),
+                                                  "rmse", json_number(own->rmse), "relative_mse",
+                                                  json_number(own->relative_mse), "mean_error", json_number(own->mean),
+                                                  "invalid", (json_int_t)own->invalid));
+        if (s->compared && shared->pixels)
+            json_object_set_new(row, "shared",
+                                json_pack("{s:I, s:o, s:o}", "pixels", (json_int_t)shared->pixels, "symmetric",
+                                          json_number(shared->symmetric), "rmse", json_number(shared->rmse)));
+        json_array_append_new(rows, row);
+    }
+    return rows;
+}
+
+static json_t *ends_json(const struct showing *s) {
+    json_t *rows = json_array();
+    for (size_t i = 0; i < s->ends.count; i++) {
+        const struct glint_end_row *r = &s->ends.rows[i];
+        json_array_append_new(rows, json_pack("{s:s, s:s, s:I, s:o, s:I, s:o}", "tracer", r->tracer, "reason",
+                                              r->reason, "rays", (json_int_t)r->rays, "share", json_number(r->share),
+                                              "pixels", (json_int_t)r->pixels, "error", json_number(r->error)));
+    }
+    return rows;
+}
+
+static json_t *over_json(const struct showing *s) {
+    json_t *rows = json_array();
+    for (int k = 0; k < CONTEST_OVER; k++) {
+        const struct glint_image_error *e = &s->over[k].error;
+        if (e->pixels)
+            json_array_append_new(rows, json_pack("{s:s, s:b, s:I, s:o, s:o}", "part", contest_over[k], "drawn",
+                                                  s->over[k].drawn, "pixels", (json_int_t)e->pixels, "symmetric",
+                                                  json_number(e->symmetric), "rmse", json_number(e->rmse)));
+    }
+    return rows;
+}
+
+static json_t *time_json(const struct contest_time *time) {
+    return time->n ? json_pack("{s:I, s:f, s:f, s:f}", "n", (json_int_t)time->n, "min", time->min, "median",
+                               time->median, "max", time->max)
+                   : json_null();
+}
+
+static json_t *showing_json(const struct contestant *c, const struct showing *s) {
+    json_t *json = json_pack("{s:s, s:b, s:s}", "preset", c->label, "ran", s->ran, "notes", s->notes ? s->notes : "");
+    if (s->failure[0]) json_object_set_new(json, s->ran ? "not_compared" : "failure", json_string(s->failure));
+    if (!s->ran) return json;
+    json_object_update_new(json, json_pack("{s:o, s:o, s:o, s:I, s:f, s:f, s:o, s:o, s:O}", "surfaces",
+                                           surfaces_json(s), "over", over_json(s), "ends", ends_json(s), "rays",
+                                           (json_int_t)s->ends.rays, "steps", s->ends.steps, "fetches", s->ends.fetches,
+                                           "frame_ms", time_json(&s->frame), "cubemaps_ms", time_json(&s->cubemaps),
+                                           "passes", s->passes));
+    return json;
+}
+
+json_t *contest_json(const struct contest_table *t) {
+    const struct glint_device_info *device = glint_device_get_info(t->contest->device);
+    json_t *captures = json_array();
+    for (size_t c = 0; c < t->capture_count; c++) {
+        json_t *presets = json_array();
+        for (size_t p = 0; p < t->contest->count; p++)
+            json_array_append_new(presets, showing_json(&t->contest->contestants[p], showing_of(t, c, p)));
+        json_array_append_new(captures, json_pack("{s:s, s:o}", "capture", t->captures[c], "presets", presets));
+    }
+    return json_pack("{s:{s:s, s:s, s:b}, s:I, s:o}", "device", "name", device->name, "type", device->type, "cpu",
+                     device->is_cpu, "rounds", (json_int_t)t->contest->rounds, "captures", captures);
+}
+
+static void put_number(FILE *out, bool there, double value) {
+    fputc(',', out);
+    if (there && isfinite(value)) fprintf(out, "%.6g", value);
+}
+
+static void put_showing(FILE *out, const struct showing *s) {
+    for (int k = 1; k <= GLINT_SURFACE_COUNT; k++) {
+        int of = k % GLINT_SURFACE_COUNT; /* all surfaces last */
+        bool any = s->ran && s->reflecting[of] > 0, compared = any && s->compared && s->own.of[of].pixels > 0;
+        put_number(out, any, share(s, of));
+        put_number(out, compared, s->own.of[of].symmetric);
+        put_number(out, compared, s->own.of[of].rmse);
+    }
+    put_number(out, s->ran && s->shared.of[0].pixels, s->shared.of[0].symmetric);
+    for (int k = 0; k < CONTEST_OVER; k++)
+        put_number(out, s->ran && s->over[k].error.pixels, s->over[k].error.symmetric);
+    put_number(out, s->ends.rays > 0, s->ends.steps);
+    put_number(out, s->ends.rays > 0, s->ends.fetches);
+    put_number(out, s->frame.n > 0, s->frame.median);
+    put_number(out, s->cubemaps.n > 0, s->cubemaps.median);
+}
+
+char *contest_csv(const struct contest_table *t) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return NULL;
+    fputs("capture,preset", out);
+    for (int k = 1; k <= GLINT_SURFACE_COUNT; k++) {
+        const char *name = glint_surface_name((enum glint_surface)(k % GLINT_SURFACE_COUNT));
+        fprintf(out, ",%s coverage,%s error,%s RMSE", name, name, name);
+    }
+    fputs(",shared error,water error,transparent error,steps,fetches,frame ms,cube maps ms,notes\n", out);
+    for (size_t c = 0; c < t->capture_count; c++)
+        for (size_t p = 0; p < t->contest->count; p++) {
+            const struct showing *s = showing_of(t, c, p);
+            csv_text(out, t->captures[c]);
+            fputc(',', out);
+            csv_text(out, t->contest->contestants[p].label);
+            put_showing(out, s);
+            fputc(',', out);
+            csv_text(out, s->failure[0] ? s->failure : s->notes ? s->notes : "");
+            fputc('\n', out);
+        }
+    bool failed = ferror(out);
+    if (fclose(out) == 0 && !failed) return text;
+    free(text);
+    return NULL;
+}

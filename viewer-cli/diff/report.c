@@ -1,0 +1,185 @@
+/* What a comparison found, as tables and as JSON. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "args.h"
+#include "diff/diff.h"
+#include "metric_args.h"
+#include "table.h"
+
+enum { PLACES = 16 };
+
+static const char *const words[] = {"same", "warning", "FAILS", "other size"};
+
+/* The channel where the difference is largest: those of floats come first, then those of whole numbers. */
+static const char *channel_of(const struct diff_pair *pair) {
+    size_t left = pair->difference.channel;
+    for (int integers = 0; integers < 2; integers++)
+        for (size_t i = 0; i < pair->a->channel_count; i++) {
+            size_t k = 0;
+            while (k < pair->b->channel_count && strcmp(pair->a->channels[i], pair->b->channels[k]) != 0) k++;
+            if (pair->a->integers[i] != integers || k == pair->b->channel_count || pair->b->integers[k] != integers)
+                continue;
+            if (left-- == 0) return pair->a->channels[i];
+        }
+    return "";
+}
+
+/* ---- JSON ---- */
+
+static json_t *histogram_json(const struct glint_difference *d) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < GLINT_DIFFERENCE_BINS; i++)
+        if (d->histogram[i])
+            json_array_append_new(list, json_pack("{s:o, s:I}", "up_to",
+                                                  i == GLINT_DIFFERENCE_BINS - 1   ? json_string("not finite")
+                                                  : i == GLINT_DIFFERENCE_BINS - 2 ? json_string("more")
+                                                                                   : json_real(glint_difference_bin(i)),
+                                                  "values", (json_int_t)d->histogram[i]));
+    return list;
+}
+
+/* The first pixels that fail, by rows. */
+static json_t *places_json(const struct glint_difference *d) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < d->pixels && json_array_size(list) < PLACES; i++)
+        if (glint_difference_fails(d, i))
+            json_array_append_new(list, json_pack("[i, i]", (int)(i % d->width), (int)(i / d->width)));
+    return list;
+}
+
+static json_t *pair_json(const struct diff_pair *pair) {
+    const struct diff_image *image = diff_pair_image(pair);
+    const struct glint_difference *d = &pair->difference;
+    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i}", "name", image->name, "slot", image->slot, "unit", image->unit,
+                             "verdict", words[pair->status], "status", (int)pair->status);
+    if (pair->note[0]) json_object_set_new(json, "note", json_string(pair->note));
+    if (!d->marks) return json;
+    json_t *largest = json_pack(
+        "{s:o, s:i, s:i, s:s, s:o, s:o}", "by", isinf(d->largest) ? json_string("infinite") : json_real(d->largest),
+        "x", (int)d->x, "y", (int)d->y, "channel", channel_of(pair), "a", json_number(d->a), "b", json_number(d->b));
+    json_object_set_new(json, "width", json_integer(image->width));
+    json_object_set_new(json, "height", json_integer(image->height));
+    json_object_set_new(json, "pixels", json_integer((json_int_t)d->pixels));
+    json_object_set_new(json, "differing", json_integer((json_int_t)d->differing));
+    json_object_set_new(json, "failed", json_integer((json_int_t)d->failed));
+    json_object_set_new(json, "warned", json_integer((json_int_t)d->warned));
+    json_object_set_new(json, "mean", json_number(d->mean));
+    json_object_set_new(json, "rms", json_number(d->rms));
+    json_object_set_new(json, "psnr", json_number(d->psnr));
+    json_object_set_new(json, "largest", largest);
+    json_object_set_new(json, "places", places_json(d));
+    json_object_set_new(json, "histogram", histogram_json(d));
+    if (pair->metrics.count) json_object_set_new(json, "metrics", metrics_json(&pair->metrics));
+    return json;
+}
+
+json_t *diff_json(const struct diff *diff) {
+    json_t *images = json_array(), *json;
+    const size_t first = diff_first(diff);
+    for (size_t i = 0; i < diff->count; i++) json_array_append_new(images, pair_json(&diff->pairs[i]));
+    json = json_pack("{s:s, s:s, s:i, s:o}", "a", diff->sides[0].text, "b", diff->sides[1].text, "status",
+                     (int)diff->status, "images", images);
+    if (first < diff->count) {
+        const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
+        json_object_set_new(json, "first", json_pack("{s:s, s:s}", "image", image->name, "slot", image->slot));
+    }
+    if (diff->settings) json_object_set(json, "settings", diff->settings);
+    return json;
+}
+
+/* ---- Text ---- */
+
+static void print_settings(const json_t *settings) {
+    static const char *const titles[] = {"<differs", "<first", "<second", NULL};
+    struct table *t = table_create(titles);
+    size_t i;
+    json_t *row;
+    json_array_foreach(settings, i, row) {
+        static const char *const sides[] = {"a", "b"};
+        table_cell(t, "%s", json_string_value(json_object_get(row, "what")));
+        for (int k = 0; k < 2; k++) {
+            char *text = json_dumps(json_object_get(row, sides[k]), JSON_ENCODE_ANY | JSON_REAL_PRECISION(6));
+            table_cell(t, "%s", !text || !strcmp(text, "null") ? "–" : text);
+            free(text);
+        }
+    }
+    if (!table_is_empty(t)) {
+        table_print(t, stdout);
+        putchar('\n');
+    }
+    table_destroy(&t);
+}
+
+static void pair_row(struct table *t, const struct diff_pair *pair, bool runs) {
+    const struct diff_image *image = diff_pair_image(pair);
+    const struct glint_difference *d = &pair->difference;
+    if (runs) table_cell(t, "%s", image->slot);
+    table_cell(t, "%s", image->name[0] ? image->name : "–");
+    table_cell(t, "%s", words[pair->status]);
+    if (!d->marks) {
+        for (int i = 0; i < 4; i++) table_cell(t, "–");
+        table_cell(t, "%s", pair->note);
+        return;
+    }
+    table_cell(t, "%.3g %%", 100 * (double)d->differing / (double)d->pixels);
+    table_cell(t, "%llu", (unsigned long long)d->failed);
+    table_cell(t, "%s", number_text(d->rms));
+    table_cell(t, "%s", number_text(d->largest));
+    if (d->largest > 0)
+        table_cell(t, "%u,%u %s: %s, %s%s%s", d->x, d->y, channel_of(pair), number_text(d->a), number_text(d->b),
+                   pair->note[0] ? "; " : "", pair->note);
+    else table_cell(t, "%s", pair->note);
+}
+
+static void print_pairs(const struct diff *diff, bool verbose) {
+    static const char *const titles[] = {"<pass", "<image", "<", ">pixels", ">over", ">rms", ">largest", "<at", NULL};
+    const bool runs = diff->sides[0].run || diff->sides[1].run;
+    struct table *t = table_create(runs ? titles : titles + 1);
+    for (size_t i = 0; i < diff->count; i++)
+        if (verbose || diff->pairs[i].status != DIFF_SAME || diff->pairs[i].difference.differing)
+            pair_row(t, &diff->pairs[i], runs);
+    if (!table_is_empty(t)) table_print(t, stdout);
+    table_destroy(&t);
+}
+
+static void print_histogram(const struct glint_difference *d) {
+    printf("differences of values:");
+    for (size_t i = 0; i < GLINT_DIFFERENCE_BINS; i++) {
+        const double share = 100 * (double)d->histogram[i] / (double)d->values;
+        if (!d->histogram[i]) continue;
+        if (i == 0) printf(" none %.4g %%", share);
+        else if (i == GLINT_DIFFERENCE_BINS - 1) printf(", not finite %.4g %%", share);
+        else if (i == GLINT_DIFFERENCE_BINS - 2) printf(", more %.4g %%", share);
+        else printf(", to %.0e %.4g %%", glint_difference_bin(i), share);
+    }
+    putchar('\n');
+}
+
+static void print_alone(const struct diff_pair *pair) {
+    const struct glint_difference *d = &pair->difference;
+    if (!d->marks) return;
+    printf("mean %s, rms %s, psnr %.2f dB\n", number_text(d->mean), number_text(d->rms), d->psnr);
+    print_histogram(d);
+    if (pair->metrics.count) metrics_print(&pair->metrics);
+}
+
+void diff_print(const struct diff *diff, bool verbose) {
+    static const char *const verdicts[] = {"PASS", "WARNING", "FAILURE", "FAILURE: other sizes"};
+    const size_t first = diff_first(diff);
+    size_t same = 0;
+    if (diff->settings) print_settings(diff->settings);
+    for (size_t i = 0; i < diff->count; i++) same += diff->pairs[i].status == DIFF_SAME;
+    print_pairs(diff, verbose);
+    if (diff->count == 1) print_alone(&diff->pairs[0]);
+    else {
+        printf("%zu of %zu images are the same within the limits", same, diff->count);
+        if (first < diff->count) {
+            const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
+            printf("; %s%s%s is the first that differs", image->slot, image->slot[0] ? ": " : "", image->name);
+        }
+        putchar('\n');
+    }
+    puts(verdicts[diff->status]);
+}

@@ -1,0 +1,120 @@
+/* The time of each pass of runs in a report. */
+#include <stdio.h>
+#include <string.h>
+
+#include "args.h"
+#include "report/report.h"
+
+static double ms(const json_t *pass, const char *key) {
+    return json_number_value(json_object_get(json_object_get(pass, "time_ns"), key)) / 1e6;
+}
+
+/* A run's pass, when it was timed and is paid for like this; else NULL. */
+static const json_t *timed(const json_t *run, const char *slot, bool cached_work) {
+    const json_t *pass = report_pass(run, slot);
+    bool same = json_is_true(json_object_get(pass, "cached_work")) == cached_work;
+    return report_ran(pass) && same && json_is_object(json_object_get(pass, "time_ns")) ? pass : NULL;
+}
+
+/* With the fastest and the slowest round, if there were several. */
+static json_t *time_cell(const json_t *pass) {
+    if (!pass) return json_null();
+    bool several = json_integer_value(json_object_get(json_object_get(pass, "time_ns"), "n")) > 1;
+    return several ? page_interval(ms(pass, "median"), ms(pass, "min"), ms(pass, "max"))
+                   : json_real(ms(pass, "median"));
+}
+
+static json_t *time_point(const json_t *pass, size_t place) {
+    json_t *cell = time_cell(pass),
+           *point = json_pack("{s:o, s:I}", "x", json_number(ms(pass, "median")), "y", (json_int_t)place);
+    if (json_is_object(cell)) {
+        json_object_set(point, "x_low", json_object_get(cell, "low"));
+        json_object_set(point, "x_high", json_object_get(cell, "high"));
+    }
+    json_decref(cell);
+    return point;
+}
+
+static json_t *time_series(const struct report *r, size_t run, const json_t *slots, bool cached_work) {
+    json_t *points = json_array(), *slot;
+    size_t i;
+    json_array_foreach(slots, i, slot) {
+        const json_t *pass = timed(r->runs[run], json_string_value(slot), cached_work);
+        if (pass) json_array_append_new(points, time_point(pass, i));
+    }
+    return json_pack("{s:s, s:s, s:o}", "name", r->labels[run], "kind", "bar", "points", points);
+}
+
+static void add_table(const struct report *r, json_t *blocks, const json_t *slots, bool cached_work) {
+    json_t *table = page_table(blocks), *slot;
+    size_t i;
+    page_column(table, "pass", "");
+    report_columns(table, r, "|ms");
+    json_array_foreach(slots, i, slot) {
+        json_t *row = json_pack("[O]", slot);
+        for (size_t k = 0; k < r->count; k++)
+            json_array_append_new(row, time_cell(timed(r->runs[k], json_string_value(slot), cached_work)));
+        page_row(table, row);
+    }
+}
+
+/* "Each frame: 12.3 ms": the passes together, of each run. */
+static void add_sums(const struct report *r, json_t *blocks, const json_t *slots, bool cached_work) {
+    char text[2048];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s", cached_work ? "When a cube map changes: " : "Each frame: ");
+    for (size_t k = 0; k < r->count && used < sizeof text - 200; k++) {
+        double sum = 0;
+        size_t i;
+        json_t *slot;
+        json_array_foreach(slots, i, slot) {
+            const json_t *pass = timed(r->runs[k], json_string_value(slot), cached_work);
+            if (pass) sum += ms(pass, "median");
+        }
+        const char *label = r->count > 1 ? r->labels[k] : "";
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s%s%.3f ms", k ? "; " : "", label,
+                                 label[0] ? " " : "", sum);
+    }
+    snprintf(text + used, sizeof text - used, ", medians of the passes added up.");
+    page_text(blocks, "text", text);
+}
+
+static void add_work(const struct report *r, json_t *blocks, bool cached_work) {
+    json_t *slots = json_array(), *series = json_array(), *value;
+    const char *slot;
+    json_object_foreach(r->slots, slot, value) {
+        bool any = false;
+        for (size_t i = 0; i < r->count; i++) any = any || timed(r->runs[i], slot, cached_work);
+        if (any) json_array_append_new(slots, json_string(slot));
+    }
+    if (json_array_size(slots)) {
+        add_sums(r, blocks, slots, cached_work);
+        for (size_t i = 0; i < r->count; i++) json_array_append_new(series, time_series(r, i, slots, cached_work));
+        page_chart(blocks,
+                   json_pack("{s:s, s:{s:s, s:s, s:i}, s:{s:s, s:O}, s:O}", "title",
+                             cached_work ? "Time when a cube map changes" : "Time of each frame", "x", "name", "time",
+                             "unit", "ms", "min", 0, "y", "scale", "category", "categories", slots, "series", series));
+        add_table(r, blocks, slots, cached_work);
+    }
+    json_decref(slots);
+    json_decref(series);
+}
+
+/* What a device's times are worth, each once. */
+static void add_warnings(const struct report *r, json_t *blocks) {
+    for (size_t i = 0; i < r->count; i++) {
+        const json_t *device = json_object_get(r->runs[i], "device");
+        bool told = strcmp(report_text(device, "type"), "cpu") != 0;
+        for (size_t k = 0; k < i && !told; k++) told = json_equal(device, json_object_get(r->runs[k], "device"));
+        char text[600];
+        snprintf(text, sizeof text, "%.200s: %.200s, which say nothing about a GPU's", report_text(device, "name"),
+                 report_text(device, "times_are"));
+        if (!told) page_text(blocks, "note", text);
+    }
+}
+
+void report_times(const struct report *r) {
+    json_t *blocks = page_section(r->document, "Times");
+    add_warnings(r, blocks);
+    add_work(r, blocks, false);
+    add_work(r, blocks, true);
+}

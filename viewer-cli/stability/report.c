@@ -1,0 +1,169 @@
+/* A measurement of stability as tables and as JSON. */
+#include "stability/stability.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "args.h"
+#include "table.h"
+
+/* ---- JSON ---- */
+
+static json_t *summary_json(const struct glint_stability_summary *s) {
+    return json_pack("{s:I, s:o, s:o, s:o, s:I}", "pixels", (json_int_t)s->compared, "median", json_number(s->median),
+                     "p99", json_number(s->p99), "largest", json_number(s->largest), "above", (json_int_t)s->above);
+}
+
+static json_t *worst_json(const struct glint_stability_image *image) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < image->worst_count; i++) {
+        const struct glint_stability_pixel *p = &image->worst[i];
+        json_t *before = json_array();
+        for (uint32_t k = 0; k < image->components; k++)
+            json_array_append_new(before, json_number((double)p->before[k]));
+        json_array_append_new(list, json_pack("{s:i, s:i, s:o, s:o, s:o}", "x", (int)p->x, "y", (int)p->y,
+                                              "amplification", json_number(p->amplification), "change",
+                                              json_number(p->change), "value", before));
+    }
+    return list;
+}
+
+static json_t *image_json(const struct glint_stability_image *image) {
+    json_t *json = json_pack("{s:s, s:s, s:i, s:i}", "name", image->name, "unit", image->row->unit, "width",
+                             (int)image->width, "height", (int)image->height);
+    if (!json) return NULL;
+    json_object_set_new(json, "slot", image->pass ? json_string(image->pass->slot) : json_null());
+    if (!image->decides) {
+        json_object_set_new(json, image->pass ? "amplification" : "change", summary_json(&image->summary));
+        json_object_set_new(json, "overflow",
+                            json_pack("{s:o, s:i, s:i, s:i, s:I, s:I}", "largest", json_number(image->peak), "x",
+                                      (int)image->peak_x, "y", (int)image->peak_y, "component",
+                                      (int)image->peak_component, "beyond", (json_int_t)image->beyond, "invalid",
+                                      (json_int_t)image->invalid));
+    }
+    if (image->pass) {
+        json_object_set_new(json, "flipped", json_integer((json_int_t)image->flipped));
+        json_object_set_new(json, "flip_share", json_number(image->flip_share));
+        json_object_set_new(json, "worst", worst_json(image));
+    }
+    return json;
+}
+
+static json_t *pass_json(const struct glint_stability_pass *p) {
+    return json_pack("{s:s, s:s, s:I, s:o, s:I, s:I, s:I, s:I}", "slot", p->pass->slot, "variant", p->pass->variant,
+                     "place", (json_int_t)p->place, "amplification", summary_json(&p->summary), "starts",
+                     (json_int_t)p->starts, "flipped", (json_int_t)p->flipped, "end_reasons", (json_int_t)p->ends,
+                     "flip_starts", (json_int_t)p->flip_starts);
+}
+
+json_t *stability_json(const struct stability_report *report) {
+    const struct glint_stability *s = report->stability;
+    json_t *images = json_array(), *passes = json_array(), *inputs = json_array();
+    for (size_t i = 0; i < s->image_count; i++) json_array_append_new(images, image_json(&s->images[i]));
+    for (size_t i = 0; i < s->pass_count; i++) json_array_append_new(passes, pass_json(&s->passes[i]));
+    for (size_t i = 0; report->inputs && report->inputs[i]; i++)
+        json_array_append_new(inputs, json_string(report->inputs[i]));
+    return json_pack("{s:s, s:s, s:s, s:I, s:o, s:s, s:o, s:o, s:o}", "capture", report->capture, "preset",
+                     report->preset, "device", report->device, "seeds", (json_int_t)s->seeds, "perturbed", inputs,
+                     "precision", report->half ? "half" : "float", "bound", json_number(s->bound), "passes", passes,
+                     "images", images);
+}
+
+/* ---- Tables ---- */
+
+static void print_inputs(const struct glint_stability *s) {
+    static const char *const titles[] = {"<input", ">median change", ">99 %", ">largest", NULL};
+    struct table *t = table_create(titles);
+    for (size_t i = 0; i < s->image_count; i++) {
+        const struct glint_stability_image *image = &s->images[i];
+        if (image->pass) continue;
+        table_cell(t, "%s", image->name);
+        table_cell(t, "%.2g", image->summary.median);
+        table_cell(t, "%.2g", image->summary.p99);
+        table_cell(t, "%.2g", image->summary.largest);
+    }
+    table_print(t, stdout);
+    table_destroy(&t);
+}
+
+static void cell_count(struct table *t, uint64_t count) {
+    if (count) table_cell(t, "%llu", (unsigned long long)count);
+    else table_cell(t, "%s", "–");
+}
+
+static void print_passes(const struct glint_stability *s) {
+    static const char *const titles[] = {">",           "<pass",       ">median", ">99 %",
+                                         ">largest",    ">above",      ">starts", ">decide otherwise",
+                                         ">end reason", ">first here", NULL};
+    struct table *t = table_create(titles);
+    for (size_t i = 0; i < s->pass_count; i++) {
+        const struct glint_stability_pass *p = &s->passes[i];
+        table_cell(t, "%zu", p->place);
+        table_cell(t, "%s/%s", p->pass->slot, p->pass->variant);
+        table_cell(t, "%s", number_text(p->summary.median));
+        table_cell(t, "%s", number_text(p->summary.p99));
+        table_cell(t, "%s", number_text(p->summary.largest));
+        cell_count(t, p->summary.above);
+        cell_count(t, p->starts);
+        cell_count(t, p->flipped);
+        cell_count(t, p->ends);
+        cell_count(t, p->flip_starts);
+    }
+    table_print(t, stdout);
+    table_destroy(&t);
+}
+
+static void print_worst(const struct glint_stability *s) {
+    static const char *const titles[] = {"<image", ">x,y", "<of", ">amplification", ">relative change", ">value", NULL};
+    struct table *t = table_create(titles);
+    for (size_t i = 0; i < s->image_count; i++) {
+        const struct glint_stability_image *image = &s->images[i];
+        for (size_t k = 0; image->over_picture && k < image->worst_count && k < 2; k++) {
+            const struct glint_stability_pixel *p = &image->worst[k];
+            table_cell(t, "%s", k ? "" : image->name);
+            table_cell(t, "%u,%u", p->x, p->y);
+            table_cell(t, "%ux%u", image->width, image->height);
+            table_cell(t, "%s", number_text(p->amplification));
+            table_cell(t, "%s", number_text(p->change));
+            table_cell(t, "%s", number_text((double)p->before[0]));
+        }
+    }
+    table_print(t, stdout);
+    table_destroy(&t);
+}
+
+/* Stops: how often it can be doubled before half floats hold it no longer. */
+static void print_overflow(const struct glint_stability *s) {
+    static const char *const titles[] = {"<image",          ">largest", ">x,y",      "<unit",
+                                         ">stops to 65504", ">beyond",  ">NaN, Inf", NULL};
+    struct table *t = table_create(titles);
+    for (size_t i = 0; i < s->image_count; i++) {
+        const struct glint_stability_image *image = &s->images[i];
+        if (image->decides) continue;
+        table_cell(t, "%s", image->name);
+        table_cell(t, "%s", number_text(image->peak));
+        table_cell(t, "%u,%u", image->peak_x, image->peak_y);
+        table_cell(t, "%s", image->row->unit);
+        table_cell(t, "%.1f", image->peak > 0 ? log2(65504 / image->peak) : (double)INFINITY);
+        cell_count(t, image->beyond);
+        cell_count(t, image->invalid);
+    }
+    table_print(t, stdout);
+    table_destroy(&t);
+}
+
+void stability_print(const struct stability_report *report) {
+    const struct glint_stability *s = report->stability;
+    printf("%s, %s on %s: %u perturbed replays, images in %s\n\n", report->capture, report->preset, report->device,
+           s->seeds, report->half ? "their own formats" : "float");
+    print_inputs(s);
+    printf("\nAmplification (relative change over that of the inputs) of pixels that reflect; above: more than %g; "
+           "starts: no "
+           "earlier pass is\n",
+           s->bound);
+    print_passes(s);
+    printf("\nWorst pixels\n");
+    print_worst(s);
+    printf("\nLargest values\n");
+    print_overflow(s);
+}

@@ -1,0 +1,216 @@
+/* What was found, measured anew beside what it is compared with. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tune/tune.h"
+
+const char *const tune_contenders[TUNE_CONTENDERS] = {"start", "tuned", "scaled"};
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Order statistics between which the true median lies with 95 %, whatever the distribution: each value is below it with a half. */
+struct tune_median tune_median(double *values, size_t count) {
+    if (!count) return (struct tune_median){NAN, NAN, NAN};
+    qsort(values, count, sizeof *values, ascending);
+    double probability = exp2(-(double)count), below = probability;
+    size_t k = 0; /* the largest with P(at most k below) <= 2.5 % */
+    while (below <= 0.025 && k < count) {
+        k++;
+        probability *= (double)(count - k + 1) / (double)k;
+        below += probability;
+    }
+    const size_t low = k ? k - 1 : 0;
+    return (struct tune_median){(values[(count - 1) / 2] + values[count / 2]) / 2, values[low],
+                                values[count - 1 - low]};
+}
+
+/* Who is first changes from round to round. */
+bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
+                        struct tune_times times[TUNE_CONTENDERS], struct glint_error *err) {
+    const size_t rounds = tune->repeat;
+    double *values = calloc((TUNE_CONTENDERS + 1) * rounds + 1, sizeof *values),
+           *parts = values + TUNE_CONTENDERS * rounds;
+    bool ok = values || no_memory(err);
+    for (uint32_t r = 0; ok && r < rounds; r++) {
+        snprintf(tune->label, sizeof tune->label, "measured again, round %u", r + 1);
+        glint_judge_next_round(subject->judge);
+        for (size_t turn = 0; ok && turn < TUNE_CONTENDERS; turn++) {
+            const size_t k = (turn + r) % TUNE_CONTENDERS;
+            ok = !pipelines[k] || tune_time(tune, subject, pipelines[k], true, &values[k * rounds + r], err);
+        }
+    }
+    for (size_t k = 0; ok && k < TUNE_CONTENDERS; k++) {
+        for (size_t r = 0; r < rounds; r++) parts[r] = values[TUNE_TUNED * rounds + r] / values[k * rounds + r];
+        times[k].part = tune_median(parts, pipelines[k] ? rounds : 0);
+        if (k != TUNE_TUNED) times[k].ms = tune_median(values + k * rounds, pipelines[k] ? rounds : 0);
+    }
+    if (ok) times[TUNE_TUNED].ms = tune_median(values + TUNE_TUNED * rounds, rounds);
+    free(values);
+    return ok;
+}
+
+/* How much of what it may take a point takes: beside the baseline, of its time where that is most and as much as the interval
+   leaves open; else of the budget, mean over the captures. parts[capture]: of the baseline's time; NULL: not asked. */
+static bool time_point(struct tune *tune, struct glint_pipeline *scaled, size_t point, double *part, double *parts,
+                       struct glint_error *err) {
+    struct glint_pipeline *own = tune_pipeline(tune, tune->found.points[point].values, err);
+    struct glint_pipeline *const pipelines[TUNE_CONTENDERS] = {tune->base, own, scaled};
+    double sum = 0, start = 0, most = 0;
+    bool ok = own != NULL;
+    for (size_t s = 0; ok && s < tune->captures.count; s++) {
+        struct tune_times times[TUNE_CONTENDERS];
+        if (!(ok = tune_time_in_turns(tune, &tune->subjects[s], pipelines, times, err))) break;
+        sum += times[TUNE_TUNED].ms.value / (double)tune->captures.count;
+        start += times[TUNE_START].ms.value / (double)tune->captures.count;
+        if (scaled) most = fmax(most, times[TUNE_SCALED].part.high);
+        if (parts) parts[s] = times[TUNE_SCALED].part.high;
+    }
+    *part = scaled ? most : sum / (tune->part ? tune->limit * start : tune->limit);
+    if (own) glint_pipeline_destroy(&own);
+    return ok;
+}
+
+static bool is_baseline(const struct tune *tune, size_t point) {
+    return tune->scaled_within &&
+           !memcmp(tune->found.points[point].values, tune->scaling, tune->axis_count * sizeof *tune->scaling);
+}
+
+/* The best that has not been passed over; of none the least, or the baseline, which keeps its own time. */
+static bool next_best(struct tune *tune, const bool *passed, double limit) {
+    bool some = false;
+    for (size_t p = 0; p < tune->found.count; p++) {
+        const struct glint_search_figures *figures = &tune->found.points[p].figures;
+        if (passed[p] || !(figures->limited <= limit)) continue;
+        if (!some || glint_search_better(figures, &tune->found.points[tune->chosen].figures, limit)) tune->chosen = p;
+        some = true;
+    }
+    if (!some) tune->chosen = tune->found.least;
+    for (size_t p = 0; !some && p < tune->found.count; p++)
+        if (is_baseline(tune, p)) tune->chosen = p;
+    return some;
+}
+
+/* Passes over what luck alone brought below the limit. Where one was over it others may be: half of that is taken off. */
+static bool choose(struct tune *tune, struct glint_pipeline *scaled, bool *passed, struct glint_error *err) {
+    enum { TRIES = 20 };
+    double limit = tune->within;
+    for (int i = 0; i < TRIES; i++) {
+        double part = 1;
+        const bool some = next_best(tune, passed, limit);
+        if (!is_baseline(tune, tune->chosen) && !time_point(tune, scaled, tune->chosen, &part, NULL, err)) return false;
+        if ((tune->confirmed_within = part <= 1) || !some) return true;
+        limit /= (1 + part) / 2;
+        passed[tune->chosen] = true;
+    }
+    next_best(tune, passed, 0);
+    tune->confirmed_within = is_baseline(tune, tune->chosen);
+    return true;
+}
+
+/* Times of a few rounds, and of a baseline that was measured once, are off by some per cent: what that is on each capture shows
+   where the best point is measured beside the baseline. */
+static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct glint_error *err) {
+    enum { TIMES = 2 };
+    double *parts = calloc(tune->captures.count, sizeof *parts), part = 0;
+    bool ok = parts || no_memory(err);
+    for (int i = 0; ok && i < TIMES && !is_baseline(tune, tune->chosen); i++) {
+        ok = time_point(tune, scaled, tune->chosen, &part, parts, err);
+        if (!ok || part <= 1) break;
+        ok = tune_search_again(tune, parts, err);
+    }
+    free(parts);
+    return ok;
+}
+
+/* A search that tries many noisy times ends at one that was lucky. */
+bool tune_choose(struct tune *tune, struct glint_error *err) {
+    struct glint_pipeline *scaled = NULL;
+    bool *passed = NULL, ok = true;
+    tune->confirmed_within = tune->found.within;
+    if (tune->fetches || tune->by_error || !tune->repeat || !tune->found.within) return true;
+    if (tune->scaled_within) ok = (scaled = tune_pipeline(tune, tune->scaling, err)) && correct(tune, scaled, err);
+    ok = ok && ((passed = calloc(tune->found.count, sizeof *passed)) != NULL || no_memory(err));
+    ok = ok && choose(tune, scaled, passed, err);
+    if (scaled) glint_pipeline_destroy(&scaled);
+    free(passed);
+    return ok;
+}
+
+static bool make_contenders(struct tune *tune, struct glint_error *err) {
+    return (tune->contenders[TUNE_START] = glint_pipeline_copy(tune->base, err)) &&
+           (tune->contenders[TUNE_TUNED] = tune_pipeline(tune, tune->found.points[tune->chosen].values, err)) &&
+           (!tune->baseline || (tune->contenders[TUNE_SCALED] = tune_pipeline(tune, tune->scaling, err)));
+}
+
+static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err) {
+    const enum glint_answer answer = answer_args_kind(&tune->against);
+    struct tune_measured *measured = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
+    struct glint_verdict verdict;
+    snprintf(tune->label, sizeof tune->label, "%s, measured again", tune_contenders[k]);
+    if (!glint_judge_look(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
+        return false;
+    measured->errors = verdict.errors[answer];
+    measured->steps_px = verdict.steps_px;
+    measured->fetches_px = verdict.fetches_px;
+    verdict.errors[answer] = (struct glint_metric_table){0};
+    const struct glint_error no_truth = verdict.no_truth;
+    glint_verdict_finish(&verdict);
+    if (tune->against.truth && no_truth.code != GLINT_OK) return glint_fail(err, no_truth.code, "%s", no_truth.message);
+    return glint_metrics_valid(&measured->errors, tune->subjects[s].path, err);
+}
+
+/* The baseline of this capture: its factor here. */
+static bool match(struct tune *tune, size_t s, struct glint_error *err) {
+    if (!tune->contenders[TUNE_SCALED]) return true;
+    if (!tune_match_scale(tune, s, err) || !tune_scale(tune, tune->subjects[s].factor, tune->scaling)) return false;
+    glint_pipeline_destroy(&tune->contenders[TUNE_SCALED]);
+    return (tune->contenders[TUNE_SCALED] = tune_pipeline(tune, tune->scaling, err)) != NULL;
+}
+
+static bool measure(struct tune *tune, size_t s, struct glint_error *err) {
+    struct tune_measured *measured = tune->measured + s * TUNE_CONTENDERS;
+    struct tune_times times[TUNE_CONTENDERS];
+    if (!match(tune, s, err)) return false;
+    for (int k = 0; k < TUNE_CONTENDERS; k++)
+        if (tune->contenders[k] && !look_at(tune, s, k, err)) return false;
+    if (!tune_time_in_turns(tune, &tune->subjects[s], tune->contenders, times, err)) return false;
+    for (int k = 0; k < TUNE_CONTENDERS; k++) measured[k].ms = times[k].ms, measured[k].part = times[k].part;
+    return true;
+}
+
+bool tune_confirm(struct tune *tune, struct glint_error *err) {
+    tune->measured = calloc(tune->subject_count * TUNE_CONTENDERS + 1, sizeof *tune->measured);
+    if (!tune->measured) return no_memory(err);
+    if (!make_contenders(tune, err)) return false;
+    for (size_t s = 0; s < tune->subject_count; s++) {
+        tune_unload_subject(tune, s);
+        if (!tune_load_subject(tune, s, GLINT_RESAMPLES, err) || !measure(tune, s, err)) return false;
+        tune_unload_subject(tune, s);
+        tune->done = 0.9 + 0.1 * (double)(s + 1) / (double)tune->subject_count;
+    }
+    return tune->confirmed = true;
+}
+
+bool tune_difference(const struct tune *tune, size_t subject, int a, int b, size_t row,
+                     struct glint_figure *difference) {
+    const struct tune_measured *measured = tune->measured + subject * TUNE_CONTENDERS;
+    struct glint_error ignored = {0};
+    return tune->contenders[a] && tune->contenders[b] && measured[a].errors.rows[row].pixels &&
+           glint_metrics_difference(&measured[a].errors, &measured[b].errors, row, tune->metric, difference, &ignored);
+}
+
+const char *tune_verdict(const struct glint_figure *difference) {
+    return difference->high < 0 ? "less" : difference->low > 0 ? "more" : "equal";
+}
+
+const char *tune_part_verdict(const struct tune_median *part) {
+    return part->high < 1 ? "less" : part->low > 1 ? "more" : "equal";
+}

@@ -1,0 +1,369 @@
+/* Evaluates pipelines on all captures that are tuned on, once each, and keeps what was found. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tune/tune.h"
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+bool tune_report(void *user, const char *what, double done) {
+    struct tune *tune = user;
+    (void)what;
+    (void)done;
+    return progress_report(tune->progress, tune->label, tune->done);
+}
+
+void tune_unload_subject(struct tune *tune, size_t s) {
+    struct tune_subject *subject = &tune->subjects[s];
+    if (subject->judge) glint_judge_destroy(&subject->judge);
+    if (subject->capture) glint_capture_close(&subject->capture);
+}
+
+bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
+    struct tune_subject *subject = &tune->subjects[s];
+    struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
+    options.all = tune->all;
+    options.metrics = GLINT_METRICS_CHEAP | 1u << tune->metric;
+    options.resamples = resamples;
+    options.keep_resampled = resamples != 0;
+    options.seed = 1;
+    const enum glint_answer answer = answer_args_kind(&tune->against);
+    const float *error;
+    return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
+           (subject->judge = glint_judge_create(tune->device, &options, err)) &&
+           glint_judge_load(subject->judge, subject->capture, err) &&
+           glint_judge_answer(subject->judge, answer, tune->base, &error, progress_report, tune->progress, err);
+}
+
+bool tune_load(struct tune *tune, struct glint_error *err) {
+    tune->subject_count = tune->captures.count + tune->unseen.count;
+    tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
+    if (!tune->subjects) return no_memory(err);
+    for (size_t s = 0; s < tune->subject_count; s++) {
+        struct tune_subject *subject = &tune->subjects[s];
+        subject->unseen = s >= tune->captures.count;
+        subject->path = subject->unseen ? tune->unseen.items[s - tune->captures.count] : tune->captures.items[s];
+        if (subject->unseen) continue;
+        struct glint_verdict verdict;
+        snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
+        if (!tune_load_subject(tune, s, 0, err) ||
+            !glint_judge_look(subject->judge, tune->base, 0, &verdict, tune_report, tune, err))
+            return false;
+        glint_verdict_finish(&verdict);
+    }
+    return true;
+}
+
+bool tune_slot_counts(const struct tune *tune, const char *slot) {
+    bool counts = !tune->slots.count;
+    for (size_t k = 0; k < tune->slots.count; k++) counts |= !strcmp(slot, tune->slots.items[k]);
+    return counts;
+}
+
+bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
+               double *ms, struct glint_error *err) {
+    struct glint_cost cost;
+    uint64_t ns = 0;
+    if (!glint_judge_time(subject->judge, pipeline, 0, whole, &cost, tune_report, tune, err)) return false;
+    for (size_t i = 0; i < cost.pass_count; i++)
+        if (!cost.passes[i].cached_work && tune_slot_counts(tune, cost.passes[i].pass->slot)) ns += cost.passes[i].ns;
+    glint_cost_finish(&cost);
+    *ms = (double)ns * 1e-6;
+    return true;
+}
+
+/* ---- What is kept ---- */
+
+static json_t *axes_json(const struct tune *tune) {
+    json_t *axes = json_array();
+    for (size_t a = 0; a < tune->axis_count; a++) {
+        const struct tune_axis *axis = &tune->axes[a];
+        json_t *json = json_object();
+        json_object_set_new(json, "name", json_string(axis->name));
+        if (axis->texts) {
+            json_t *texts = json_array();
+            for (uint32_t c = 0; c < axis->axis.choices; c++) json_array_append_new(texts, json_string(axis->texts[c]));
+            json_object_set_new(json, "choices", texts);
+        } else json_object_set_new(json, "range", json_pack("[f, f]", axis->axis.lowest, axis->axis.highest));
+        json_array_append_new(axes, json);
+    }
+    return axes;
+}
+
+static bool keep(void *user, json_t *line) {
+    struct tune *tune = user;
+    const json_t *start = json_object_get(line, "start_ms");
+    size_t s;
+    json_t *value;
+    if (json_is_array(start)) {
+        if (json_array_size(start) != tune->captures.count) return false;
+        json_array_foreach(start, s, value) tune->subjects[s].start_ms = json_number_value(value);
+        return true;
+    }
+    const json_t *values = json_object_get(line, "values");
+    if (json_array_size(json_object_get(line, "captures")) != tune->captures.count ||
+        json_array_size(values) != tune->axis_count)
+        return false;
+    return json_array_append(tune->lines, line) == 0;
+}
+
+/* All that figures depend on. Neither the budget nor the seed: another search finds them again. */
+bool tune_open(struct tune *tune, struct glint_error *err) {
+    const struct glint_device_info *device = glint_device_get_info(tune->device);
+    json_t *captures = captures_json(&tune->captures, err),
+           *sources = captures ? shaders_json(&tune->shaders, err) : NULL;
+    if (!sources) {
+        json_decref(captures);
+        return false;
+    }
+    json_t *definition =
+        json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:I, s:I, s:s, s:s, s:b, s:[ss]}", "format", 1,
+                  "glint", GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(tune->base), "shaders",
+                  sources, "axes", axes_json(tune), "cost", tune->fetches ? "fetches" : "ms", "slots",
+                  strings_json(tune->slots.items), "reference_runs", strings_json(tune->against.references.items),
+                  "reference_rays", (json_int_t)tune->against.rays, "rounds", (json_int_t)tune->rounds, "metric",
+                  glint_metric(tune->metric)->name, "against", tune->against.truth ? "truth" : "reference", "all",
+                  tune->all, "device", device->name, device->driver_version);
+    tune->lines = json_array();
+    tune->journal.folder = tune->folder;
+    tune->journal.kind = "tuning";
+    tune->journal.keep = keep;
+    tune->journal.user = tune;
+    const bool ok = (definition && tune->lines) ? journal_open(&tune->journal, definition, err) : no_memory(err);
+    json_decref(definition);
+    return ok;
+}
+
+/* ---- Evaluations ---- */
+
+/* In turns with the start: what changes with time, as a device's clock, is in both. In whole frames, so that caches hold what
+   they will hold; a CPU's times say nothing, and its whole frames take long. */
+static bool time_beside_start(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
+                              double *ms, struct glint_error *err) {
+    double *ratios = calloc(2 * tune->rounds + 1, sizeof *ratios), *starts = ratios + tune->rounds;
+    const bool whole = !glint_device_get_info(tune->device)->is_cpu;
+    bool ok = ratios || no_memory(err);
+    for (uint32_t r = 0; ok && r < tune->rounds; r++) {
+        double own = 0;
+        glint_judge_next_round(subject->judge);
+        ok = tune_time(tune, subject, tune->base, whole, &starts[r], err) &&
+             tune_time(tune, subject, pipeline, whole, &own, err);
+        ratios[r] = starts[r] > 0 ? own / starts[r] : NAN;
+    }
+    if (ok && subject->start_ms == 0) subject->start_ms = tune_median(starts, tune->rounds).value;
+    if (ok) *ms = tune_median(ratios, tune->rounds).value * subject->start_ms;
+    free(ratios);
+    return ok;
+}
+
+/* Failures that a pipeline has itself are figures that it has not. */
+static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
+                        json_t *line, struct glint_error *err) {
+    const enum glint_answer answer = answer_args_kind(&tune->against);
+    struct glint_verdict verdict;
+    struct glint_error own = {0};
+    double error = NAN, cost = NAN;
+    bool ok = glint_judge_look(subject->judge, pipeline, 0, &verdict, tune_report, tune, &own);
+    if (ok) {
+        const struct glint_metric_table *table = &verdict.errors[answer];
+        const struct glint_error no_truth = verdict.no_truth;
+        if (tune->against.truth && no_truth.code != GLINT_OK)
+            ok = glint_fail(&own, GLINT_ERROR_IO, "%s", no_truth.message);
+        else if (!table->invalid_found && !table->invalid_truth) error = table->rows[0].of[tune->metric].value;
+        cost = verdict.fetches_px;
+        glint_verdict_finish(&verdict);
+    }
+    ok = ok && (tune->fetches || time_beside_start(tune, subject, pipeline, &cost, &own));
+    if (!ok && (own.code == GLINT_ERROR_INTERRUPTED || own.code == GLINT_ERROR_MEMORY || own.code == GLINT_ERROR_IO))
+        return glint_fail(err, own.code, "%s", own.message);
+    json_t *figures = json_pack("{s:o, s:o}", "error", json_number(ok ? error : NAN), "cost", json_number(cost));
+    if (!ok) json_object_set_new(figures, "failed", json_string(own.message));
+    json_array_append_new(json_object_get(line, "captures"), figures);
+    return true;
+}
+
+static struct tune_figures figures_on(const json_t *line, size_t s) {
+    const json_t *one = json_array_get(json_object_get(line, "captures"), s);
+    const json_t *error = json_object_get(one, "error"), *cost = json_object_get(one, "cost");
+    return (struct tune_figures){json_is_number(error) ? json_number_value(error) : NAN,
+                                 json_is_number(cost) ? json_number_value(cost) : NAN};
+}
+
+/* Means over the captures; or, of the capture where that is most, its part of the yard's, times the yard's mean. */
+static struct tune_figures sum_up(const struct tune *tune, const json_t *line) {
+    const double count = (double)tune->captures.count;
+    struct tune_figures mean = {0}, yard = {0}, most = {0};
+    for (size_t s = 0; s < tune->captures.count; s++) {
+        const struct tune_figures here = figures_on(line, s), by = tune->subjects[s].yard;
+        mean.error += here.error / count, mean.cost += here.cost / count;
+        yard.error += by.error / count, yard.cost += by.cost / count;
+        most.error = fmax(most.error, here.error / by.error), most.cost = fmax(most.cost, here.cost / by.cost);
+    }
+    if (!isfinite(mean.error) || !isfinite(mean.cost)) return (struct tune_figures){NAN, NAN};
+    if (tune->worst && yard.error > 0) mean.error = most.error * yard.error;
+    if ((tune->worst || tune->scaled_within) && yard.cost > 0) mean.cost = most.cost * yard.cost;
+    return mean;
+}
+
+static const json_t *find_line(const struct tune *tune, const json_t *values) {
+    size_t i;
+    const json_t *line;
+    json_array_foreach(tune->lines, i, line) if (json_equal(json_object_get(line, "values"), values)) return line;
+    return NULL;
+}
+
+static bool keep_start(struct tune *tune, struct glint_error *err) {
+    json_t *start = json_array();
+    for (size_t s = 0; s < tune->captures.count; s++)
+        json_array_append_new(start, json_real(tune->subjects[s].start_ms));
+    return journal_append(&tune->journal, json_pack("{s:o}", "start_ms", start), err);
+}
+
+/* On all captures, appended to the journal. Takes `values`. */
+static bool add_line(struct tune *tune, const struct glint_pipeline *pipeline, json_t *values,
+                     struct glint_error *err) {
+    const bool first = !tune->fetches && tune->subjects[0].start_ms == 0;
+    json_t *line = json_pack("{s:o, s:[]}", "values", values, "captures");
+    if (!line) return no_memory(err);
+    bool ok = true;
+    for (size_t s = 0; ok && s < tune->captures.count; s++)
+        ok = evaluate_on(tune, &tune->subjects[s], pipeline, line, err);
+    if (!ok || (first && !keep_start(tune, err))) {
+        json_decref(line);
+        return false;
+    }
+    tune->fresh++;
+    return journal_append(&tune->journal, line, err);
+}
+
+static json_t *values_json(const struct tune *tune, const double *values) {
+    json_t *list = json_array();
+    for (size_t a = 0; a < tune->axis_count; a++) {
+        char text[TUNE_TEXT];
+        tune_value_text(&tune->axes[a], values[a], text);
+        json_array_append_new(list, json_string(text));
+    }
+    return list;
+}
+
+bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err) {
+    json_t *list = values_json(tune, values);
+    const size_t number = (size_t)json_array_size(tune->lines) + 1;
+    bool ok = true;
+    if (!find_line(tune, list)) {
+        struct glint_pipeline *pipeline = tune_pipeline(tune, values, err);
+        snprintf(tune->label, sizeof tune->label, "point %zu", number);
+        ok = pipeline && add_line(tune, pipeline, json_incref(list), err) && tune_report(tune, NULL, 0);
+        if (pipeline) glint_pipeline_destroy(&pipeline);
+    }
+    tune->done = 0.9 * fmin(1, (double)number / tune->tries);
+    if (ok) *figures = sum_up(tune, find_line(tune, list));
+    json_decref(list);
+    return ok || glint_fail(err, err->code ? err->code : GLINT_ERROR_INTERRUPTED, "%s",
+                            err->code ? err->message : "interrupted");
+}
+
+void tune_set_yard(struct tune *tune, const double *values) {
+    json_t *list = values_json(tune, values);
+    const json_t *line = find_line(tune, list);
+    for (size_t s = 0; s < tune->captures.count; s++) tune->subjects[s].yard = figures_on(line, s);
+    json_decref(list);
+}
+
+static struct glint_search_figures as_searched(const struct tune *tune, struct tune_figures found) {
+    return (struct glint_search_figures){tune->by_error ? found.cost : found.error,
+                                         tune->by_error ? found.error : found.cost};
+}
+
+static bool try_values(void *user, const double *values, struct glint_search_figures *figures,
+                       struct glint_error *err) {
+    const struct tune *tune = user;
+    struct tune_figures found;
+    if (!tune_evaluate(user, values, &found, err)) return false;
+    *figures = as_searched(tune, found);
+    return true;
+}
+
+/* The start, and what is compared with the search: both set what others are measured by. */
+static bool begin(struct tune *tune, const double *start, struct glint_error *err) {
+    if (!tune_evaluate(tune, start, &tune->start, err)) return false;
+    tune_set_yard(tune, start);
+    tune->asked = tune->limit * (tune->part ? (tune->by_error ? tune->start.error : tune->start.cost) : 1);
+    tune->within = tune->asked;
+    return !tune->baseline || (tune_find_scale(tune, err) && tune_evaluate(tune, start, &tune->start, err));
+}
+
+/* `count` known points, one after the other. */
+static bool search(struct tune *tune, uint32_t tries, const double *known, size_t count, struct glint_error *err) {
+    enum { NOISE_PER_CENT = 2 };
+    const struct glint_search_options options = {.limit = tune->within,
+                                                 .tries = tries,
+                                                 .seed = tune->seed,
+                                                 .noise = tune->fetches ? 0 : NOISE_PER_CENT * 0.01,
+                                                 .known = known,
+                                                 .known_count = count};
+    struct glint_search_axis *axes = calloc(tune->axis_count + 1, sizeof *axes);
+    if (!axes) return no_memory(err);
+    for (size_t a = 0; a < tune->axis_count; a++) {
+        axes[a] = tune->axes[a].axis;
+        axes[a].hidden = tune->axes[a].other;
+    }
+    glint_search_result_finish(&tune->found);
+    const bool ok = glint_search(axes, tune->axis_count, &options, try_values, tune, &tune->found, err);
+    tune->chosen = tune->found.best;
+    free(axes);
+    return ok;
+}
+
+bool tune_search(struct tune *tune, struct glint_error *err) {
+    double *start = calloc(tune->axis_count + 1, sizeof *start);
+    for (size_t a = 0; start && a < tune->axis_count; a++) start[a] = tune->axes[a].axis.start;
+    const bool ok = start ? begin(tune, start, err) && search(tune, tune->tries, tune->scaling, tune->baseline, err)
+                          : no_memory(err);
+    free(start);
+    return ok;
+}
+
+/* The best of all that is kept, whichever search found it. */
+static void best_kept(const struct tune *tune, double *values) {
+    struct glint_search_figures best = {NAN, NAN};
+    const json_t *line, *found = NULL;
+    size_t i;
+    json_array_foreach(tune->lines, i, line) {
+        const struct glint_search_figures here = as_searched(tune, sum_up(tune, line));
+        if (found && !glint_search_better(&here, &best, tune->within)) continue;
+        best = here;
+        found = json_object_get(line, "values");
+    }
+    for (size_t a = 0; a < tune->axis_count; a++) {
+        const struct tune_axis *axis = &tune->axes[a];
+        const char *text = json_string_value(json_array_get(found, a));
+        values[a] = axis->texts ? axis->axis.start : strtod(text, NULL);
+        for (uint32_t c = 0; c < axis->axis.choices; c++)
+            if (!strcmp(axis->texts[c], text)) values[a] = c;
+    }
+}
+
+bool tune_search_again(struct tune *tune, const double *parts, struct glint_error *err) {
+    const size_t n = tune->axis_count;
+    double *known = calloc(2 * n + 1, sizeof *known);
+    json_t *list = values_json(tune, tune->found.points[tune->chosen].values);
+    const json_t *line = find_line(tune, list);
+    bool ok = known || no_memory(err);
+    tune->within = 0;
+    for (size_t s = 0; s < tune->captures.count; s++) {
+        tune->subjects[s].yard.cost = figures_on(line, s).cost / parts[s];
+        tune->within += tune->subjects[s].yard.cost / (double)tune->captures.count;
+    }
+    if (ok) {
+        best_kept(tune, known);
+        memcpy(known + n, tune->scaling, n * sizeof *known);
+        ok = search(tune, tune->tries / 4 + 3, known, 2, err);
+    }
+    json_decref(list);
+    free(known);
+    return ok;
+}

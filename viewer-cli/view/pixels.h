@@ -1,0 +1,18 @@
+/* Pictures of pixels in memory, at the width of a sheet's cells. */
+#ifndef GLINT_VIEWER_PIXELS_H
+#define GLINT_VIEWER_PIXELS_H
+
+#include "glint/judge.h"
+#include "view/sheet.h"
+
+/* An image of the last run as floats. */
+bool pixels_read(struct glint_replay *replay, const struct glint_image *image, struct glint_pixels *pixels,
+                 struct glint_error *err);
+/* How far two images of R G B are apart: |a - b| over their sum, 0 where `mask` is 0. */
+bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const uint8_t *mask,
+                       struct glint_pixels *difference, struct glint_error *err);
+/* Colour, or one channel in false colour from 0 to 1, with its title below; `label` goes before it. */
+bool pixels_draw(struct picture *picture, const struct glint_pixels *pixels, const char *title, const char *label,
+                 struct glint_error *err);
+
+#endif

@@ -1,0 +1,180 @@
+/* Many images on one picture: those of a run, or the same images of several runs beside each other. */
+#include "view/sheet.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glint/replay.h"
+
+enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12 };
+
+struct cell {
+    const char *run, *image;
+    bool named; /* the legend names the run */
+};
+
+static const char *last_name(const char *path) {
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') length--;
+    const char *name = path;
+    for (const char *p = path; p < path + length; p++)
+        if (*p == '/') name = p + 1;
+    return name;
+}
+
+static bool open_cell(struct source *source, const struct cell *cell, struct glint_error *err) {
+    const struct source_choice choice = {.path = cell->run, .image = cell->image};
+    return source_open(source, &choice, err);
+}
+
+bool sheet_cell(struct picture *picture, const struct source *source, const char *run,
+                const struct render_options *options, struct glint_error *err) {
+    struct legend legend;
+    char title[sizeof legend.title];
+    size_t invalid;
+    if (!render_plain(picture, &legend, source, options, &invalid, err)) return false;
+    if (run) {
+        size_t length = strcspn(run, "/");
+        snprintf(title, sizeof title, "%.*s: %.250s", (int)(length < 140 ? length : 140), run, legend.title);
+        memcpy(legend.title, title, sizeof title);
+    }
+    bool categories = legend.kind == KIND_INDEX || legend.kind == KIND_REASON;
+    uint32_t wide = CELL_PX / picture->width, high = CELL_HEIGHT_PX / picture->height;
+    return picture_shrink(picture, (picture->width + CELL_PX - 1) / CELL_PX, !categories, err) &&
+           picture_zoom(picture, wide < high ? wide : high, err) && legend_add(picture, &legend, err);
+}
+
+static bool draw_cell(struct picture *picture, const struct cell *cell, const struct render_options *options,
+                      struct glint_error *err) {
+    struct source source;
+    if (!open_cell(&source, cell, err)) return false;
+    bool ok = sheet_cell(picture, &source, cell->named ? last_name(cell->run) : NULL, options, err);
+    source_finish(&source);
+    return ok;
+}
+
+static bool run_has(const char *path, const char *image, bool *has, struct glint_error *err) {
+    struct glint_run *run = glint_run_open(path, err);
+    *has = run && glint_run_find(run, image);
+    bool ok = run != NULL;
+    glint_run_close(&run);
+    return ok;
+}
+
+/* The range that holds all of a row's, so that equal colours mean equal values. */
+static bool common_range(const struct cell *cells, const bool *there, uint32_t columns, struct render_options *options,
+                         struct glint_error *err) {
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < columns; i++) {
+        struct picture picture = {0};
+        struct source source;
+        struct legend legend;
+        size_t invalid;
+        if (!there[i]) continue;
+        if (!open_cell(&source, &cells[i], err)) return false;
+        bool ok = render_plain(&picture, &legend, &source, options, &invalid, err);
+        source_finish(&source);
+        picture_finish(&picture);
+        if (!ok) return false;
+        if (legend.kind != KIND_DISTANCE) return true;
+        low = fmin(low, legend.low);
+        high = fmax(high, legend.high);
+    }
+    options->falsecolor.range_given = low < high;
+    options->falsecolor.low = low;
+    options->falsecolor.high = high;
+    return true;
+}
+
+/* The same image of every run. A run that lacks it leaves its place empty, if another has it. */
+static bool draw_row(struct picture *pictures, const char *const *runs, uint32_t columns, const char *image,
+                     const struct render_options *options, struct glint_error *err) {
+    struct render_options row = *options;
+    struct cell *cells = calloc(columns, sizeof *cells);
+    bool *there = calloc(columns, sizeof *there), ok = cells && there, any = false;
+    if (!ok) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (uint32_t i = 0; ok && i < columns; i++) {
+        cells[i] = (struct cell){runs[i], image, columns > 1};
+        ok = run_has(runs[i], image, &there[i], err);
+        any = any || there[i];
+    }
+    if (ok && !any) there[0] = true; /* opening it names what there is */
+    if (ok && columns > 1 && !options->falsecolor.range_given) ok = common_range(cells, there, columns, &row, err);
+    for (uint32_t i = 0; ok && i < columns; i++)
+        if (there[i]) ok = draw_cell(&pictures[i], &cells[i], &row, err);
+    free(cells);
+    free(there);
+    return ok;
+}
+
+static uint32_t row_height(const struct sheet *sheet, uint32_t row) {
+    uint32_t height = 0;
+    for (uint32_t k = 0; k < sheet->columns; k++) {
+        uint32_t cell = sheet->cells[(size_t)row * sheet->columns + k].height;
+        if (cell > height) height = cell;
+    }
+    return height;
+}
+
+bool sheet_init(struct sheet *sheet, uint32_t columns, uint32_t rows, struct glint_error *err) {
+    *sheet = (struct sheet){calloc((size_t)columns * rows + 1, sizeof *sheet->cells), columns, rows};
+    return sheet->cells || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+void sheet_finish(struct sheet *sheet) {
+    for (size_t i = 0; sheet->cells && i < (size_t)sheet->columns * sheet->rows; i++) picture_finish(&sheet->cells[i]);
+    free(sheet->cells);
+    *sheet = (struct sheet){0};
+}
+
+/* Each row is as high as its highest cell. */
+bool sheet_lay_out(struct picture *picture, const struct sheet *sheet, struct glint_error *err) {
+    uint32_t height = GAP_PX, top = GAP_PX, width = sheet->columns * (CELL_PX + GAP_PX) + GAP_PX;
+    for (uint32_t row = 0; row < sheet->rows; row++) height += row_height(sheet, row) + GAP_PX;
+    if (!picture_init(picture, width, height, COLOR_BACKGROUND, err)) return false;
+    for (uint32_t row = 0; row < sheet->rows; row++) {
+        for (uint32_t k = 0; k < sheet->columns; k++) {
+            const struct picture *cell = &sheet->cells[(size_t)row * sheet->columns + k];
+            if (cell->rgba) picture_paste(picture, cell, GAP_PX + k * (CELL_PX + GAP_PX), top);
+        }
+        top += row_height(sheet, row) + GAP_PX;
+    }
+    return true;
+}
+
+static size_t count_images(const struct glint_run *run, const char *const *images) {
+    size_t count = 0;
+    if (!images) return glint_run_image_count(run);
+    while (images[count]) count++;
+    return count;
+}
+
+bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const char *const *images,
+                const struct render_options *options, struct glint_error *err) {
+    struct glint_run *first = glint_run_open(runs[0], err);
+    size_t count = first ? count_images(first, images) : 0;
+    bool ok = first != NULL;
+    *sheet = (struct sheet){0};
+    if (ok && count == 0) ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the run has no images", runs[0]);
+    if (ok) {
+        /* a run alone: as many columns as rows */
+        uint32_t columns = run_count > 1 ? (uint32_t)run_count : (uint32_t)ceil(sqrt((double)count));
+        uint32_t rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + columns - 1) / columns);
+        ok = sheet_init(sheet, columns, rows, err);
+    }
+    for (size_t i = 0; ok && i < count; i++)
+        ok = draw_row(&sheet->cells[i * run_count], runs, (uint32_t)run_count,
+                      images ? images[i] : glint_run_image(first, i)->name, options, err);
+    glint_run_close(&first);
+    return ok;
+}
+
+bool render_sheet(struct picture *picture, const char *const *runs, size_t run_count, const char *const *images,
+                  const struct render_options *options, struct glint_error *err) {
+    struct sheet sheet;
+    bool ok = sheet_fill(&sheet, runs, run_count, images, options, err) && sheet_lay_out(picture, &sheet, err);
+    sheet_finish(&sheet);
+    return ok;
+}
