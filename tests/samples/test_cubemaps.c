@@ -91,7 +91,7 @@ static void test_points_of_the_street_are_where_its_cubemaps_say(void **state) {
                 for (int i = 0; i < 3; i++) point[i] = eye[i] + (double)p[0] * ray[i];
                 compare_point(world, center, point, normal, distances, CUBE, &counts);
             }
-        print_message("%s: %zu of %zu agree within 1 %%\n", name, counts.agree, counts.unoccluded);
+        print_message("# %s: %zu of %zu agree within 1 %%\n", name, counts.agree, counts.unoccluded);
         assert_true(counts.unoccluded > 100);
         assert_true((double)counts.agree >= 0.99 * (double)counts.unoccluded);
         free(distances);
