@@ -9,64 +9,6 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-void glint_search_result_finish(struct glint_search_result *result) {
-    for (size_t i = 0; i < result->count; i++) free(result->points[i].values);
-    free(result->points);
-    free(result->matters);
-    *result = (struct glint_search_result){0};
-}
-
-static bool is_answer(const struct glint_search_figures *figures) {
-    return isfinite(figures->wanted) && isfinite(figures->limited);
-}
-
-bool glint_search_better(const struct glint_search_figures *a, const struct glint_search_figures *b, double limit) {
-    if (!is_answer(a) || !is_answer(b)) return is_answer(a) && !is_answer(b);
-    const bool in = a->limited <= limit, other = b->limited <= limit;
-    if (in != other) return in;
-    if (in) return a->wanted < b->wanted || (a->wanted == b->wanted && a->limited < b->limited);
-    return a->limited < b->limited || (a->limited == b->limited && a->wanted < b->wanted);
-}
-
-bool search_spent(const struct search *search) {
-    return search->result->count >= search->options->tries;
-}
-
-static bool add_point(struct search *search, const double *values, const struct glint_search_figures *figures,
-                      struct glint_error *err) {
-    struct glint_search_result *result = search->result;
-    if (result->count == search->room) {
-        const size_t room = 2 * search->room + 64;
-        struct glint_search_point *larger = realloc(result->points, room * sizeof *larger);
-        if (!larger) return no_memory(err);
-        result->points = larger;
-        search->room = room;
-    }
-    struct glint_search_point point = {malloc((search->count + 1) * sizeof(double)), *figures};
-    if (!point.values) return no_memory(err);
-    memcpy(point.values, values, search->count * sizeof(double));
-    const size_t i = result->count++;
-    result->points[i] = point;
-    const double limit = search->options->limit, least = result->points[result->least].figures.limited;
-    if (glint_search_better(figures, &result->points[result->best].figures, limit)) result->best = i;
-    if (is_answer(figures) && !(figures->limited >= least)) result->least = i;
-    result->within = result->points[result->best].figures.limited <= limit;
-    return true;
-}
-
-const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err) {
-    struct glint_search_result *result = search->result;
-    struct glint_search_figures figures = {NAN, NAN};
-    for (size_t i = 0; i < search->count; i++) search->scratch[i] = axis_value_at(&search->axes[i], steps[i]);
-    for (size_t i = 0; i < result->count; i++)
-        if (!memcmp(result->points[i].values, search->scratch, search->count * sizeof(double)))
-            return &result->points[i];
-    if (search_spent(search) || !search->try_point(search->user, search->scratch, &figures, err) ||
-        !add_point(search, search->scratch, &figures, err))
-        return NULL;
-    return &result->points[result->count - 1];
-}
-
 /* splitmix64, S. Vigna */
 static double next_unit(uint64_t *state) {
     uint64_t z = *state += 0x9e3779b97f4a7c15U;
@@ -93,7 +35,7 @@ struct profile {
 
 static bool matters(const struct search *search, const struct glint_search_figures *a,
                     const struct glint_search_figures *b) {
-    if (is_answer(a) != is_answer(b)) return true;
+    if (search_answers(a) != search_answers(b)) return true;
     return fabs(a->wanted - b->wanted) > 1e-9 * fabs(a->wanted) ||
            fabs(a->limited - b->limited) > (search->options->noise + 1e-9) * fabs(a->limited);
 }
@@ -108,7 +50,7 @@ static bool look(struct search *search, struct profile *profile, size_t axis, do
     *tried = point != NULL;
     if (!point) return err->code == GLINT_OK;
     if (matters(search, &profile->at, &point->figures)) search->result->matters[axis] = true;
-    if (!is_answer(&point->figures) || !is_answer(&profile->at)) return true;
+    if (!search_answers(&point->figures) || !search_answers(&profile->at)) return true;
     const struct move move = {axis, to, point->figures.wanted - profile->at.wanted,
                               point->figures.limited - profile->at.limited};
     profile->moves[profile->count++] = move;
@@ -319,7 +261,7 @@ static bool throw_off(struct search *search, struct profile *profile, struct gli
     const struct glint_search_point *point = search_at(search, profile->centre, err);
     if (!point) return err->code == GLINT_OK;
     profile->at = point->figures;
-    return !is_answer(&profile->at) ||
+    return !search_answers(&profile->at) ||
            (take_profile(search, profile, 1, search->count, err) && try_best_sums(search, profile, err));
 }
 
@@ -337,7 +279,7 @@ static bool run(struct search *search, struct profile *profile, struct glint_err
     const struct glint_search_point *start = search_at(search, profile->centre, err);
     if (!start) return err->code == GLINT_OK;
     profile->at = start->figures;
-    if (!is_answer(&start->figures))
+    if (!search_answers(&start->figures))
         return glint_fail(err, GLINT_ERROR_USAGE, "the start has no figures: nothing can be compared with it");
     if (!try_known(search, profile, err) || !take_profile(search, profile, 2, search->count, err)) return false;
     const size_t begun = search->result->best;

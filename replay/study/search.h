@@ -23,6 +23,9 @@ double axis_value_at(const struct glint_search_axis *axis, double steps);
 /* Steps of the next other value at least `step` away (negative: below); NAN when the range ends there. */
 double axis_move(const struct glint_search_axis *axis, double from, double step);
 
+/* search_points.c */
+/* Whether a try came to figures at all. */
+bool search_answers(const struct glint_search_figures *figures);
 /* The figures at a place given in steps, tried now or before; NULL when that failed, or, `err` untouched, when no try is left.
    Errors of all parts begin as GLINT_OK. */
 const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err);

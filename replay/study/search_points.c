@@ -1,0 +1,68 @@
+/* Points that were tried, and which of them is the best. */
+#include "search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+void glint_search_result_finish(struct glint_search_result *result) {
+    for (size_t i = 0; i < result->count; i++) free(result->points[i].values);
+    free(result->points);
+    free(result->matters);
+    *result = (struct glint_search_result){0};
+}
+
+bool search_answers(const struct glint_search_figures *figures) {
+    return isfinite(figures->wanted) && isfinite(figures->limited);
+}
+
+bool glint_search_better(const struct glint_search_figures *a, const struct glint_search_figures *b, double limit) {
+    if (!search_answers(a) || !search_answers(b)) return search_answers(a) && !search_answers(b);
+    const bool in = a->limited <= limit, other = b->limited <= limit;
+    if (in != other) return in;
+    if (in) return a->wanted < b->wanted || (a->wanted == b->wanted && a->limited < b->limited);
+    return a->limited < b->limited || (a->limited == b->limited && a->wanted < b->wanted);
+}
+
+bool search_spent(const struct search *search) {
+    return search->result->count >= search->options->tries;
+}
+
+static bool add_point(struct search *search, const double *values, const struct glint_search_figures *figures,
+                      struct glint_error *err) {
+    struct glint_search_result *result = search->result;
+    if (result->count == search->room) {
+        const size_t room = 2 * search->room + 64;
+        struct glint_search_point *larger = realloc(result->points, room * sizeof *larger);
+        if (!larger) return no_memory(err);
+        result->points = larger;
+        search->room = room;
+    }
+    struct glint_search_point point = {malloc((search->count + 1) * sizeof(double)), *figures};
+    if (!point.values) return no_memory(err);
+    memcpy(point.values, values, search->count * sizeof(double));
+    const size_t i = result->count++;
+    result->points[i] = point;
+    const double limit = search->options->limit, least = result->points[result->least].figures.limited;
+    if (glint_search_better(figures, &result->points[result->best].figures, limit)) result->best = i;
+    if (search_answers(figures) && !(figures->limited >= least)) result->least = i;
+    result->within = result->points[result->best].figures.limited <= limit;
+    return true;
+}
+
+const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err) {
+    struct glint_search_result *result = search->result;
+    struct glint_search_figures figures = {NAN, NAN};
+    for (size_t i = 0; i < search->count; i++) search->scratch[i] = axis_value_at(&search->axes[i], steps[i]);
+    for (size_t i = 0; i < result->count; i++)
+        if (!memcmp(result->points[i].values, search->scratch, search->count * sizeof(double)))
+            return &result->points[i];
+    if (search_spent(search) || !search->try_point(search->user, search->scratch, &figures, err) ||
+        !add_point(search, search->scratch, &figures, err))
+        return NULL;
+    return &result->points[result->count - 1];
+}
