@@ -118,7 +118,7 @@ static bool show(void *user, const char *what, double done) {
             if (!group->cases[i]) continue;
             all++;
             ready += group->findings[i].values > 0 || group->findings[i].left_out || group->seconds > 0;
-            if (!group->findings[i].values && !group->findings[i].left_out && !group->seconds && !text[0])
+            if (!group->findings[i].values && !group->findings[i].left_out && group->seconds == 0 && !text[0])
                 snprintf(text, sizeof text, "%s", group->group->name);
         }
     }

@@ -110,6 +110,9 @@ int lint_sees(const struct lint_reading *reading, const struct lint_cube *cube, 
 /* The place of a sample in the world; false under sky. */
 bool lint_place(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                 uint32_t pixel, double world[3]);
+/* How far its surface moves on screen by both cameras, to where it was: pixels, y down. */
+bool lint_moved(const struct lint_data *data, const struct lint_reading *reading, const struct lint_eyes *eyes,
+                uint32_t pixel, double out[2]);
 
 /* ---- findings ---- */
 

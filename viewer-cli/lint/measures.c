@@ -82,6 +82,16 @@ bool lint_place(const struct lint_data *data, const struct lint_reading *reading
     return true;
 }
 
+bool lint_moved(const struct lint_data *data, const struct lint_reading *reading, const struct lint_eyes *eyes,
+                uint32_t pixel, double out[2]) {
+    double world[3], now[2], before[2];
+    if (!lint_place(data, reading, &eyes->now, pixel, world) || !lint_project(data, reading, &eyes->now, world, now) ||
+        !lint_project(data, reading, &eyes->before, world, before))
+        return false;
+    for (int k = 0; k < 2; k++) out[k] = before[k] - now[k];
+    return true;
+}
+
 int lint_sees(const struct lint_reading *reading, const struct lint_cube *cube, const double world[3],
               const float **texel) {
     double d[3], u, v;
@@ -116,14 +126,12 @@ static struct tally motion(const struct lint_data *data, const struct lint_readi
     struct tally tally = {0, 0};
     if (!data->has_motion || !data->frame.has_previous) return tally;
     for (size_t i = 0; i < data->sample_count; i++) {
-        double world[3], now[2], before[2], found[2];
-        if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
-        if (!lint_project(data, reading, &eyes.now, world, now)) continue;
-        if (!lint_project(data, reading, &eyes.before, world, before)) continue;
+        double moved[2], found[2];
+        if (!lint_moved(data, reading, &eyes, data->samples[i], moved)) continue;
         lint_motion(data, reading, data->samples[i], found);
-        const double expected = hypot(before[0] - now[0], before[1] - now[1]);
+        const double expected = hypot(moved[0], moved[1]);
         if (!(expected > MOVES_PX)) continue;
-        const double off = hypot(found[0] - (before[0] - now[0]), found[1] - (before[1] - now[1]));
+        const double off = hypot(found[0] - moved[0], found[1] - moved[1]);
         add(&tally, off < 0.05 + 0.1 * expected);
     }
     return tally;

@@ -141,15 +141,13 @@ static struct movement movement_of(const struct lint_data *data, const struct li
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     struct movement m = {0, 0, 0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
-        double world[3], now[2], before[2], found[2];
-        if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
-        if (!lint_project(data, reading, &eyes.now, world, now)) continue;
-        if (!lint_project(data, reading, &eyes.before, world, before)) continue;
+        double moved[2], found[2];
+        if (!lint_moved(data, reading, &eyes, data->samples[i], moved)) continue;
         lint_motion(data, reading, data->samples[i], found);
         m.compared++;
         m.stored += hypot(found[0], found[1]) > MOVES_PX;
         m.zero += found[0] == 0 && found[1] == 0;
-        m.expected += hypot(before[0] - now[0], before[1] - now[1]) > MOVES_PX;
+        m.expected += hypot(moved[0], moved[1]) > MOVES_PX;
     }
     return m;
 }
