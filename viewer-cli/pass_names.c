@@ -35,7 +35,27 @@ const char *format_name(enum glint_format format) {
 }
 
 const char *size_name(enum glint_size_class size) {
-    static const char *const names[] = {"full", "half", "cube maps", "sky", "active", "chain"};
+    static const char *const names[] = {
+        [GLINT_SIZE_FULL] = "full",
+        [GLINT_SIZE_HALF] = "half",
+        [GLINT_SIZE_CUBEMAPS] = "cube maps",
+        [GLINT_SIZE_COCOON] = "cube maps of 32 × 32",
+        [GLINT_SIZE_SKY] = "sky",
+        [GLINT_SIZE_ACTIVE] = "active × 1",
+        [GLINT_SIZE_CHAIN] = "chain × active",
+        [GLINT_SIZE_EIGHTH] = "eighth",
+        [GLINT_SIZE_VOLUME] = "volume × active",
+        [GLINT_SIZE_FIGURES] = "512 × 1",
+        [GLINT_SIZE_PLANAR] = "planar",
+        [GLINT_SIZE_FULL_MIPS] = "full, levels",
+        [GLINT_SIZE_HALF_MIPS] = "half, levels",
+        [GLINT_SIZE_HALF_MIPS3] = "half, 3 levels",
+        [GLINT_SIZE_CUBEMAPS_MIPS] = "cube maps, levels",
+        [GLINT_SIZE_SKY_MIPS] = "sky, levels",
+        [GLINT_SIZE_PARABOLOIDS_MIPS] = "hemispheres, levels",
+        [GLINT_SIZE_LIST] = "list",
+    };
+    _Static_assert(sizeof names / sizeof *names == GLINT_SIZE_LIST + 1, "each class of sizes has a name");
     return (size_t)size < sizeof names / sizeof *names ? names[size] : "?";
 }
 
