@@ -110,6 +110,52 @@ static void roughness_zero_and_no_jitter_are_the_normal(void **state) {
     }
 }
 
+/* Turned away from the viewer by 30 degrees beyond edge-on. */
+static void turned_away(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        values[PLAIN_NORMAL_Y * pixels + i] = (float)sqrt(0.75);
+        values[PLAIN_NORMAL_Z * pixels + i] = -0.5F;
+    }
+}
+
+/* Mean of 1 - cos 2θ over the normals of GGX seen along the normal, tan²θ = α² u/(1 - u), for u below `kept`. */
+static double spread(double a2, double kept) {
+    enum { STEPS = 4096 };
+    double sum = 0;
+    for (int i = 0; i < STEPS; ++i) {
+        const double u = kept * (i + 0.5) / STEPS, tangent2 = a2 * u / (1 - u);
+        sum += 2 * tangent2 / (1 + tangent2);
+    }
+    return sum / STEPS;
+}
+
+/* A surface that faces away is taken for one that is seen edge-on: no viewer's cosine is below 0. The filter cosᵐ has the mean
+   cosine (m + 1)/(m + 2), which is what the mean direction of nine tenths of the lobe lacks of the cut one's; edge-on the power is
+   twice that; and the cone's rim is where it has fallen to a tenth. */
+static void a_normal_that_faces_away_has_the_cone_of_an_edge(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    plain_capture(
+        gpu_path(gpu, "away", path),
+        &(struct plain){.width = 32, .height = 32, .roughness = 0.5f, .fov_y_degrees = 0.5, .spoil = turned_away});
+    gpu_load(gpu, "away");
+    gpu_reset(gpu);
+    gpu->float_precision = gpu->all = true;
+    gpu_set(gpu, "downsample.share=0.5");
+    gpu_set(gpu, "downsample.horizon=false"); /* of which nothing is above */
+    gpu_run(gpu);
+    const double a2 = 1.0 / 16, angle = 0.5 * asin(sqrt((1 / sqrt(0.1) - 1) / (1 / a2 - 1))), t2 = pow(tan(angle), 2);
+    const double whole = spread(a2, 0.9), cut = spread(a2, t2 / (a2 + t2)), lacking = (whole - cut) / (1 - cut);
+    const double expected = acos(pow(0.1, 1 / (2 * (1 / lacking - 2))));
+    uint32_t width, height;
+    float *cone = gpu_floats(gpu, "cone_half", &width, &height);
+    /* Logarithms and exponentials of numbers near 1 in single precision, 1e-6 each, of which a tenth is left. */
+    print_message("# %.6f, expected %.6f\n", (double)cone[0], expected);
+    for (uint32_t i = 0; i < width * height; ++i) assert_true(fabs((double)cone[i] - expected) < 1e-4);
+    free(cone);
+}
+
 static void the_pick_alternates_or_is_the_first(void **state) {
     struct gpu *gpu = *state;
     load(gpu, 0.5f);
@@ -177,6 +223,7 @@ int main(void) {
         cmocka_unit_test(a_share_cuts_the_angle_and_keeps_proportions),
         cmocka_unit_test(ggx_is_the_default),
         cmocka_unit_test(roughness_zero_and_no_jitter_are_the_normal),
+        cmocka_unit_test(a_normal_that_faces_away_has_the_cone_of_an_edge),
         cmocka_unit_test(the_pick_alternates_or_is_the_first),
         cmocka_unit_test(the_minority_of_an_edge_is_discarded),
         cmocka_unit_test(odd_sizes_pick_inside),

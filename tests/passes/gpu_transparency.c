@@ -254,6 +254,34 @@ static void panes_have_their_roughness(void **state) {
     assert_true(variance[0] > 1e-3 && variance[1] < variance[0] / 6);
 }
 
+/* In the left column of each block a pane at 2 m without a normal, in the right one a usable one at 3 m. */
+static void half_usable(uint32_t x, uint32_t y, float out[9]) {
+    const float values[9] = {0.25f, 0.5f, 0.75f, 0.5f, 0, 0, (float)(x % 2), x % 2 ? 3 : 2, 0};
+    (void)y;
+    memcpy(out, values, sizeof values);
+}
+
+/* A ray starts at the nearest surface that can have one, not at the nearest. */
+static void a_pane_without_a_normal_has_no_ray(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    plain_capture(gpu_path(gpu, "half", path),
+                  &(struct plain){.width = SIDE, .height = SIDE, .fov_y_degrees = 60, .pane = half_usable});
+    gpu_load(gpu, "half");
+    gpu_reset(gpu);
+    gpu->float_precision = gpu->all = true;
+    use_panes(gpu);
+    gpu_run(gpu);
+    float *depth = gpu_floats(gpu, "transparent_depth_half", NULL, NULL),
+          *normal = gpu_floats(gpu, "transparent_normal_jittered", NULL, NULL);
+    uint32_t *pick = gpu_uints(gpu, "transparent_pick", NULL, NULL);
+    for (uint32_t i = 0; i < SIDE * SIDE / 4; ++i) {
+        assert_true(depth[i] == 3 && normal[4 * i + 2] == 1);
+        assert_int_equal(pick[i], 1); /* of two that are as near, the first */
+    }
+    free(depth), free(normal), free(pick);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_part_of_it_brings_the_picture_nearer),
@@ -262,6 +290,7 @@ int main(void) {
         cmocka_unit_test(panes_lie_over_water),
         cmocka_unit_test(panes_reflect_in_a_matte_scene),
         cmocka_unit_test(panes_have_their_roughness),
+        cmocka_unit_test(a_pane_without_a_normal_has_no_ray),
     };
     return cmocka_run_group_tests_name("gpu_transparency", tests, gpu_set_up, gpu_tear_down);
 }

@@ -97,6 +97,72 @@ static void rough_pixels_keep_what_was_upscaled(void **state) {
     free(source);
 }
 
+/* Upright bars of two roughnesses on an even wall, five pixels wide: each holds a sample of three texels in a row. */
+static float roughness_at(uint32_t x) {
+    return x / 5 % 2 ? 0.25F : 0.75F;
+}
+static void two_roughnesses(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) values[PLAIN_ROUGHNESS * pixels + i] = roughness_at(i % plain->width);
+}
+
+static void load_wall(struct gpu *gpu, void (*spoil)(const struct plain *, float *)) {
+    char path[256];
+    plain_capture(gpu_path(gpu, "rough", path),
+                  &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = spoil});
+    gpu_load(gpu, "rough");
+    gpu_reset(gpu);
+    gpu->float_precision = gpu->all = true;
+    gpu_use(gpu, "upscale=best_match");
+    gpu_shader(gpu, "resolve", "stand_in.comp");
+    gpu_set(gpu, "resolve.texel_scale=5");
+}
+
+/* Where depths and normals are alike, a sample of the pixel's own roughness is taken: the other costs 10 · 0.5, and the
+   farthest texel, of 3.5 pixels along each axis, less than 0.02 · 25. */
+static void roughness_alone_tells_surfaces_apart(void **state) {
+    struct gpu *gpu = *state;
+    for (int blind = 0; blind < 2; ++blind) {
+        load_wall(gpu, two_roughnesses);
+        if (blind) gpu_set(gpu, "upscale.roughness_weight=0");
+        gpu_run(gpu);
+        float *color = gpu_floats(gpu, "reflection", NULL, NULL);
+        int wrong = 0;
+        for (uint32_t i = 0; i < SIZE * SIZE; ++i) wrong += color[4 * i] != roughness_at(i % SIZE);
+        print_message("# %s: %d of %d pixels of the other roughness\n", blind ? "blind" : "defaults", wrong,
+                      SIZE * SIZE);
+        assert_true(blind ? wrong > SIZE : wrong == 0);
+        free(color);
+    }
+}
+
+/* Eighths by chance, so that any of the texels around may be the best. */
+static void any_roughness(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) values[PLAIN_ROUGHNESS * pixels + i] = (float)(i * 2654435761U >> 20 & 7) / 8;
+}
+
+/* With `around` off they are the texel that holds the pixel, and those on the pixel's side of its middle, as a bilinear lookup
+   has them. Each of the four is the best of some. */
+static void the_four_nearest_are_those_on_the_pixels_side(void **state) {
+    struct gpu *gpu = *state;
+    int taken[4] = {0};
+    load_wall(gpu, any_roughness);
+    gpu_set(gpu, "upscale.around=false");
+    gpu_set(gpu, "upscale.sharp_roughness=1");
+    gpu_run(gpu);
+    uint32_t *source = gpu_uints(gpu, "sharp_source", NULL, NULL);
+    for (int i = 0; i < SIZE * SIZE; ++i) {
+        assert_in_range(source[i], 1, 9);
+        const int x = (int)(source[i] - 1) % 3 - 1, y = (int)(source[i] - 1) / 3 - 1;
+        assert_true(x == 0 || x == (i % SIZE % 2 ? 1 : -1));
+        assert_true(y == 0 || y == (i / SIZE % 2 ? 1 : -1));
+        ++taken[(x != 0) + 2 * (y != 0)];
+    }
+    for (int k = 0; k < 4; ++k) assert_true(taken[k] > SIZE * SIZE / 20);
+    free(source);
+}
+
 /* Half a step of a half float, up or down. */
 static void rounded(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height;
@@ -134,6 +200,8 @@ static void rounding_of_roughness_chooses_no_other_sample(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_takes_a_sample_of_its_own_surface),
+        cmocka_unit_test(roughness_alone_tells_surfaces_apart),
+        cmocka_unit_test(the_four_nearest_are_those_on_the_pixels_side),
         cmocka_unit_test(rounding_of_roughness_chooses_no_other_sample),
         cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),
         cmocka_unit_test(rough_pixels_keep_what_was_upscaled),

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "gpu.h"
+#include "plain_capture.h"
 
 enum { WIDTH = 192, HEIGHT = 108 };
 
@@ -163,11 +164,126 @@ static void encodings_change_nothing(void **state) {
     assert_true(fabs(errors[1] - errors[0]) < 0.003);
 }
 
+/* ---- water by closed form ---- */
+
+enum { SIDE = 64 };
+static const double half_view = 0.57735026918962576; /* tan 30° */
+
+static void wall_or_sky(uint32_t number, const double direction[3], float out[5]) {
+    (void)number;
+    for (int k = 0; k < 4; ++k) out[k] = direction[0] > 0 ? 1 : 0;
+    out[4] = 100;
+}
+static void blue(const double direction[3], float out[3]) {
+    (void)direction;
+    out[0] = 0.25f, out[1] = 0.5f, out[2] = 2;
+}
+static void facing(uint32_t x, uint32_t y, float out[9]) {
+    const float values[9] = {0, 0, 0, 0.5f, 0, 0, 1, 4, 1};
+    (void)x, (void)y;
+    memcpy(out, values, sizeof values);
+}
+
+static void load_plain(struct gpu *gpu, void (*water)(uint32_t x, uint32_t y, float out[9])) {
+    char path[256];
+    plain_capture(gpu_path(gpu, "plain", path), &(struct plain){.width = SIDE,
+                                                                .height = SIDE,
+                                                                .fov_y_degrees = 60,
+                                                                .cube_size = 32,
+                                                                .cube_count = 1,
+                                                                .cube = wall_or_sky,
+                                                                .sky = blue,
+                                                                .water = water});
+    gpu_load(gpu, "plain");
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "water=combine");
+}
+
+/* What the cube map covers hides the sky, which is seen where it covers nothing. */
+static void the_sky_is_behind_the_cube_map(void **state) {
+    static const float sky[3] = {0.25f, 0.5f, 2};
+    struct gpu *gpu = *state;
+    load_plain(gpu, facing);
+    gpu_set(gpu, "water.fresnel=false"); /* a share of 0.36 at an index of 4, sixteen times */
+    gpu_set(gpu, "water.index=4");
+    gpu_set(gpu, "water.intensity=16");
+    gpu_run(gpu);
+    float *seen = gpu_floats(gpu, "composed_water", NULL, NULL);
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const int x = i % SIDE - SIDE / 2;
+        if (abs(x) < 8) continue; /* less than 1/8 of what a face shows: between texels, or mixed by the sampler */
+        for (int k = 0; k < 3; ++k) assert_true(fabsf(seen[4 * i + k] - (x > 0 ? 1 : sky[k])) < 1e-5f);
+    }
+    free(seen);
+}
+
+/* A metre below the viewer, half a metre of it along every view ray. */
+static double down_at(double y) {
+    return (2 * (y + 0.5) / SIDE - 1) * half_view;
+}
+static void lake_at(uint32_t x, uint32_t y, float out[9]) {
+    const double down = down_at(y);
+    const float values[9] = {0, 0, 0, 0.5f, 0, 1, 0, down > 0.1 ? (float)(1 / down) : INFINITY, 0.5f};
+    (void)x;
+    memcpy(out, values, sizeof values);
+}
+
+/* How far the refracted ray goes until it has sunk as deep as the water is where a pixel looks, and the place where that is seen,
+   in pixels. */
+static double way_to(const double from[3], const double ray[3], int x, int y, double place[2]) {
+    const double at[2] = {(2 * (x + 0.5) / SIDE - 1) * half_view, down_at(y)};
+    const double way = 0.5 * at[1] / sqrt(1 + at[0] * at[0] + at[1] * at[1]) / -ray[1];
+    const double end[3] = {from[0] + way * ray[0], from[1] + way * ray[1], from[2] + way * ray[2]};
+    place[0] = (end[0] / -end[2] / half_view + 1) / 2 * SIDE;
+    place[1] = (1 - end[1] / -end[2] / half_view) / 2 * SIDE;
+    return way;
+}
+
+/* The bottom is as bright everywhere, and half of its light is left after each metre, so that the picture tells the way: of the
+   pixel that the refracted ray leads to, twice looked up. */
+static void the_way_is_that_of_the_pixel_that_is_looked_up(void **state) {
+    struct gpu *gpu = *state;
+    load_plain(gpu, lake_at);
+    gpu_set(gpu, "water.intensity=0");
+    gpu_set(gpu, "compose.intensity=0");
+    gpu_run(gpu);
+    float *seen = gpu_floats(gpu, "composed_water", NULL, NULL);
+    int count = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const double across = (2 * (i % SIDE + 0.5) / SIDE - 1) * half_view, down = down_at(i / SIDE);
+        if (!(down > 0.1)) continue;
+        /* Snell's law on a level plane: the part along it is divided by the index. */
+        const double length = sqrt(1 + across * across + down * down),
+                     flat[2] = {across / length / 1.333, -1 / length / 1.333};
+        const double from[3] = {across / down, -1, -1 / down};
+        const double ray[3] = {flat[0], -sqrt(1 - flat[0] * flat[0] - flat[1] * flat[1]), flat[1]};
+        double place[2], way = way_to(from, ray, i % SIDE, i / SIDE, place);
+        bool sure = true;
+        for (int k = 0; k < 2 && sure; ++k) {
+            for (int c = 0; c < 2; ++c) /* rounding may lead to the next pixel; those without water say nothing */
+                sure = sure && fabs(place[c] - round(place[c])) > 1e-3 && place[c] > 0 && place[c] < SIDE;
+            sure = sure && down_at(floor(place[1])) > 0.1;
+            if (sure) way = way_to(from, ray, (int)place[0], (int)place[1], place);
+        }
+        sure = sure && place[0] > 0 && place[0] < SIDE && place[1] < SIDE && down_at(floor(place[1])) > 0.11;
+        if (!sure) continue;
+        /* pow: 16 ULP of an exponent below 1, and a dozen roundings of the way before it */
+        assert_true(fabs((double)seen[4 * i + 1] - 0.5 * pow(0.5, way)) < 1e-5);
+        ++count;
+    }
+    print_message("# %d pixels\n", count);
+    assert_true(count > SIDE * SIDE / 8);
+    free(seen);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_part_of_it_brings_the_picture_nearer),
         cmocka_unit_test(all_else_stays),
         cmocka_unit_test(encodings_change_nothing),
+        cmocka_unit_test(the_sky_is_behind_the_cube_map),
+        cmocka_unit_test(the_way_is_that_of_the_pixel_that_is_looked_up),
         cmocka_unit_test(a_flat_mirror_is_looked_up_in_place),
     };
     return cmocka_run_group_tests_name("gpu_water", tests, gpu_set_up, gpu_tear_down);

@@ -1,0 +1,193 @@
+/* Where something ends: rays before the near plane, facets that are too steep or very near, cells that a ray may look at,
+   colours between which nothing is mixed, cones wider than the picture. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+
+enum { WIDTH = 48, HEIGHT = 80, PIXELS = WIDTH * HEIGHT };
+
+/* Every pixel has a ray, none is drawn at random. */
+static void load(struct gpu *gpu, const struct plain *plain) {
+    char path[256];
+    struct plain sized = *plain;
+    sized.width = WIDTH, sized.height = HEIGHT, sized.fov_y_degrees = 60;
+    plain_capture(gpu_path(gpu, "plain", path), &sized);
+    gpu_load(gpu, "plain");
+    gpu_reset(gpu);
+    gpu->float_precision = gpu->all = true;
+    gpu_use(gpu, "downsample=none");
+    gpu_set(gpu, "downsample.jitter=false");
+}
+
+static void use_pyramid(struct gpu *gpu) {
+    gpu_use(gpu, "hiz=nearest");
+    gpu_use(gpu, "screen_trace=hiz");
+}
+
+/* Half the way to the near plane, which is at 0.1 m. */
+static void before_near(const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < plain->width * plain->height; ++i) values[i] = 0.05F;
+}
+
+/* There a ray that runs towards the viewer ends where it starts, and not behind that. */
+static void rays_from_before_the_near_plane_go_nowhere(void **state) {
+    enum { FACED_VIEWER = 5 };
+    struct gpu *gpu = *state;
+    for (int pyramid = 0; pyramid < 2; ++pyramid) {
+        load(gpu, &(struct plain){.spoil = before_near});
+        if (pyramid) use_pyramid(gpu);
+        gpu_run(gpu);
+        float *travelled_m = gpu_floats(gpu, "screen_travelled", NULL, NULL);
+        uint32_t *end = gpu_uints(gpu, "screen_end", NULL, NULL);
+        for (int i = 0; i < PIXELS; ++i) {
+            assert_true(travelled_m[i] == 0);
+            assert_int_equal(end[i], FACED_VIEWER);
+        }
+        free(travelled_m), free(end);
+    }
+}
+
+/* Normals that face away, which say nothing of how steep a surface may be. */
+static void face_away(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) values[PLAIN_NORMAL_Z * pixels + i] = -1;
+}
+static void combs(const struct plain *plain, float *values) {
+    face_away(plain, values);
+    for (uint32_t i = 0; i < plain->width * plain->height; ++i) values[i] = i % plain->width % 2 ? 1000 : 0.005F;
+}
+/* 1/z grows evenly to the right; nowhere a metre away. */
+static double near_inverse(uint32_t x) {
+    return 1.5 + 0.0625 * x;
+}
+static void near_plane(const struct plain *plain, float *values) {
+    face_away(plain, values);
+    for (uint32_t i = 0; i < plain->width * plain->height; ++i) values[i] = (float)(1 / near_inverse(i % plain->width));
+}
+
+/* What is 200,000 times as far as both of its neighbours would be too steep for a half float, infinity; a facet that reaches
+   infinity within two texels is the steepest there is. Its neighbours rise by less than all of their inverse depth. */
+static void no_facet_is_steeper_than_a_rim(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, &(struct plain){.spoil = combs});
+    use_pyramid(gpu);
+    gpu_run(gpu);
+    float *slopes = gpu_floats(gpu, "depth_slopes", NULL, NULL);
+    for (int i = 0; i < PIXELS; ++i) {
+        const float steep = fabsf(slopes[2 * i]);
+        if (i % WIDTH == 0 || i % WIDTH == WIDTH - 1) continue; /* one neighbour is made up */
+        assert_true(i % 2 ? steep == 1 : fabsf(steep - 1) < 1e-5F);
+        assert_true(slopes[2 * i + 1] == 0);
+    }
+    free(slopes);
+}
+
+static void a_near_surface_leans_as_it_does(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, &(struct plain){.spoil = near_plane});
+    use_pyramid(gpu);
+    gpu_run(gpu);
+    float *slopes = gpu_floats(gpu, "depth_slopes", NULL, NULL);
+    for (uint32_t i = 0; i < PIXELS; ++i) {
+        /* two quotients of floats, whose difference from 1 is a twentieth */
+        assert_true(fabs((double)slopes[2 * i] - 0.0625 / near_inverse(i % WIDTH)) < 1e-6);
+        assert_true(slopes[2 * i + 1] == 0);
+    }
+    free(slopes);
+}
+
+/* How many cells rays of smooth surfaces look at is theirs, that of rough ones their own. */
+static void rough_surfaces_alone_have_fewer_cells(void **state) {
+    struct gpu *gpu = *state;
+    for (int rough = 0; rough < 2; ++rough) {
+        uint32_t *steps[2], most[2] = {0};
+        for (int few = 0; few < 2; ++few) {
+            load(gpu, &(struct plain){.floor = true, .roughness = rough ? 0.5F : 0.05F});
+            use_pyramid(gpu);
+            if (few) gpu_set(gpu, "screen_trace.cells_lq=2");
+            gpu_run(gpu);
+            steps[few] = gpu_uints(gpu, "screen_steps", NULL, NULL);
+            for (int i = 0; i < PIXELS; ++i) most[few] = steps[few][i] > most[few] ? steps[few][i] : most[few];
+        }
+        assert_true(most[0] > 4);
+        if (rough) assert_int_equal(most[1], 2);
+        else assert_memory_equal(steps[0], steps[1], PIXELS * sizeof *steps[0]);
+        free(steps[0]), free(steps[1]);
+    }
+}
+
+/* Of the wall green and blue are the same everywhere, and red is another in each column. */
+static void an_unfiltered_colour_is_a_pixels(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, &(struct plain){.floor = true});
+    gpu_set(gpu, "resolve.filter_color=false");
+    gpu_run(gpu);
+    float *color = gpu_floats(gpu, "reflection_half", NULL, NULL);
+    float *depth_m = gpu_floats(gpu, "depth_half", NULL, NULL);
+    uint32_t *finished = gpu_uints(gpu, "screen_finished", NULL, NULL);
+    int count = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        if (!finished[i] || !(depth_m[i] < 5)) continue; /* the wall is at 5 m */
+        bool found = false; /* the mirror ray of a level floor stays in its column, but for rounding */
+        for (int x = i % WIDTH - 1; x <= i % WIDTH + 1; ++x)
+            found = found || fabs((double)color[4 * i] - 0.5 - 0.4 * sin(0.1 * (x + 0.5))) < 0x1p-11; /* a half float */
+        assert_true(found && color[4 * i + 1] == 0.5F && color[4 * i + 2] == 1);
+        ++count;
+    }
+    assert_true(count > WIDTH);
+    free(color), free(depth_m), free(finished);
+}
+
+/* Another light in each row. */
+static void rows_of_light(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) values[PLAIN_LIT_R * pixels + i] = (float)(i / plain->width) / 64;
+}
+
+/* A cone of tangent 8 around a way of a twentieth of the depth spans more than the picture, 80 pixels high and 69 wide in a
+   metre at one: 8 / 20 · 69 texels of a quarter. All of those see the one texel of the coarsest level. */
+static void a_cone_wider_than_the_picture_sees_all_of_it(void **state) {
+    static const char *const words[] = {"downsample.jitter=true", "downsample.share=0", "downsample.cone_factor=8",
+                                        "downsample.horizon=false", "resolve.texel_scale=0.25"};
+    struct gpu *gpu = *state;
+    load(gpu, &(struct plain){.floor = true, .roughness = 0.3F, .spoil = rows_of_light});
+    gpu_use(gpu, "lit_mips=cone");
+    for (size_t i = 0; i < sizeof words / sizeof *words; ++i) gpu_set(gpu, words[i]);
+    gpu_run(gpu);
+    float *color = gpu_floats(gpu, "reflection_half", NULL, NULL), *depth_m = gpu_floats(gpu, "depth_half", NULL, NULL);
+    float *travelled_m = gpu_floats(gpu, "screen_travelled", NULL, NULL), first = 0;
+    uint32_t *finished = gpu_uints(gpu, "screen_finished", NULL, NULL);
+    int count = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        /* the wall's depth is 5 m */
+        if (!finished[i] || !(travelled_m[i] > 5.0F / 20) || !(depth_m[i] < 5)) continue;
+        if (!count++) first = color[4 * i];
+        assert_true(color[4 * i] == first && first > 0);
+    }
+    print_message("# %d cones, %.4f\n", count, (double)first);
+    assert_true(count > WIDTH);
+    /* By symmetry the mean of all rows, rounded to half at each of seven levels. */
+    assert_true(fabs((double)first - 39.5 / 64) < 7 * 0x1p-12);
+    free(color), free(depth_m), free(travelled_m), free(finished);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_from_before_the_near_plane_go_nowhere),
+        cmocka_unit_test(no_facet_is_steeper_than_a_rim),
+        cmocka_unit_test(a_near_surface_leans_as_it_does),
+        cmocka_unit_test(rough_surfaces_alone_have_fewer_cells),
+        cmocka_unit_test(an_unfiltered_colour_is_a_pixels),
+        cmocka_unit_test(a_cone_wider_than_the_picture_sees_all_of_it),
+    };
+    return cmocka_run_group_tests_name("gpu_limits", tests, gpu_set_up, gpu_tear_down);
+}
