@@ -1,6 +1,6 @@
 """What is asked of the tests that mutants.py tries, and why a mutant that they do not notice is harmless."""
 
-LEAST = 0.85  # of the mutants that are not harmless are noticed
+LEAST = 0.85  # of all mutants are noticed, the harmless ones among them
 # A mutant may loop without end. What takes so many times as long as unchanged sources, and this long at least, counts as noticed.
 SLOWER, AT_LEAST_S = 10, 30
 

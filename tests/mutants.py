@@ -2,7 +2,7 @@
 """docs/mutants.md: whether the self-test and the device tests notice when passes/ is wrong.
 
 mutants.py run BUILD -o RECORD [--jobs N] [--again survived|all]   tries each mutant; goes on where a record ends
-mutants.py check BUILD -o RECORD                                   the same, and speaks TAP (./dev test --all)
+mutants.py check BUILD -o RECORD                                   the same, all anew if anything changed, and speaks TAP (./dev test --all)
 mutants.py page RECORD... -o PAGE                                  the page of those records
 
 A mutant's file lies alone in a folder; programs take passes from there ($GLINT_PASSES). Each is tried by the programs that have the
@@ -256,7 +256,8 @@ def device_of(build):
     return next(d["name"] for n, d in enumerate(devices) if not wanted or wanted == str(n) or wanted.lower() in d["name"].lower())
 
 
-def run(build, path, jobs, again, budget_s):
+def run(build, path, jobs, again, budget_s, checks=False):
+    """checks: what was found with other programs or other sources counts for nothing."""
     build, path = pathlib.Path(build).resolve(), pathlib.Path(path)
     record = json.loads(path.read_text()) if path.exists() else {}
     tree = mutate.Tree(ROOT / "passes")
@@ -264,14 +265,15 @@ def run(build, path, jobs, again, budget_s):
     if moved:
         known = {identity(m): m for m in record.get("mutants", [])}
         record = {**drawn(Bar("making mutants"), known), "control": record.get("control")}
-        record["mutants"] = [{**m, **{k: v for k, v in known.get(identity(m), {}).items() if k in OUTCOME}}
+        record["mutants"] = [{**m, **{k: v for k, v in known.get(identity(m), {}).items() if k in OUTCOME and not checks}}
                              for m in record["mutants"]]
         save(record, path)
     programs = list(programs_of(build))
     record["device"] = device_of(build)
+    others = [p for p in programs if record["control"] and record["control"].get(p.name, {}).get("version") != p.version]
+    again = "all" if checks and (moved or others) else again
     fresh = again == "all" or moved or not record.get("control")
     record["control"] = control(programs, {} if fresh else record["control"], jobs)
-    save(record, path)
     # What unchanged sources fail on this device tells nothing: cases of the self-test, and whole test programs.
     programs = [p for p in programs if p.selftest or not record["control"][p.name]["failing"]]
     for program in programs:
@@ -282,6 +284,7 @@ def run(build, path, jobs, again, budget_s):
     bar = Bar("mutants")
     if again == "all":
         record["mutants"] = [{k: v for k, v in m.items() if k not in OUTCOME} for m in record["mutants"]]
+    save(record, path)
     left = [n for n, m in enumerate(record["mutants"]) if "verdict" not in m or again == m["verdict"] and not mutants_page.reason_of(m)]
     done = [len(record["mutants"]) - len(left)]
 
@@ -315,7 +318,7 @@ def main():
     if arguments.command == "page":
         mutants_page.write(arguments.records, arguments.page)
         return
-    record = run(arguments.build, arguments.record, arguments.jobs, arguments.again, arguments.budget)
+    record = run(arguments.build, arguments.record, arguments.jobs, arguments.again, arguments.budget, arguments.command == "check")
     killed = sum(m["verdict"] == "killed" for m in record["mutants"])
     print(f"{killed} of {len(record['mutants'])} mutants noticed", file=sys.stderr)
     if arguments.command == "check":
