@@ -138,7 +138,7 @@ class Tests:
     def test_levels_stand_beside_each_other_by_one_range(self):
         capture, run = self.path("levels.exr"), self.path("run")
         call(GLINT, "sample", "mirror_box", "-o", capture, "--size", "64x36", "--cube-size", "16")
-        call(GLINT, "replay", capture, "-o", run, "--outputs", "lit_mips")
+        call(GLINT, "replay", capture, "-o", run, "--all", "--outputs", "lit_mips")
         png, one = self.path("levels.png"), self.path("one.png")
         call(GLINT, "view", f"{run}:lit_mips", "--levels", "--view", "sRGB", "-o", png)
         call(GLINT, "view", f"{run}:lit_mips.level1", "--view", "sRGB", "-o", one)

@@ -17,7 +17,7 @@ struct image_list {
     const struct image_case *items;
     size_t count;
 };
-extern const struct image_list images_surfaces, images_lists, images_cubes, decodings;
+extern const struct image_list images_surfaces, images_lists, images_cubes, images_shown, decodings;
 
 /* found and expected may be either of two where a decision is a tie. */
 void image_compare(struct selftest_finding *finding, double found, double expected, double otherwise,
