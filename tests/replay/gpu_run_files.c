@@ -14,20 +14,14 @@
 
 #include "fixture.h"
 
-/* The engine's own intermediate in the capture replaces the pass that would make it. */
-static void an_engines_image_stands_in_for_a_pass(void **state) {
-    struct fixture *fixture = fixture_need_device(state);
-    struct glint_error err = {0};
-    const char *const last[] = {"compose", NULL};
-    static float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4], composed[2][FIXTURE_HEIGHT][FIXTURE_WIDTH][4];
-    char path[128];
-    fixture_run(fixture, NULL);
-    assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "reflection"),
-                                        GLINT_F32, reflection, &err));
-    assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "composed"),
-                                        GLINT_F32, composed[0], &err));
-    struct glint_channel channels[4];
+/* Composes with the engine's own reflection in the capture, which the replay then holds; to be closed. */
+static struct glint_capture *compose_engines(struct fixture *fixture,
+                                             float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4]) {
     static const char *const names[] = {"R", "G", "B", "A"};
+    const char *const last[] = {"compose", NULL};
+    struct glint_error err = {0};
+    struct glint_channel channels[4];
+    char path[128];
     for (int c = 0; c < 4; c++)
         channels[c] =
             (struct glint_channel){names[c], GLINT_F32, &reflection[0][0][c], sizeof reflection[0][0], 0, NULL};
@@ -43,6 +37,20 @@ static void an_engines_image_stands_in_for_a_pass(void **state) {
     assert_non_null(capture);
     assert_true(glint_replay_load(fixture->replay, capture, &err));
     fixture_run(fixture, &(struct glint_replay_options){.passes = last});
+    return capture;
+}
+
+/* The engine's own intermediate in the capture replaces the pass that would make it. */
+static void an_engines_image_stands_in_for_a_pass(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    static float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4], composed[2][FIXTURE_HEIGHT][FIXTURE_WIDTH][4];
+    fixture_run(fixture, NULL);
+    assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "reflection"),
+                                        GLINT_F32, reflection, &err));
+    assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "composed"),
+                                        GLINT_F32, composed[0], &err));
+    struct glint_capture *capture = compose_engines(fixture, reflection);
     assert_true(glint_replay_read_image(fixture->replay, glint_replay_find_image(fixture->replay, "composed"),
                                         GLINT_F32, composed[1], &err));
     assert_memory_equal(composed[0], composed[1], sizeof composed[0]);
@@ -55,28 +63,11 @@ static void an_engines_image_stands_in_for_a_pass(void **state) {
 static void bad_values_are_counted_and_placed(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
-    const char *const last[] = {"compose", NULL};
     static float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4];
-    struct glint_channel channels[4];
-    static const char *const names[] = {"R", "G", "B", "A"};
-    char path[128], folder[128];
+    char folder[128];
     memset(reflection, 0, sizeof reflection);
     reflection[2][3][1] = NAN, reflection[5][7][0] = reflection[5][8][0] = -1e6f;
-    for (int c = 0; c < 4; c++)
-        channels[c] =
-            (struct glint_channel){names[c], GLINT_F32, &reflection[0][0][c], sizeof reflection[0][0], 0, NULL};
-    const struct glint_part part = {.name = "engine.upscale.reflection",
-                                    .width = FIXTURE_WIDTH,
-                                    .height = FIXTURE_HEIGHT,
-                                    .channels = channels,
-                                    .channel_count = 4};
-    snprintf(path, sizeof path, "%s/bad.exr", fixture->folder);
-    if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err))
-        fail_msg("%s", err.message);
-    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-    assert_non_null(capture);
-    assert_true(glint_replay_load(fixture->replay, capture, &err));
-    fixture_run(fixture, &(struct glint_replay_options){.passes = last});
+    struct glint_capture *capture = compose_engines(fixture, reflection);
     const struct glint_bad_values *bad = NULL;
     size_t count = 0;
     assert_true(glint_replay_bad_values(fixture->replay, &bad, &count, &err));

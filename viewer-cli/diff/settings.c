@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "diff/diff.h"
+#include "report/report.h"
 
 static void add(json_t *list, const char *what, const json_t *a, const json_t *b) {
     json_t *json = json_object();
@@ -13,16 +14,6 @@ static void add(json_t *list, const char *what, const json_t *a, const json_t *b
 
 static void compare(json_t *list, const char *what, const json_t *a, const json_t *b) {
     if ((a || b) && !(a && b && json_equal(a, b))) add(list, what, a, b);
-}
-
-static const json_t *pass_of(const json_t *run, const char *slot) {
-    size_t i;
-    json_t *pass;
-    json_array_foreach(json_object_get(run, "passes"), i, pass) {
-        const char *name = json_string_value(json_object_get(pass, "slot"));
-        if (name && !strcmp(name, slot)) return pass;
-    }
-    return NULL;
 }
 
 /* Parameters of one pass; those of another variant are others altogether. */
@@ -62,8 +53,8 @@ json_t *diff_settings(const json_t *a, const json_t *b) {
         compare(list, facts[i], json_object_get(a, facts[i]), json_object_get(b, facts[i]));
     for (int side = 0; side < 2; side++) json_array_foreach(json_object_get(side ? b : a, "passes"), i, pass) {
             const char *slot = json_string_value(json_object_get(pass, "slot"));
-            if (!slot || (side && pass_of(a, slot))) continue;
-            compare_pass(list, slot, side ? NULL : pass, side ? pass : pass_of(b, slot));
+            if (!slot || (side && report_pass(a, slot))) continue;
+            compare_pass(list, slot, side ? NULL : pass, side ? pass : report_pass(b, slot));
         }
     return list;
 }

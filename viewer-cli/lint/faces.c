@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cube_face.h"
 #include "lint.h"
 
 enum { TURNS = 8 };
@@ -12,21 +13,20 @@ struct votes {
     size_t agree[6][6][TURNS], beyond[6][6][TURNS]; /* of a face of the format: each stored face, each turn */
 };
 
-static void vote(struct votes *votes, const struct lint_data *data, const struct lint_reading *reading,
-                 const struct lint_cube *cube, const double world[3]) {
+static void vote(struct votes *votes, const struct lint_reading *reading, const struct lint_cube *cube,
+                 const double world[3]) {
     double d[3], u, v;
-    (void)data;
     for (int k = 0; k < 3; k++) d[k] = world[k] - reading->center_scale * cube->center[k];
-    const double away = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), slack = away * (0.02 + 3.0 / cube->size);
+    const double away = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     if (!(away > 0) || !isfinite(away)) return;
-    const int face = lint_face_of(d, &u, &v);
+    const int face = cube_face_of(d, &u, &v);
     for (int stored = 0; stored < 6; stored++)
         for (int turn = 0; turn < TURNS; turn++) {
             double tu = u, tv = v;
             lint_turn(turn, &tu, &tv);
-            const double distance = lint_cube_distance(reading, lint_texel(cube, stored, tu, tv), d);
-            votes->agree[face][stored][turn] += fabs(distance - away) <= slack;
-            votes->beyond[face][stored][turn] += distance > away + 3 * slack;
+            const int shows = lint_shows(reading, cube, lint_texel(cube, stored, tu, tv), d);
+            votes->agree[face][stored][turn] += shows > 0;
+            votes->beyond[face][stored][turn] += shows < 0;
         }
 }
 
@@ -80,7 +80,7 @@ void lint_find_faces(const struct lint_data *data, struct lint_reading *reading,
         double world[3];
         if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
         for (size_t c = 0; c < data->cube_count; c++)
-            if (data->cubes[c].has_distance) vote(&votes, data, reading, &data->cubes[c], world);
+            if (data->cubes[c].has_distance) vote(&votes, reading, &data->cubes[c], world);
     }
     for (int f = 0; f < 6; f++) {
         if (!better(&votes, f, &other.face[f], &other.turn[f])) {

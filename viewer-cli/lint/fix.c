@@ -28,7 +28,7 @@ static const char *attribute_on(const struct lint_finding *f, const char *part) 
     return !strncmp(part, f->attribute, length) && (part[length] == '\0' || part[length] == '.') ? colon + 1 : NULL;
 }
 
-static bool set_attribute(struct copy *copy, const char *name, const struct lint_finding *f) {
+static void set_attribute(struct copy *copy, const char *name, const struct lint_finding *f) {
     size_t i = 0;
     while (i < copy->part.attribute_count && strcmp(copy->attributes[i].name, name)) i++;
     copy->part.attribute_count += i == copy->part.attribute_count;
@@ -40,7 +40,6 @@ static bool set_attribute(struct copy *copy, const char *name, const struct lint
                                                              .count = 16}
                               : (struct glint_exr_attribute){
                                     .name = name, .type = GLINT_EXR_STRING, .type_name = "string", .string = f->value};
-    return true;
 }
 
 static bool copy_part(struct copy *copy, struct glint_exr *exr, size_t i, const struct lint_findings *findings,
@@ -70,7 +69,9 @@ static bool copy_part(struct copy *copy, struct glint_exr *exr, size_t i, const 
     }
     for (size_t k = 0; k < findings->count; k++) {
         const char *name = attribute_on(&findings->items[k], from->name);
-        if (name && set_attribute(copy, name, &findings->items[k])) ++*fixed;
+        if (!name) continue;
+        set_attribute(copy, name, &findings->items[k]);
+        ++*fixed;
     }
     return true;
 }

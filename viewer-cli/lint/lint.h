@@ -84,8 +84,6 @@ bool lint_normal(const struct lint_data *data, const struct lint_reading *readin
                  size_t pixel, double out[3]);
 /* In pixels, y down. */
 void lint_motion(const struct lint_data *data, const struct lint_reading *reading, size_t pixel, double out[2]);
-/* A direction's face and place on it in [0, 1], as the format orients faces. */
-int lint_face_of(const double direction[3], double *u, double *v);
 /* A place after one of eight turns: bit 0 mirrors u, bit 1 v, bit 2 exchanges them afterwards. */
 void lint_turn(int turn, double *u, double *v);
 /* R G B A and the distance as stored. */
@@ -93,6 +91,9 @@ const float *lint_texel(const struct lint_cube *cube, int face, double u, double
 double lint_cube_distance(const struct lint_reading *reading, const float *texel, const double direction[3]);
 
 /* ---- measures.c: how far independent images agree ---- */
+
+static const double LINT_MOVES_PX = 0.25; /* less may be jitter, and tells nothing of unit and sign */
+double lint_luminance(const float *rgb);
 
 enum lint_measure { LINT_FACETS, LINT_CUBEMAPS, LINT_MOTION, LINT_COLORS, LINT_MEASURES };
 extern const char *const lint_measure_names[];
@@ -104,7 +105,11 @@ enum { LINT_ENOUGH = 200 };
 /* The measures of the bits of `which` are taken, the others are as in `known`, which may be NULL: then all are taken. */
 struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
                                  const struct lint_agreement *known, unsigned which);
-/* Whether a cube map sees a place. 1: that surface, at `texel`; 0: something stands before it; -1: what lies beyond it. */
+/* Whether a texel shows what lies in a direction, as far away as that is long. 1: it does; 0: something stands before it; -1: it
+   shows what lies beyond. */
+int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
+               const double direction[3]);
+/* The same of the texel in which a cube map has a place. */
 int lint_sees(const struct lint_reading *reading, const struct lint_cube *cube, const double world[3],
               const float **texel);
 /* The place of a sample in the world; false under sky. */

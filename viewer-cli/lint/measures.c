@@ -2,13 +2,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "cube_face.h"
 #include "lint.h"
 
 const char *const lint_measure_names[] = {"normals with the depths around them", "depth with the cube maps' distances",
                                           "motion with depth and both cameras", "lit with the cube maps' colours"};
 
 static const double SAME_DIRECTION = 0.9986; /* cosine of 3 degrees: cameras are often turned by little more */
-static const double MOVES_PX = 0.25;         /* less may be jitter, and tells nothing of unit and sign */
 
 struct tally {
     size_t agree, count;
@@ -68,7 +68,7 @@ static struct tally facets(const struct lint_data *data, const struct lint_readi
     return tally;
 }
 
-static double luminance(const float *c) {
+double lint_luminance(const float *c) {
     return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] + 0.0722 * (double)c[2];
 }
 
@@ -92,18 +92,24 @@ bool lint_moved(const struct lint_data *data, const struct lint_reading *reading
     return true;
 }
 
+int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
+               const double direction[3]) {
+    const double away = sqrt(dot(direction, direction)), slack = away * (0.02 + 3.0 / cube->size);
+    const double distance = lint_cube_distance(reading, texel, direction);
+    if (fabs(distance - away) <= slack) return 1;
+    return distance > away + 3 * slack ? -1 : 0;
+}
+
 int lint_sees(const struct lint_reading *reading, const struct lint_cube *cube, const double world[3],
               const float **texel) {
     double d[3], u, v;
     for (int k = 0; k < 3; k++) d[k] = world[k] - reading->center_scale * cube->center[k];
     const double away = sqrt(dot(d, d));
     if (!cube->has_distance || !(away > 0) || !isfinite(away)) return 0;
-    const int face = lint_face_of(d, &u, &v);
+    const int face = cube_face_of(d, &u, &v);
     lint_turn(reading->turn[face], &u, &v);
     *texel = lint_texel(cube, reading->face[face], u, v);
-    const double distance = lint_cube_distance(reading, *texel, d), slack = away * (0.02 + 3.0 / cube->size);
-    if (fabs(distance - away) <= slack) return 1;
-    return distance > away + 3 * slack ? -1 : 0;
+    return lint_shows(reading, cube, *texel, d);
 }
 
 static struct tally cubemaps(const struct lint_data *data, const struct lint_reading *reading) {
@@ -130,7 +136,7 @@ static struct tally motion(const struct lint_data *data, const struct lint_readi
         if (!lint_moved(data, reading, &eyes, data->samples[i], moved)) continue;
         lint_motion(data, reading, data->samples[i], found);
         const double expected = hypot(moved[0], moved[1]);
-        if (!(expected > MOVES_PX)) continue;
+        if (!(expected > LINT_MOVES_PX)) continue;
         const double off = hypot(found[0] - moved[0], found[1] - moved[1]);
         add(&tally, off < 0.05 + 0.1 * expected);
     }
@@ -153,7 +159,7 @@ static struct tally colors(const struct lint_data *data, const struct lint_readi
         if (!lint_place(data, reading, &eyes.now, pixel, world)) continue;
         const uint32_t row = reading->lit_upside_down ? data->height - 1 - y : y;
         const float *lit = data->lit + 3 * ((size_t)row * data->width + x);
-        if (!(luminance(lit) > 1e-3)) continue;
+        if (!(lint_luminance(lit) > 1e-3)) continue;
         bool compared = false, agrees = false;
         for (size_t c = 0; c < data->cube_count && !agrees; c++) {
             const float *texel;

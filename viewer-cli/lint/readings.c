@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "camera_facts.h"
 #include "lint.h"
 
 struct lint_finding *lint_add(struct lint_findings *findings, const char *id, const char *likelihood) {
@@ -35,14 +36,8 @@ static void exchange(int axis[3], int i, int k) {
 
 /* Depth at the far plane, units; 1 where there is none. */
 static double far_of(const struct lint_data *data) {
-    const double *p = data->frame.camera.view_to_clip, s = p[14];
-    double far = 0;
-    for (int z = -1; z <= 1; z++) {
-        const double depth = p[11] / (z - p[10] * s);
-        if (isfinite(depth) && depth > far && (z >= 0 || data->frame.clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE))
-            far = depth;
-    }
-    return far > 0 ? far : 1;
+    const double far = camera_facts(&data->frame).far;
+    return isfinite(far) ? far : 1;
 }
 
 /* Values that are known only at run time. */
@@ -127,9 +122,7 @@ static void declare(struct lint_finding *f, const struct row *row, const struct 
     if (!f->attribute) snprintf(f->mend, sizeof f->mend, "no declaration says so: change the dump");
     else if (f->has_matrix)
         snprintf(f->mend, sizeof f->mend, "%s: %s", f->attribute,
-                 row->value == rows[0].value    ? ""
-                 : !strcmp(row->value, INVERSE) ? "its inverse"
-                                                : "its first row negated");
+                 !strcmp(row->value, INVERSE) ? "its inverse" : "its first row negated");
     else snprintf(f->mend, sizeof f->mend, "%s = \"%s\"", f->attribute, f->value);
 }
 

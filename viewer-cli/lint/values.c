@@ -6,8 +6,6 @@
 
 #include "lint.h"
 
-static const double MOVES_PX = 0.25; /* less may be jitter */
-
 static int ascending(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -16,10 +14,6 @@ static int ascending(const void *a, const void *b) {
 static double median(double *values, size_t count) {
     qsort(values, count, sizeof *values, ascending);
     return count ? values[count / 2] : 0;
-}
-
-static double luminance(const float *c) {
-    return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] + 0.0722 * (double)c[2];
 }
 
 static bool is_surface(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
@@ -84,7 +78,8 @@ static void cube_sky(const struct lint_data *data, struct lint_findings *finding
         const struct lint_cube *cube = &data->cubes[c];
         for (size_t i = 0; i < (size_t)cube->size * cube->size * 6; i += 7) {
             const float *t = cube->texels + 5 * i;
-            const bool flagged = t[3] < 0.5f, sky = cube->has_distance ? !isfinite((double)t[4]) : !(luminance(t) > 0);
+            const bool flagged = t[3] < 0.5f,
+                       sky = cube->has_distance ? !isfinite((double)t[4]) : !(lint_luminance(t) > 0);
             against += flagged != sky;
             with += flagged == sky;
         }
@@ -106,14 +101,14 @@ static void specular(const struct lint_data *data, const struct lint_reading *re
     for (size_t i = 0; i < data->sample_count; i++) {
         const size_t pixel = data->samples[i];
         if (!is_surface(data, reading, view, (uint32_t)pixel)) continue;
-        if (!(data->material[3 * pixel + 1] > 0.95f)) others[count++] = luminance(data->lit + 3 * pixel);
+        if (!(data->material[3 * pixel + 1] > 0.95f)) others[count++] = lint_luminance(data->lit + 3 * pixel);
     }
     const double typical = median(others, count);
     for (size_t i = 0; i < data->sample_count; i++) {
         const size_t pixel = data->samples[i];
         if (!is_surface(data, reading, view, (uint32_t)pixel) || !(data->material[3 * pixel + 1] > 0.95f)) continue;
         metals++;
-        lit += luminance(data->lit + 3 * pixel) > 0.02 * typical;
+        lit += lint_luminance(data->lit + 3 * pixel) > 0.02 * typical;
     }
     if (metals < 50) {
         lint_undecided(
@@ -145,9 +140,9 @@ static struct movement movement_of(const struct lint_data *data, const struct li
         if (!lint_moved(data, reading, &eyes, data->samples[i], moved)) continue;
         lint_motion(data, reading, data->samples[i], found);
         m.compared++;
-        m.stored += hypot(found[0], found[1]) > MOVES_PX;
+        m.stored += hypot(found[0], found[1]) > LINT_MOVES_PX;
         m.zero += found[0] == 0 && found[1] == 0;
-        m.expected += hypot(moved[0], moved[1]) > MOVES_PX;
+        m.expected += hypot(moved[0], moved[1]) > LINT_MOVES_PX;
     }
     return m;
 }
@@ -183,7 +178,7 @@ static void previous(const struct lint_data *data, const struct lint_reading *re
     snprintf(f->what, sizeof f->what, "%s", what);
     snprintf(f->evidence, sizeof f->evidence,
              "of %zu samples %zu move by more than %.2f pixels as stored, %zu by both cameras; %zu are stored as 0",
-             m.compared, m.stored, MOVES_PX, m.expected, m.zero);
+             m.compared, m.stored, LINT_MOVES_PX, m.expected, m.zero);
     snprintf(f->mend, sizeof f->mend, "%s", mend);
 }
 

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cube_face.h"
+
 bool picture_init(struct picture *picture, uint32_t width, uint32_t height, struct rgb color, struct glint_error *err) {
     *picture = (struct picture){.width = width, .height = height};
     if (width == 0 || height == 0 || (uint64_t)width * height > UINT64_C(1) << 30)
@@ -120,12 +122,9 @@ bool picture_cross(struct picture *picture, struct glint_error *err) {
 
 /* The place in a column of faces that a direction meets. */
 static void face_place(const double d[3], uint32_t size, uint32_t *x, uint32_t *y) {
-    const double a[3] = {fabs(d[0]), fabs(d[1]), fabs(d[2])};
-    const int axis = a[0] >= a[1] && a[0] >= a[2] ? 0 : a[1] >= a[2] ? 1 : 2;
-    const bool negative = d[axis] < 0;
-    const double s[6] = {-d[2], d[2], d[0], d[0], d[0], -d[0]}, t[6] = {-d[1], -d[1], d[2], -d[2], -d[1], -d[1]};
-    const int face = 2 * axis + negative;
-    const double u = 0.5 * (s[face] / a[axis] + 1) * size, v = 0.5 * (t[face] / a[axis] + 1) * size;
+    double u, v;
+    const int face = cube_face_of(d, &u, &v);
+    u *= size, v *= size;
     *x = u < 0 ? 0 : u >= size ? size - 1 : (uint32_t)u;
     *y = (uint32_t)face * size + (v < 0 ? 0 : v >= size ? size - 1 : (uint32_t)v);
 }

@@ -46,21 +46,8 @@ static ChafaCanvasMode color_mode(ChafaPixelMode pixels, enum terminal_mode mode
                                                                              : CHAFA_CANVAS_MODE_INDEXED_16;
 }
 
-static ChafaTermInfo *terminal_info(void) {
-    ChafaTermDb *database = chafa_term_db_get_default();
-    char **environment = g_get_environ();
-    ChafaTermInfo *info = chafa_term_db_detect(database, environment),
-                  *rest = chafa_term_db_get_fallback_info(database);
-    chafa_term_info_supplement(info,
-                               rest); /* modes that are asked for although the terminal is not known to have them */
-    chafa_term_info_unref(rest);
-    g_strfreev(environment);
-    return info;
-}
-
-static ChafaCanvasConfig *configure(const struct picture *picture, enum terminal_mode mode) {
-    char **environment = g_get_environ();
-    ChafaTermInfo *known = chafa_term_db_detect(chafa_term_db_get_default(), environment);
+static ChafaCanvasConfig *configure(const struct picture *picture, enum terminal_mode mode,
+                                    const ChafaTermInfo *known) {
     const struct area area = area_of(STDOUT_FILENO);
     ChafaCanvasConfig *config = chafa_canvas_config_new();
     const ChafaPixelMode pixels = pixel_mode(mode, known);
@@ -76,22 +63,27 @@ static ChafaCanvasConfig *configure(const struct picture *picture, enum terminal
     chafa_canvas_config_set_canvas_mode(config, color_mode(pixels, mode, known));
     chafa_canvas_config_set_work_factor(config, 1);
     chafa_symbol_map_unref(symbols);
-    chafa_term_info_unref(known);
-    g_strfreev(environment);
     return config;
 }
 
 bool terminal_draw(const struct picture *picture, enum terminal_mode mode, struct glint_error *err) {
-    ChafaCanvasConfig *config = configure(picture, mode);
+    char **environment = g_get_environ();
+    ChafaTermDb *database = chafa_term_db_get_default();
+    ChafaTermInfo *info = chafa_term_db_detect(database, environment),
+                  *rest = chafa_term_db_get_fallback_info(database);
+    ChafaCanvasConfig *config = configure(picture, mode, info);
     ChafaCanvas *canvas = chafa_canvas_new(config);
-    ChafaTermInfo *info = terminal_info();
+    /* from here on: modes that are asked for although the terminal is not known to have them */
+    chafa_term_info_supplement(info, rest);
     chafa_canvas_draw_all_pixels(canvas, CHAFA_PIXEL_RGBA8_UNASSOCIATED, picture->rgba, (gint)picture->width,
                                  (gint)picture->height, (gint)picture->width * 4);
     GString *text = chafa_canvas_print(canvas, info);
     const bool ok =
         fwrite(text->str, 1, text->len, stdout) == text->len && fputc('\n', stdout) != EOF && fflush(stdout) == 0;
     g_string_free(text, TRUE);
+    chafa_term_info_unref(rest);
     chafa_term_info_unref(info);
+    g_strfreev(environment);
     chafa_canvas_unref(canvas);
     chafa_canvas_config_unref(config);
     return ok || glint_fail(err, GLINT_ERROR_IO, "stdout: cannot write");
