@@ -121,7 +121,7 @@ bool step_describe(const struct run *run, struct step *step, struct glint_error 
         const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                                   .descriptorPool = run->pool,
                                                   .descriptorSetCount = 1,
-                                                  .pSetLayouts = &step->program->images};
+                                                  .pSetLayouts = &dispatch->program->images};
         VkResult result = vkAllocateDescriptorSets(device->device, &info, &dispatch->set);
         if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
         device_set_name(device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)dispatch->set,
@@ -150,20 +150,19 @@ static void access_images(const struct run *run, const struct glint_pass *pass, 
 void step_record(const struct run *run, struct step *step) {
     struct glint_device *device = run->replay->device;
     VkCommandBuffer commands = device->commands;
-    VkPipelineLayout layout = step->program->layout;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step->program->pipeline);
-    vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4,
-                       step->constants.push);
     for (size_t d = 0; d < step->dispatch_count; d++) {
         const struct dispatch *dispatch = &step->dispatches[d];
         const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
-        const uint32_t place[] = {dispatch->level, dispatch->phase}; /* how push_begin.glsl opens the block */
+        const VkPipelineLayout layout = dispatch->program->layout;
+        uint32_t *push = step->constants.push;
+        push[0] = dispatch->level; /* how push_begin.glsl opens the block */
         struct barriers barriers = {0};
         if (dispatch->list) image_access(dispatch->list, IMAGE_GROUPS, &barriers);
         access_images(run, step->pass->pass, &barriers);
         barriers_record(&barriers, device);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, dispatch->program->pipeline);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
-        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof place, place);
+        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4, push);
         if (dispatch->list) vkCmdDispatchIndirect(commands, dispatch->list->buffer, 0);
         else vkCmdDispatch(commands, dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
     }

@@ -48,6 +48,18 @@ static bool prepare_queries(struct run *run, struct glint_error *err) {
     return result == VK_SUCCESS || vk_fail(err, "creating timestamp queries", result);
 }
 
+static bool find_programs(struct glint_replay *replay, struct step *step, struct glint_error *err) {
+    struct constants constants = step->constants;
+    for (size_t d = 0; d < step->dispatch_count; d++) {
+        struct dispatch *dispatch = &step->dispatches[d];
+        constants.data[CONSTANT_PHASE] = dispatch->phase;
+        dispatch->program =
+            programs_get(&replay->programs, replay->device, step->pass->pass, &step->spirv, &constants, err);
+        if (!dispatch->program) return false;
+    }
+    return true;
+}
+
 bool run_prepare(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     uint32_t sets = 0, sampled = 0, storage = 0;
@@ -57,8 +69,7 @@ bool run_prepare(struct run *run, struct glint_error *err) {
         if (!step_plan(run, step, err)) return false;
         if (!step->execute) continue;
         const struct glint_pass *pass = step->pass->pass;
-        step->program = programs_get(&replay->programs, replay->device, pass, &step->spirv, &step->constants, err);
-        if (!step->program) return false;
+        if (!find_programs(replay, step, err)) return false;
         const uint32_t dispatches = (uint32_t)step->dispatch_count;
         sets += dispatches;
         for (size_t r = 0; r < pass->row_count; r++) {

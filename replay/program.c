@@ -35,13 +35,14 @@ struct workgroup pass_workgroup(const struct glint_pass *pass) {
 
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
                     bool diagnostics, bool halves, struct glint_error *err) {
-    *constants = (struct constants){.push_count = 2};
+    *constants = (struct constants){.push_count = 1};
     const struct glint_pass *pass = graph_pass->pass;
     const double *values = graph_pass->entry->values;
     uint32_t facts = 0;
     const struct workgroup group = pass_workgroup(pass);
     bool fits = add_constant(constants, 0, diagnostics) && add_constant(constants, 1, group.width) &&
-                add_constant(constants, 2, group.height) && add_constant(constants, 3, halves);
+                add_constant(constants, 2, group.height) && add_constant(constants, 3, halves) &&
+                add_constant(constants, CONSTANT_PHASE, 0);
     for (size_t i = 0; i < pass->row_count && fits; i++) {
         uint32_t bits = row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], values[i]) : 0;
         if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
@@ -55,7 +56,7 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
             constants->push[constants->push_count++] = bits;
     }
     return fits || glint_fail(err, GLINT_ERROR_LIMIT, "%s/%s: more than %d constants or %d bytes of push constants",
-                              pass->slot, pass->variant, CONSTANTS_MAX - 4, PUSH_BYTES_MAX);
+                              pass->slot, pass->variant, CONSTANTS_MAX - 5, PUSH_BYTES_MAX);
 }
 
 static VkResult create_sampler(struct glint_device *device, VkFilter filter, const char *name, VkSampler *sampler) {

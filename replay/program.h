@@ -13,14 +13,14 @@ struct workgroup {
 };
 struct workgroup pass_workgroup(const struct glint_pass *pass);
 
-enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64 };
+enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64, CONSTANT_PHASE = 4 /* its id and its place */ };
 
 /* Values of a pass's parameters as the shader takes them. */
 struct constants {
     VkSpecializationMapEntry entries[CONSTANTS_MAX];
     uint32_t data[CONSTANTS_MAX];
     uint32_t count;
-    uint32_t push[PUSH_BYTES_MAX / 4]; /* the dispatch's level and phase first */
+    uint32_t push[PUSH_BYTES_MAX / 4]; /* the dispatch's level first */
     uint32_t push_count;
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
@@ -43,7 +43,7 @@ struct programs {
 };
 bool programs_init(struct programs *programs, struct glint_device *device, struct glint_error *err);
 void programs_finish(struct programs *programs, struct glint_device *device);
-/* Finds or makes the program of a pass. */
+/* Finds or makes the program of a pass, or of one phase of it, whose constant is set. */
 struct program *programs_get(struct programs *programs, struct glint_device *device, const struct glint_pass *pass,
                              const struct spirv *spirv, const struct constants *constants, struct glint_error *err);
 

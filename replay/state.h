@@ -55,16 +55,16 @@ struct glint_replay {
 /* One dispatch of a pass. */
 struct dispatch {
     uint32_t phase, level, groups[3];
-    VkDescriptorSet set; /* with this level of what the pass writes */
-    struct image *list;  /* whose header says how many groups; NULL: `groups` */
+    struct program *program; /* of the phase */
+    VkDescriptorSet set;     /* with this level of what the pass writes */
+    struct image *list;      /* whose header says how many groups; NULL: `groups` */
 };
 
 /* One pass of a run on the device. */
 struct step {
     const struct graph_pass *pass;
     struct spirv spirv;
-    struct constants constants;
-    struct program *program;
+    struct constants constants;  /* but for the phase */
     struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
     size_t dispatch_count;
     uint64_t key;

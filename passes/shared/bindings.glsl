@@ -7,7 +7,8 @@
 // Cube maps are written as WRITE(image2DArray, ...): layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), and
 // gl_GlobalInvocationID.z is the layer. They are read as textureCube or textureCubeArray,
 // or as texture2DArray where the texel is known: layers as above, texelFetch, no filter and no search for the face.
-// Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0.
+// Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0. It is a constant,
+// so that what other phases do costs nothing: not all devices jump over what no invocation does.
 //
 // Lists (size class LIST) are buffers of uints: READ(utextureBuffer, ...), WRITE(uimageBuffer, ...). Words 0 to 2 are the
 // workgroups that they are worked on with, word 3 is the number of items, which begin at word 256. Nobody clears them:
@@ -27,6 +28,7 @@
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
 layout(constant_id = 3) const bool halves = true; // images declared as halves are that, and not floats instead
+layout(constant_id = 4) const uint dispatch_phase = 0u;
 #define PASS(title, source)
 #define SLOT(title)
 #define READ(kind, name) layout(set = 0, binding = __LINE__) uniform kind name;

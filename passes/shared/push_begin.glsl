@@ -1,5 +1,5 @@
 // Next include of a declaration: its PUSH rows become the push-constant block; close it with "};".
-// It opens with members of our own: the level that this dispatch writes, and which dispatch row it is, from 0.
+// It opens with a member of our own: the level that this dispatch writes.
 #undef READ
 #undef OPTIONAL_READ
 #undef SELF
@@ -26,4 +26,3 @@
 #define PUSH(type, name, initial, lowest, highest, unit, source, help) type name;
 layout(push_constant, std430) uniform Parameters {
     uint dispatch_level;
-    uint dispatch_phase;
