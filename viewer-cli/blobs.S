@@ -11,5 +11,6 @@ BLOB(blob_ocio, GLINT_OCIO)
 BLOB(blob_page_head, GLINT_PAGE_HEAD)
 BLOB(blob_echarts, GLINT_ECHARTS)
 BLOB(blob_chart, GLINT_CHART)
+BLOB(blob_stage, GLINT_STAGE)
 BLOB(blob_page, GLINT_PAGE)
     .section .note.GNU-stack, "", %progbits

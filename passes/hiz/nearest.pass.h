@@ -4,4 +4,4 @@ PASS("Nearest and farthest depth", "002, HZB Optimization, which has the nearest
 #line 202
 SELF(texture2D, finer, hiz)
 DISPATCH(depth_slopes)
-DISPATCH_LEVELS(hiz, 1, -3, down)
+DISPATCH_LEVELS(hiz, 1, -1, down)

@@ -8,7 +8,7 @@
 };
 #include "screen_trace/cells.glsl"
 
-// The coarsest level that is made: the first whose smaller side is under 8 texels.
+// The coarsest level that rays go up to: the first whose smaller side is under 8 texels.
 int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }
 
 // Whether each texel of a cell lies wholly before the ray, none of them so close that it would be hit or block the ray:

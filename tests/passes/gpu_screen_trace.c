@@ -211,7 +211,7 @@ static void parents_cover_all_children(void **state) {
         assert_true(depth_m[i] == INFINITY ? texels[2 * i] == -1 && texels[2 * i + 1] == 0
                                            : texels[2 * i] * depth_m[i] > 1 && texels[2 * i] * depth_m[i] <= 2.01f &&
                                                  texels[2 * i + 1] * depth_m[i] <= 1.0000002f);
-    for (uint32_t level = 1; level <= 4; ++level) { /* 8 × 4 is the first level whose smaller side is under 8 */
+    for (uint32_t level = 1; level <= 6; ++level) { /* 2 × 1 is the last that is rounded down everywhere */
         char name[32];
         snprintf(name, sizeof name, "hiz.level%u", level);
         float *cells = gpu_floats(gpu, name, &size[0], &size[1]);

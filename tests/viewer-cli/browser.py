@@ -126,9 +126,10 @@ class Browser:
         for kind in ("mousePressed", "mouseReleased"):
             self.mouse(kind, x, y)
 
-    def key(self, name):
+    def key(self, name, number=0):
+        """`number`: the key's Windows number, without which the browser's own controls do not know it."""
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name)
+            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode=number)
 
     def look(self, dark):
         self.call("Emulation.setEmulatedMedia",

@@ -8,11 +8,12 @@
 #include "glint/exr.h"
 #include "glint/metrics.h"
 #include "glint/replay.h"
+#include "view/render.h"
 
 /* idiff's, in the order of how bad they are. */
 enum diff_status { DIFF_SAME = 0, DIFF_WARN = 1, DIFF_FAIL = 2, DIFF_SIZE = 3, DIFF_FILE = 4, DIFF_USAGE = 5 };
 
-/* ---- Sides: diff_side.c ---- */
+/* ---- Sides: side.c ---- */
 
 enum { DIFF_CHANNELS = 64 };
 struct diff_image {
@@ -42,7 +43,7 @@ void diff_side_finish(struct diff_side *side);
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
                     bool integers, void *out, struct glint_error *err);
 
-/* ---- Pairs: diff_pairs.c ---- */
+/* ---- Pairs: pairs.c ---- */
 
 struct diff_pair {
     const struct diff_image *a, *b; /* one of them may be missing */
@@ -71,14 +72,45 @@ const struct diff_image *diff_pair_image(const struct diff_pair *pair); /* which
 /* The pair whose pass, in the order of the run, is the first that differs; diff->count when none does. */
 size_t diff_first(const struct diff *diff);
 
-/* diff_settings.c */
+/* settings.c */
 json_t *diff_settings(const json_t *a, const json_t *b);
 
-/* diff_report.c */
+/* report.c */
+extern const char *const diff_words[]; /* of each status but those of errors */
+/* The channel where the difference is largest; "" when nothing was compared. */
+const char *diff_channel(const struct diff_pair *pair);
 json_t *diff_json(const struct diff *diff);
 void diff_print(const struct diff *diff, bool verbose);
 
-/* diff_picture.c: heat maps of what differs. */
-bool diff_write_heat(const char *path, const struct diff *diff, struct glint_error *err);
+/* ---- Pictures of what differs, PNG files: picture.c ---- */
+
+/* What is drawn of a pair that both sides have: the layer whose values differ most, by one range of values, and where it
+   differs. */
+struct diff_drawing {
+    struct source sources[2];
+    struct picture pictures[3]; /* first, second, heat map; that one empty unless it was asked for */
+    struct legend legends[3];
+};
+bool diff_draw(struct diff *diff, const struct diff_pair *pair, struct diff_drawing *drawing, struct glint_error *err);
+void diff_drawing_finish(struct diff_drawing *drawing);
+/* Names for the two sides, as short as they differ. */
+void diff_labels(const struct diff *diff, char labels[2][64]);
+
+/* Where images differ, and by how much; nothing is written when several images are all the same. */
+bool diff_write_heat(const char *path, struct diff *diff, struct glint_error *err);
+/* Both images and the heat map, a row for each pair that differs; when none does, of the last. */
+bool diff_write_beside(const char *path, struct diff *diff, struct glint_error *err);
+/* Both images in turns: the first that differs, else the last. */
+bool diff_write_flicker(const char *path, struct diff *diff, struct glint_error *err);
+
+/* ---- The page: page.c ---- */
+
+/* What a page says beside the comparison; all of it may be NULL. */
+struct diff_page {
+    const char *title;
+    const char *lead, *kind; /* a text shown first, and which of page_text's kinds it is */
+    bool refresh;            /* it loads itself again while somebody works on what it shows */
+};
+bool diff_write_page(const char *path, struct diff *diff, const struct diff_page *page, struct glint_error *err);
 
 #endif

@@ -1,15 +1,68 @@
-/* Heat maps: where images differ, and by how much. */
+/* Pictures of what differs: heat maps, both images beside each other, both in turns. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "channels.h"
 #include "diff/diff.h"
 #include "view/png_file.h"
 #include "view/sheet.h"
 
+/* ---- One pair ---- */
+
+static bool has_channel(const struct diff_image *image, const char *name, bool integers) {
+    for (size_t i = 0; i < image->channel_count; i++)
+        if (image->integers[i] == integers && !strcmp(image->channels[i], name)) return true;
+    return false;
+}
+
+/* What both sides have of the layer that differs most, R G B A and X Y Z in that order; at most 4. */
+static size_t drawn_channels(const struct diff_pair *pair, const char *names[4], bool *integers) {
+    const struct diff_image *image = pair->a;
+    const char *most = diff_channel(pair);
+    const size_t length = channel_layer_length(most);
+    size_t count = 0;
+    for (size_t i = 0; i < image->channel_count; i++)
+        if (!strcmp(image->channels[i], most)) *integers = image->integers[i];
+    for (int rank = 0; rank < 8; rank++)
+        for (size_t i = 0; i < image->channel_count && count < 4; i++) {
+            const char *name = image->channels[i];
+            if (channel_rank(name) == rank && channel_layer_length(name) == length && !strncmp(name, most, length) &&
+                has_channel(image, name, *integers) && has_channel(pair->b, name, *integers))
+                names[count++] = name;
+        }
+    return count;
+}
+
+static bool read_source(struct diff_side *side, const struct diff_image *image, const char *const *names, size_t count,
+                        bool integers, struct source *source, struct glint_error *err) {
+    const size_t values = (size_t)image->width * image->height * count;
+    *source = (struct source){.width = image->width,
+                              .height = image->height,
+                              .components = (uint32_t)count,
+                              .integer = integers,
+                              .cube = image->height % (6 * image->width) == 0,
+                              .texels = malloc(values * sizeof *source->texels)};
+    const size_t length = channel_layer_length(names[0]);
+    snprintf(source->title, sizeof source->title, "%.140s%s%.*s", image->name, length ? ":" : "", (int)length,
+             names[0]);
+    snprintf(source->unit, sizeof source->unit, "%.60s", image->unit);
+    for (size_t k = 0; k < count; k++)
+        snprintf(source->channels[k], sizeof source->channels[k], "%s", names[k] + (length ? length + 1 : 0));
+    if (!source->texels) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (!diff_side_read(side, image, names, count, integers, source->texels, err)) return false;
+    for (size_t i = 0; integers && i < values; i++) {
+        uint32_t value;
+        memcpy(&value, &source->texels[i], sizeof value);
+        source->texels[i] = (float)value;
+    }
+    return true;
+}
+
 /* Logarithmic, from what may differ to what differs most. */
-static bool draw(struct picture *cell, const struct diff *diff, const struct diff_pair *pair, bool alone,
-                 struct glint_error *err) {
+static bool draw_heat(struct picture *picture, struct legend *legend, const struct diff *diff,
+                      const struct diff_pair *pair, struct glint_error *err) {
     const struct diff_image *image = diff_pair_image(pair);
     double low = fmax(diff->options.limits.fail.absolute, 1e-7), high = 10 * low;
     for (size_t i = 0; i < pair->difference.pixels; i++)
@@ -25,32 +78,173 @@ static bool draw(struct picture *cell, const struct diff *diff, const struct dif
     snprintf(source.unit, sizeof source.unit, "%.60s", image->unit);
     snprintf(source.channels[0], sizeof source.channels[0], "E");
     size_t invalid;
-    return alone ? render(cell, &source, &options, &invalid, err) : sheet_cell(cell, &source, NULL, &options, err);
+    return render_plain(picture, legend, &source, &options, &invalid, err);
 }
 
-static bool is_drawn(const struct diff_pair *pair) {
-    return pair->heat && pair->difference.differing;
-}
-
-bool diff_write_heat(const char *path, const struct diff *diff, struct glint_error *err) {
-    struct sheet sheet = {0};
-    struct picture picture = {0};
-    uint32_t count = 0, columns = 1;
-    bool ok = true;
-    for (size_t i = 0; i < diff->count; i++) count += is_drawn(&diff->pairs[i]);
-    const bool alone = diff->count == 1 && diff->pairs[0].heat;
-    if (!alone && !count) return true;
-    if (alone) ok = draw(&picture, diff, &diff->pairs[0], true, err);
-    else {
-        while (columns * columns < count) columns++;
-        ok = sheet_init(&sheet, columns, (count + columns - 1) / columns, err);
-        count = 0;
-        for (size_t i = 0; ok && i < diff->count; i++)
-            if (is_drawn(&diff->pairs[i])) ok = draw(&sheet.cells[count++], diff, &diff->pairs[i], false, err);
-        ok = ok && sheet_lay_out(&picture, &sheet, err);
+void diff_labels(const struct diff *diff, char labels[2][64]) {
+    for (int k = 0; k < 2; k++) snprintf(labels[k], 64, "%.63s", sheet_name(diff->sides[k].text));
+    for (int k = 0; k < 2 && !strcmp(labels[0], labels[1]); k++) snprintf(labels[k], 64, "%.63s", diff->sides[k].text);
+    if (!strcmp(labels[0], labels[1])) {
+        strcpy(labels[0], "first");
+        strcpy(labels[1], "second");
     }
-    ok = ok && png_file_write(path, &picture, err);
+}
+
+bool diff_draw(struct diff *diff, const struct diff_pair *pair, struct diff_drawing *d, struct glint_error *err) {
+    const struct diff_image *images[2] = {pair->a, pair->b};
+    struct render_options options = {0};
+    double range[2] = {INFINITY, -INFINITY};
+    const char *names[4];
+    char labels[2][64];
+    bool integers = false, ok = true;
+    const size_t count = drawn_channels(pair, names, &integers);
+    *d = (struct diff_drawing){0};
+    if (!count) return glint_fail(err, GLINT_ERROR_USAGE, "%s: no channel that both sides have", pair->a->name);
+    diff_labels(diff, labels);
+    for (int k = 0; ok && k < 2; k++)
+        ok = read_source(&diff->sides[k], images[k], names, count, integers, &d->sources[k], err) &&
+             render_range(&d->sources[k], &options, range, err);
+    options.falsecolor.range_given = range[0] < range[1];
+    options.falsecolor.low = range[0];
+    options.falsecolor.high = range[1];
+    for (int k = 0; ok && k < 2; k++) {
+        size_t invalid;
+        ok = render_plain(&d->pictures[k], &d->legends[k], &d->sources[k], &options, &invalid, err);
+        legend_label(&d->legends[k], labels[k]);
+    }
+    return ok && (!pair->heat || draw_heat(&d->pictures[2], &d->legends[2], diff, pair, err));
+}
+
+void diff_drawing_finish(struct diff_drawing *d) {
+    for (int k = 0; k < 2; k++) source_finish(&d->sources[k]);
+    for (int k = 0; k < 3; k++) picture_finish(&d->pictures[k]);
+    *d = (struct diff_drawing){0};
+}
+
+/* ---- Files ---- */
+
+static bool differs(const struct diff_pair *pair) {
+    return pair->difference.marks && pair->difference.differing;
+}
+
+static uint32_t count_differing(const struct diff *diff) {
+    uint32_t count = 0;
+    for (size_t i = 0; i < diff->count; i++) count += differs(&diff->pairs[i]);
+    return count;
+}
+
+/* The first that differs, else the last that was compared. */
+static const struct diff_pair *most_telling(const struct diff *diff, struct glint_error *err) {
+    const struct diff_pair *last = NULL;
+    for (size_t i = 0; i < diff->count; i++) {
+        if (differs(&diff->pairs[i])) return &diff->pairs[i];
+        if (diff->pairs[i].difference.marks) last = &diff->pairs[i];
+    }
+    if (!last) glint_fail(err, GLINT_ERROR_USAGE, "no image could be compared, so that there is none to draw");
+    return last;
+}
+
+static bool write_sheet(const char *path, const struct sheet *sheet, struct glint_error *err) {
+    struct picture picture = {0};
+    const bool ok = sheet_lay_out(&picture, sheet, err) && png_file_write(path, &picture, err);
     picture_finish(&picture);
+    return ok;
+}
+
+static bool write_heats(const char *path, struct diff *diff, uint32_t count, struct glint_error *err) {
+    struct sheet sheet = {0};
+    struct legend legend;
+    uint32_t columns = 1;
+    while (columns * columns < count) columns++;
+    bool ok = sheet_init(&sheet, columns, (count + columns - 1) / columns, err);
+    struct picture *cell = sheet.cells;
+    for (size_t i = 0; ok && i < diff->count; i++)
+        if (differs(&diff->pairs[i])) {
+            ok = draw_heat(cell, &legend, diff, &diff->pairs[i], err) && sheet_fit(cell, &legend, err);
+            cell++;
+        }
+    ok = ok && write_sheet(path, &sheet, err);
     sheet_finish(&sheet);
+    return ok;
+}
+
+bool diff_write_heat(const char *path, struct diff *diff, struct glint_error *err) {
+    const uint32_t count = count_differing(diff);
+    if (diff->count != 1 || !diff->pairs[0].heat) return !count || write_heats(path, diff, count, err);
+    struct picture picture = {0};
+    struct legend legend;
+    const bool ok = draw_heat(&picture, &legend, diff, &diff->pairs[0], err) && legend_add(&picture, &legend, err) &&
+                    png_file_write(path, &picture, err);
+    picture_finish(&picture);
+    return ok;
+}
+
+/* At its full size, with legends. */
+static bool write_pair_beside(const char *path, struct diff *diff, const struct diff_pair *pair,
+                              struct glint_error *err) {
+    enum { GAP_PX = 12 };
+    struct diff_drawing d;
+    struct picture all = {0};
+    uint32_t height = 0, width = 0, x = 0;
+    bool ok = diff_draw(diff, pair, &d, err);
+    for (int k = 0; ok && k < 3; k++) {
+        ok = legend_add(&d.pictures[k], &d.legends[k], err);
+        width += d.pictures[k].width + (k ? GAP_PX : 0);
+        height = d.pictures[k].height > height ? d.pictures[k].height : height;
+    }
+    ok = ok && picture_init(&all, width, height, COLOR_BACKGROUND, err);
+    for (int k = 0; ok && k < 3; k++) {
+        picture_paste(&all, &d.pictures[k], x, 0);
+        x += d.pictures[k].width + GAP_PX;
+    }
+    ok = ok && png_file_write(path, &all, err);
+    picture_finish(&all);
+    diff_drawing_finish(&d);
+    return ok;
+}
+
+bool diff_write_beside(const char *path, struct diff *diff, struct glint_error *err) {
+    const uint32_t count = count_differing(diff);
+    const struct diff_pair *telling = most_telling(diff, err);
+    if (!telling || count <= 1) return telling && write_pair_beside(path, diff, telling, err);
+    struct sheet sheet = {0};
+    bool ok = sheet_init(&sheet, 3, count, err);
+    struct picture *cells = sheet.cells;
+    for (size_t i = 0; ok && i < diff->count; i++) {
+        struct diff_drawing d;
+        if (!differs(&diff->pairs[i])) continue;
+        ok = diff_draw(diff, &diff->pairs[i], &d, err);
+        for (int k = 0; ok && k < 3; k++) {
+            ok = sheet_fit(&d.pictures[k], &d.legends[k], err);
+            *cells++ = d.pictures[k];
+            d.pictures[k] = (struct picture){0};
+        }
+        diff_drawing_finish(&d);
+    }
+    ok = ok && write_sheet(path, &sheet, err);
+    sheet_finish(&sheet);
+    return ok;
+}
+
+/* Legends of categories may be higher in one of them. */
+static bool pad(struct picture *picture, uint32_t height, struct glint_error *err) {
+    struct picture higher;
+    if (picture->height >= height) return true;
+    if (!picture_init(&higher, picture->width, height, COLOR_BACKGROUND, err)) return false;
+    picture_paste(&higher, picture, 0, 0);
+    picture_finish(picture);
+    *picture = higher;
+    return true;
+}
+
+bool diff_write_flicker(const char *path, struct diff *diff, struct glint_error *err) {
+    enum { TURN_MS = 500 };
+    struct diff_drawing d = {0};
+    const struct diff_pair *pair = most_telling(diff, err);
+    bool ok = pair && diff_draw(diff, pair, &d, err);
+    for (int k = 0; ok && k < 2; k++) ok = legend_add(&d.pictures[k], &d.legends[k], err);
+    for (int k = 0; ok && k < 2; k++) ok = pad(&d.pictures[k], d.pictures[1 - k].height, err);
+    ok = ok && png_file_animate(path, d.pictures, 2, TURN_MS, err);
+    diff_drawing_finish(&d);
     return ok;
 }

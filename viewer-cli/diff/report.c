@@ -10,10 +10,10 @@
 
 enum { PLACES = 16 };
 
-static const char *const words[] = {"same", "warning", "FAILS", "other size"};
+const char *const diff_words[] = {"same", "warning", "FAILS", "other size"};
 
-/* The channel where the difference is largest: those of floats come first, then those of whole numbers. */
-static const char *channel_of(const struct diff_pair *pair) {
+/* Channels of floats are counted first, then those of whole numbers. */
+const char *diff_channel(const struct diff_pair *pair) {
     size_t left = pair->difference.channel;
     for (int integers = 0; integers < 2; integers++)
         for (size_t i = 0; i < pair->a->channel_count; i++) {
@@ -53,12 +53,12 @@ static json_t *pair_json(const struct diff_pair *pair) {
     const struct diff_image *image = diff_pair_image(pair);
     const struct glint_difference *d = &pair->difference;
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i}", "name", image->name, "slot", image->slot, "unit", image->unit,
-                             "verdict", words[pair->status], "status", (int)pair->status);
+                             "verdict", diff_words[pair->status], "status", (int)pair->status);
     if (pair->note[0]) json_object_set_new(json, "note", json_string(pair->note));
     if (!d->marks) return json;
     json_t *largest = json_pack(
         "{s:o, s:i, s:i, s:s, s:o, s:o}", "by", isinf(d->largest) ? json_string("infinite") : json_real(d->largest),
-        "x", (int)d->x, "y", (int)d->y, "channel", channel_of(pair), "a", json_number(d->a), "b", json_number(d->b));
+        "x", (int)d->x, "y", (int)d->y, "channel", diff_channel(pair), "a", json_number(d->a), "b", json_number(d->b));
     json_object_set_new(json, "width", json_integer(image->width));
     json_object_set_new(json, "height", json_integer(image->height));
     json_object_set_new(json, "pixels", json_integer((json_int_t)d->pixels));
@@ -117,7 +117,7 @@ static void pair_row(struct table *t, const struct diff_pair *pair, bool runs) {
     const struct glint_difference *d = &pair->difference;
     if (runs) table_cell(t, "%s", image->slot);
     table_cell(t, "%s", image->name[0] ? image->name : "–");
-    table_cell(t, "%s", words[pair->status]);
+    table_cell(t, "%s", diff_words[pair->status]);
     if (!d->marks) {
         for (int i = 0; i < 4; i++) table_cell(t, "–");
         table_cell(t, "%s", pair->note);
@@ -128,7 +128,7 @@ static void pair_row(struct table *t, const struct diff_pair *pair, bool runs) {
     table_cell(t, "%s", number_text(d->rms));
     table_cell(t, "%s", number_text(d->largest));
     if (d->largest > 0)
-        table_cell(t, "%u,%u %s: %s, %s%s%s", d->x, d->y, channel_of(pair), number_text(d->a), number_text(d->b),
+        table_cell(t, "%u,%u %s: %s, %s%s%s", d->x, d->y, diff_channel(pair), number_text(d->a), number_text(d->b),
                    pair->note[0] ? "; " : "", pair->note);
     else table_cell(t, "%s", pair->note);
 }

@@ -119,6 +119,7 @@ static char *html(const json_t *document) {
     fputs("</script>\n", out);
     put_script(out, blob_echarts, blob_echarts_end);
     put_script(out, blob_chart, blob_chart_end);
+    put_script(out, blob_stage, blob_stage_end);
     put_script(out, blob_page, blob_page_end);
     fputs("</body>\n</html>\n", out);
     ok = ok && !ferror(out);

@@ -10,10 +10,17 @@
                                              bar: numbers also as bars in their cells
      {"pictures": [PICTURE, …], "columns": N}
                                              N in a row (default: as fit); one enlarged flips to the next in place
+     {"stage": {"title": T, "pictures": [SHOWN, …]}}
+                                             pictures over each other: a slider between two, both beside each other or in
+                                             turns, one alone, and the values under the pointer
      {"chart": CHART}
+   A document's "refresh", in seconds: the page loads itself again, as long as nobody is working with it.
    CELL: text, number, boolean, null (not known), or {"value": number, "low": L, "high": H, "text": T}: with an interval, or
    shown as T and sorted by value.
    PICTURE: {"file": F, "caption": T}. F: a PNG in the document's folder, or what page_picture gave.
+   SHOWN: a PICTURE with "values": VALUES, or none; "alone": BOOL, it is not one of those that are compared (a heat map).
+   VALUES: {"channels": [T, …], "unit": T, "width": PX, "height": PX, "every": N, "data": what page_values gave}
+                                             every N-th pixel's, where more would be too much
    CHART:
      {"title": T, "x": AXIS, "y": AXIS, "series": [SERIES, …], "marks": [MARK, …], "width": PX, "height": PX}
    AXIS: {"name": T, "unit": T, "scale": "linear" (default), "log" or "category", "min": A, "max": B, "ticks": [number, …],
@@ -35,12 +42,15 @@
 #include <jansson.h>
 
 #include "view/picture.h"
+#include "view/source.h"
 
 /* ---- Writing; files appear complete or not at all ---- */
 
 /* PAGE_PICTURE_BYTES for all pictures of a page together: each keeps its PNG if that fits its share, else it becomes a
    JPEG and then a smaller one. */
 enum { PAGE_PICTURE_BYTES = 14000000 };
+
+enum { PAGE_VALUE_BYTES = 16000000 }; /* for the values of all pixels of a page */
 
 /* The document as HTML. Pictures' files are looked for below `folder`, never outside of it; NULL: there are none. One that
    cannot be read is an error. */
@@ -73,5 +83,9 @@ json_t *page_interval(double value, double low, double high);
 json_t *page_picture(const struct picture *picture, size_t bytes, struct glint_error *err);
 /* The same of a PNG or JPEG file's bytes, which errors call `name`. */
 json_t *page_picture_file(const char *name, uint8_t *file, size_t size, size_t bytes, struct glint_error *err);
+/* VALUES of a source, no longer than `bytes` if keeping one pixel of 64 × 64 comes to that. */
+json_t *page_values(const struct source *source, size_t bytes);
+/* A new stage's pictures, borrowed. */
+json_t *page_stage(json_t *blocks, const char *title);
 
 #endif

@@ -311,6 +311,7 @@
         code: b => element('pre', {tabindex: 0}, b.code),
         table: b => tableElement(b.table),
         pictures: picturesElement,
+        stage: b => glintStage.stage(b.stage, {element, list, sourceOf}),
         chart: b => chartElement(b.chart),
     };
 
@@ -331,10 +332,10 @@
     }
 
     const toggle = element('button', {type: 'button', id: 'look', click: () => setLook(document.documentElement.dataset.look === 'dark' ? 'light' : 'dark')});
+    document.title = glintChart.text(page.title);
     const parts = list(page.sections).filter(s => s && typeof s === 'object');
     const sections = parts.map((s, i) => element('section', {id: `s${i}`}, s.title ? element('h2', null, s.title) : null,
         ...list(s.blocks).map(blockElement)));
-    document.title = glintChart.text(page.title);
     document.body.replaceChildren(
         element('header', null, toggle, element('h1', null, page.title), terms(list(page.facts), null),
             sections.length > 2 ? element('nav', {'aria-label': 'sections'}, ...parts.map((s, i) => element('a', {href: `#s${i}`}, s.title))) : null),
@@ -343,5 +344,6 @@
     setLook(dark.matches ? 'dark' : 'light');
     dark.addEventListener('change', () => setLook(dark.matches ? 'dark' : 'light'));
     addEventListener('resize', () => charts.forEach(c => c.draw()));
+    if (page.refresh > 0) glintStage.refresh(page.refresh);
     document.documentElement.dataset.ready = 'yes';
 })();

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "image.h"
+#include "page/base64.h"
 #include "page/page.h"
 
 struct bytes {
@@ -66,22 +67,9 @@ static bool encode_jpeg(const struct picture *p, int quality, struct bytes *out)
 }
 
 static json_t *data_uri(const char *type, const struct bytes *bytes) {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    char *uri = malloc(64 + (bytes->size + 2) / 3 * 4);
-    if (!uri) return NULL;
-    char *to = uri + sprintf(uri, "data:image/%s;base64,", type);
-    for (unsigned long i = 0; i < bytes->size; i += 3) {
-        unsigned long left = bytes->size - i;
-        uint32_t v = (uint32_t)bytes->data[i] << 16 | (uint32_t)(left > 1 ? bytes->data[i + 1] : 0) << 8 |
-                     (uint32_t)(left > 2 ? bytes->data[i + 2] : 0);
-        *to++ = digits[v >> 18];
-        *to++ = digits[v >> 12 & 63];
-        *to++ = left > 1 ? digits[v >> 6 & 63] : '=';
-        *to++ = left > 2 ? digits[v & 63] : '=';
-    }
-    json_t *json = json_stringn(uri, (size_t)(to - uri));
-    free(uri);
-    return json;
+    char before[32];
+    snprintf(before, sizeof before, "data:image/%s;base64,", type);
+    return base64_json(before, bytes->data, bytes->size);
 }
 
 /* Coarser, then halved, until it fits; what is a few pixels wide is taken as it is. */

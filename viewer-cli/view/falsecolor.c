@@ -172,8 +172,8 @@ static enum kind plain_kind(enum kind kind, const struct source *s, struct false
     return kind == KIND_DEPTH || kind == KIND_STEPS || kind == KIND_WEIGHT ? KIND_DISTANCE : kind;
 }
 
-static bool prepare(struct legend *l, const struct source *s, enum kind kind, const struct falsecolor_options *given,
-                    struct glint_error *err) {
+bool falsecolor_prepare(struct legend *l, const struct source *s, enum kind kind,
+                        const struct falsecolor_options *given, struct glint_error *err) {
     struct falsecolor_options of_kind = *given, *options = &of_kind;
     kind = plain_kind(kind, s, options);
     bool has_unit = *s->unit && strcmp(s->unit, "1") != 0 && kind == KIND_DISTANCE;
@@ -192,7 +192,7 @@ static bool prepare(struct legend *l, const struct source *s, enum kind kind, co
 
 bool falsecolor_draw(struct picture *picture, struct legend *legend, const struct source *source, enum kind kind,
                      const struct falsecolor_options *options, struct glint_error *err) {
-    if (!prepare(legend, source, kind, options, err)) return false;
+    if (!falsecolor_prepare(legend, source, kind, options, err)) return false;
     if (!picture_init(picture, source->width, source->height, COLOR_BACKGROUND, err)) return false;
     size_t texels = (size_t)source->width * source->height;
     for (size_t i = 0; i < texels; i++)

@@ -46,8 +46,13 @@ struct legend {
 /* Every kind but KIND_COLOR. Without a range, percentiles of the finite values. */
 bool falsecolor_draw(struct picture *picture, struct legend *legend, const struct source *source, enum kind kind,
                      const struct falsecolor_options *options, struct glint_error *err);
+/* Its legend alone: the range, and whether it is logarithmic. */
+bool falsecolor_prepare(struct legend *legend, const struct source *source, enum kind kind,
+                        const struct falsecolor_options *options, struct glint_error *err);
 /* A colour image's name, and nothing else. */
 struct legend legend_of_color(const struct source *source);
+/* Puts "LABEL: " before its title; the label ends at a slash. */
+void legend_label(struct legend *legend, const char *label);
 /* Adds the legend below the picture. */
 bool legend_add(struct picture *picture, const struct legend *legend, struct glint_error *err);
 

@@ -16,6 +16,13 @@ static const char *const reasons[] = {
 #undef REASON
 };
 
+void legend_label(struct legend *legend, const char *label) {
+    char title[sizeof legend->title];
+    const size_t length = strcspn(label, "/");
+    snprintf(title, sizeof title, "%.*s: %.250s", (int)(length < 140 ? length : 140), label, legend->title);
+    memcpy(legend->title, title, sizeof title);
+}
+
 /* "left screen" of left_screen: short enough for a narrow picture. */
 static void reason_label(uint32_t reason, char label[64]) {
     snprintf(label, 64, "%s", reasons[reason]);

@@ -20,6 +20,9 @@ struct render_options {
 /* Without zoom and legend. *invalid receives how many pixels of a colour image are NaN or infinite. */
 bool render_plain(struct picture *picture, struct legend *legend, const struct source *source,
                   const struct render_options *options, size_t *invalid, struct glint_error *err);
+/* Widens `range` to hold what this source alone would be shown over; begin with +inf, -inf. Kinds without a range leave it. */
+bool render_range(const struct source *source, const struct render_options *options, double range[2],
+                  struct glint_error *err);
 /* With them; colour explains itself and gets no legend. */
 bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
             struct glint_error *err);

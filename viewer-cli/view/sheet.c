@@ -15,7 +15,7 @@ struct cell {
     bool named; /* the legend names the run */
 };
 
-static const char *last_name(const char *path) {
+const char *sheet_name(const char *path) {
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/') length--;
     const char *name = path;
@@ -29,28 +29,27 @@ static bool open_cell(struct source *source, const struct cell *cell, struct gli
     return source_open(source, &choice, err);
 }
 
+bool sheet_fit(struct picture *picture, const struct legend *legend, struct glint_error *err) {
+    const bool categories = legend->kind == KIND_INDEX || legend->kind == KIND_REASON;
+    const uint32_t wide = CELL_PX / picture->width, high = CELL_HEIGHT_PX / picture->height;
+    return picture_shrink(picture, (picture->width + CELL_PX - 1) / CELL_PX, !categories, err) &&
+           picture_zoom(picture, wide < high ? wide : high, err) && legend_add(picture, legend, err);
+}
+
 bool sheet_cell(struct picture *picture, const struct source *source, const char *run,
                 const struct render_options *options, struct glint_error *err) {
     struct legend legend;
-    char title[sizeof legend.title];
     size_t invalid;
     if (!render_plain(picture, &legend, source, options, &invalid, err)) return false;
-    if (run) {
-        size_t length = strcspn(run, "/");
-        snprintf(title, sizeof title, "%.*s: %.250s", (int)(length < 140 ? length : 140), run, legend.title);
-        memcpy(legend.title, title, sizeof title);
-    }
-    bool categories = legend.kind == KIND_INDEX || legend.kind == KIND_REASON;
-    uint32_t wide = CELL_PX / picture->width, high = CELL_HEIGHT_PX / picture->height;
-    return picture_shrink(picture, (picture->width + CELL_PX - 1) / CELL_PX, !categories, err) &&
-           picture_zoom(picture, wide < high ? wide : high, err) && legend_add(picture, &legend, err);
+    if (run) legend_label(&legend, run);
+    return sheet_fit(picture, &legend, err);
 }
 
 static bool draw_cell(struct picture *picture, const struct cell *cell, const struct render_options *options,
                       struct glint_error *err) {
     struct source source;
     if (!open_cell(&source, cell, err)) return false;
-    bool ok = sheet_cell(picture, &source, cell->named ? last_name(cell->run) : NULL, options, err);
+    bool ok = sheet_cell(picture, &source, cell->named ? sheet_name(cell->run) : NULL, options, err);
     source_finish(&source);
     return ok;
 }
@@ -66,25 +65,18 @@ static bool run_has(const char *path, const char *image, bool *has, struct glint
 /* The range that holds all of a row's, so that equal colours mean equal values. */
 static bool common_range(const struct cell *cells, const bool *there, uint32_t columns, struct render_options *options,
                          struct glint_error *err) {
-    double low = INFINITY, high = -INFINITY;
+    double range[2] = {INFINITY, -INFINITY};
     for (uint32_t i = 0; i < columns; i++) {
-        struct picture picture = {0};
         struct source source;
-        struct legend legend;
-        size_t invalid;
         if (!there[i]) continue;
         if (!open_cell(&source, &cells[i], err)) return false;
-        bool ok = render_plain(&picture, &legend, &source, options, &invalid, err);
+        const bool ok = render_range(&source, options, range, err);
         source_finish(&source);
-        picture_finish(&picture);
         if (!ok) return false;
-        if (legend.kind != KIND_DISTANCE) return true;
-        low = fmin(low, legend.low);
-        high = fmax(high, legend.high);
     }
-    options->falsecolor.range_given = low < high;
-    options->falsecolor.low = low;
-    options->falsecolor.high = high;
+    options->falsecolor.range_given = range[0] < range[1];
+    options->falsecolor.low = range[0];
+    options->falsecolor.high = range[1];
     return true;
 }
 

@@ -16,8 +16,11 @@ bool sheet_lay_out(struct picture *picture, const struct sheet *sheet, struct gl
 bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const char *const *images,
                 const struct render_options *options, struct glint_error *err);
 
-/* One image at the sheet's width, with its legend, which names `run` unless it is NULL. Colours are averaged; categories
-   must not be mixed. */
+/* A path from its last name on. */
+const char *sheet_name(const char *path);
+/* A finished picture at the sheet's width, with its legend. Colours are averaged; categories must not be mixed. */
+bool sheet_fit(struct picture *picture, const struct legend *legend, struct glint_error *err);
+/* One image at the sheet's width, with its legend, which names `run` unless it is NULL. */
 bool sheet_cell(struct picture *picture, const struct source *source, const char *run,
                 const struct render_options *options, struct glint_error *err);
 

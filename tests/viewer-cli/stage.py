@@ -1,0 +1,215 @@
+"""Pages of glint diff in headless Chromium: slider, flicker, heat map, values; side-by-side and animated PNG. stage.py GLINT CHROMIUM.
+Speaks TAP."""
+import json
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+import tap
+from browser import Browser
+
+GLINT, CHROMIUM = sys.argv[1:]
+SIZE = (48, 27)
+STAGE = "[...document.querySelectorAll('.stage')].at(-1)"  # of the finished picture
+FRAME = STAGE + ".querySelector('.frame')"
+
+
+def glint(*words, status=0):
+    run = subprocess.run([GLINT, *words], capture_output=True, text=True)
+    assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr)
+    return run.stdout
+
+
+def texels(path):
+    """Rows of pixels of a PNG."""
+    text = subprocess.run(["oiiotool", "--dumpdata", path], capture_output=True, text=True).stdout
+    width = int(re.search(r": +(\d+) x", text).group(1))
+    pixels = [tuple(map(int, row.split()[:3])) for row in re.findall(r"Pixel[^:]*: ([ \d]+)", text)]
+    return [pixels[i : i + width] for i in range(0, len(pixels), width)]
+
+
+class Tests:
+    def __init__(self, folder, browser):
+        self.folder, self.browser = folder, browser
+        capture = self.path("room.exr")
+        glint("sample", "room", "-o", capture, f"--size={SIZE[0]}x{SIZE[1]}", "--cube-size=16")
+        glint("replay", capture, "-o", self.path("one"))
+        glint("replay", capture, "-o", self.path("two"), "--set=cubemap_trace.steps_hq=3", "--set=resolve.fog=false")
+        self.page = self.path("page.html")
+        self.told = json.loads(glint("diff", self.path("one"), self.path("two"), "--json", "--html", self.page, status=2))
+        self.composed = next(i for i in self.told["images"] if i["name"] == "composed")
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def show(self):
+        self.browser.show(self.page)
+        self.ask("sessionStorage.clear()")
+        self.browser.show(self.page)
+        self.ask(STAGE + ".scrollIntoView()")
+
+    def ask(self, expression):
+        return self.browser.evaluate(expression)
+
+    def press(self, text):
+        self.ask(f"[...{STAGE}.querySelectorAll('.bar button')].find(b => b.textContent === '{text}').click()")
+        self.browser.settle()
+
+    def at(self, x, y, width=SIZE[0]):
+        """Where a pixel of the finished picture is in the window."""
+        left, top, wide, high = self.ask(f"(r => [r.x, r.y, r.width, r.height])({FRAME}.getBoundingClientRect())")
+        return left + (x + 0.5) / width * wide, top + (y + 0.5) / SIZE[1] * high
+
+    def readout(self):
+        """{caption: [value, …]}, and the pixel that it is of."""
+        self.ask(f"new Promise(done => {{ const wait = () => {STAGE}.querySelector('.readout table') ? done() : setTimeout(wait, 10); wait(); }})")
+        rows = self.ask(f"[...{STAGE}.querySelectorAll('.readout tr')].map(r => [...r.cells].map(c => c.textContent))")
+        number = lambda t: float(t.replace("\u2212", "-").replace("\u221e", "inf"))
+        return {row[0]: [number(v) for v in row[1:-1]] for row in rows[1:]}, rows[0]
+
+    def test_the_table_lists_what_differs_in_the_order_of_the_passes(self):
+        self.show()
+        rows = self.ask("[...[...document.querySelectorAll('section')].find(s => s.querySelector('h2')?.textContent.startsWith('What differs')).querySelectorAll('tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+        expected = [(i["slot"], i["name"]) for i in self.told["images"] if i["status"] or i.get("differing")]
+        assert [(r[1], r[2]) for r in rows] == expected and 3 < len(rows) < len(self.told["images"]), rows
+        facts = self.ask("document.querySelector('header dl').textContent")
+        assert f"{self.told['first']['slot']}: {self.told['first']['image']}" in facts, facts
+        settings = self.ask("document.querySelector('main table').textContent")
+        assert "cubemap_trace.steps_hq" in settings and "resolve.fog" in settings, settings
+        self.browser.quiet()
+
+    def test_a_click_on_a_head_sorts(self):
+        self.show()
+        heads = "[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent.startsWith('What differs'))"
+        column = f"[...{heads}.querySelectorAll('tbody tr')].map(r => +r.cells[5].textContent.replace(/\\D/g, ''))"
+        self.ask(f"{heads}.querySelectorAll('th button')[5].click()")
+        values = self.ask(column)
+        assert values == sorted(values) and len(set(values)) > 1, values
+        self.ask(f"{heads}.querySelectorAll('th button')[5].click()")
+        assert self.ask(column) == values[::-1] or self.ask(column) == sorted(values, reverse=True)
+
+    def test_the_slider_cuts_the_second_picture_by_pointer_and_by_keys(self):
+        self.show()
+        cut = lambda: float(re.search(r"([\d.]+)%\)", self.ask(f"{FRAME}.querySelectorAll('img')[1].style.clipPath")).group(1))
+        assert cut() == 50
+        self.browser.click(*self.at(SIZE[0] / 4 - 0.5, 10))
+        assert abs(cut() - 25) < 0.5, cut()
+        self.ask(STAGE + ".querySelector('input[type=range]').focus()")
+        self.browser.key("ArrowRight", 39)
+        assert 25 < cut() < 26, cut()
+        # what is drawn left and right of the line are the pixels of the one and of the other
+        sources = self.ask(f"[...{FRAME}.querySelectorAll('img')].map(i => [i.src.length, i.naturalWidth, i.hidden])")
+        assert all(not hidden and width == SIZE[0] for _, width, hidden in sources), sources
+        assert self.ask(f"{FRAME}.querySelectorAll('img')[0].src !== {FRAME}.querySelectorAll('img')[1].src")
+        self.browser.quiet()
+
+    def test_the_values_under_the_pointer_are_those_of_the_images(self):
+        self.show()
+        most = self.composed["largest"]
+        self.browser.point_at(*self.at(most["x"], most["y"]))
+        values, heads = self.readout()
+        assert heads[0] == f"{most['x']},{most['y']}" and heads[1:5] == ["R", "G", "B", "A"], heads
+        k = heads.index(most["channel"]) - 1
+        for caption, expected in (("one", most["a"]), ("two", most["b"]), ("two \u2212 one", most["b"] - most["a"])):
+            assert abs(values[caption][k] - expected) <= 6e-6 * max(abs(most["a"]), abs(most["b"])), (caption, values, most)
+
+    def test_keys_go_from_pixel_to_pixel(self):
+        self.show()
+        self.ask(FRAME + ".focus()")
+        self.browser.key("ArrowRight", 39)
+        _, before = self.readout()
+        self.browser.key("ArrowDown", 40)
+        self.browser.settle()
+        _, after = self.readout()
+        x, y = map(int, before[0].split(","))
+        assert after[0] == f"{x},{y + 1}" and not self.ask(FRAME + ".querySelector('.cross').hidden"), (before, after)
+
+    def test_flicker_shows_one_and_then_the_other(self):
+        self.show()
+        self.press("Flicker")
+        hidden = f"{FRAME}.querySelectorAll('img')[1].style.visibility"
+        seen = self.ask(f"new Promise(done => {{ const seen = []; const look = () => {{ seen.push({hidden}); seen.length < 30 ? setTimeout(look, 50) : done(seen); }}; look(); }})")
+        assert {"hidden", ""} == set(seen), seen
+        self.browser.quiet()
+
+    def test_one_picture_alone_the_heat_map_and_both_beside_each_other(self):
+        self.show()
+        visible = f"[...{FRAME}.querySelectorAll('img')].filter(i => !i.hidden).map(i => i.alt)"
+        self.press("one")
+        assert self.ask(visible) == ["one"]
+        self.press("difference")
+        assert self.ask(visible) == ["difference"]
+        self.press("Side by side")
+        assert self.ask(visible) == ["one", "two"]
+        lefts = self.ask(f"[...{FRAME}.querySelectorAll('img')].map(i => i.getBoundingClientRect().x)")
+        assert lefts[1] > lefts[0] + 100, lefts
+        self.browser.point_at(*self.at(SIZE[0] + 7, 9, 2 * SIZE[0]))
+        assert self.readout()[1][0] == "7,9"
+        self.browser.quiet()
+
+    def test_the_histogram_s_shares_sum_to_one(self):
+        self.show()
+        shares = self.ask("[...[...document.querySelectorAll('main > section')].at(-1).querySelectorAll('details tbody tr')].map(r => +r.cells[r.cells.length - 1].textContent)")
+        assert len(shares) > 1 and abs(sum(shares) - 100) < 0.05 * len(shares), shares
+
+    def test_dark_and_light(self):
+        for dark, ground in ((True, "rgb(22, 24, 29)"), (False, "rgb(255, 255, 255)")):
+            self.browser.look(dark=dark)
+            self.show()
+            assert self.ask("getComputedStyle(document.body).backgroundColor") == ground
+        self.browser.quiet()
+
+    def test_two_files_make_a_page_too(self):
+        for name, what in (("a.exr", "1,0.5,0"), ("b.exr", "1,0.5,0.25")):
+            subprocess.run(["oiiotool", "--create", "12x8", "3", f"--fill:color={what}", "12x8", "-d", "float", "-o", self.path(name)], check=True)
+        out = self.path("files.html")
+        glint("diff", self.path("a.exr"), self.path("b.exr"), "--html", out, status=2)
+        self.browser.show(out)
+        self.browser.point_at(*self.ask("(r => [r.x + r.width / 3, r.y + r.height / 3])(document.querySelector('.frame').getBoundingClientRect())"))
+        values, heads = self.readout()
+        assert heads[0] == "4,2" and values == {"a.exr": [1, 0.5, 0], "b.exr": [1, 0.5, 0.25], "b.exr \u2212 a.exr": [0, 0, 0.25]}, (heads, values)
+        # a page of the same twice has nothing to list, and shows it
+        glint("diff", self.path("a.exr"), self.path("a.exr"), "--html", out)
+        self.browser.show(out)
+        assert self.ask("document.querySelectorAll('.stage').length") == 1 and "1 of 1 images are equal" in self.ask("document.body.textContent")
+        self.browser.quiet()
+
+    def test_the_animated_png_holds_both_pictures(self):
+        beside, flicker = self.path("beside.png"), self.path("flicker.png")
+        pair = (self.path("one:composed"), self.path("two:composed"))
+        glint("diff", "-q", *pair, "--side-by-side", beside, "--flicker", flicker, status=2)
+        with open(flicker, "rb") as file:
+            data = file.read()
+        chunks, at = [], 8
+        while at < len(data):
+            (length,) = struct.unpack_from(">I", data, at)
+            chunks.append((data[at + 4 : at + 8], data[at + 8 : at + 8 + length]))
+            assert zlib.crc32(data[at + 4 : at + 8 + length]) == struct.unpack_from(">I", data, at + 8 + length)[0]
+            at += 12 + length
+        kinds = [kind for kind, _ in chunks]
+        assert kinds.index(b"acTL") < kinds.index(b"fcTL") < kinds.index(b"IDAT") and kinds[-3:] == [b"fcTL", b"fdAT", b"IEND"], kinds
+        assert dict(chunks)[b"acTL"] == struct.pack(">II", 2, 0)
+        sequence = [struct.unpack(">I", body[:4])[0] for kind, body in chunks if kind in (b"fcTL", b"fdAT")]
+        assert sequence == [0, 1, 2], sequence
+        width, height = struct.unpack_from(">II", dict(chunks)[b"IHDR"])
+        rows = zlib.decompress(dict(chunks)[b"fdAT"][4:])
+        assert len(rows) == height * (1 + 3 * width) and not any(rows[:: 1 + 3 * width])
+        second = [[tuple(rows[y * (1 + 3 * width) + 1 + 3 * x :][:3]) for x in range(width)] for y in range(height)]
+        first, both = texels(flicker), texels(beside)
+        assert len(first) == height and first != second
+        assert all(both[y][:width] == first[y] and both[y][width + 12 : 2 * width + 12] == second[y] for y in range(height))
+
+
+def main():
+    if not CHROMIUM:
+        print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
+        return 1
+    with tempfile.TemporaryDirectory(prefix="glint-stage-") as folder, Browser(CHROMIUM) as browser:
+        return tap.run(Tests(folder, browser))
+
+
+sys.exit(main())

@@ -1,0 +1,154 @@
+/* A run becomes the baseline, all at once. */
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "check/check.h"
+#include "glint/replay.h"
+
+enum { PATH_SIZE = 4096 };
+
+static bool fail_at(const char *path, struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+}
+
+static bool join(char path[PATH_SIZE], const char *folder, const char *name, struct glint_error *err) {
+    return snprintf(path, PATH_SIZE, "%s%s", folder, name) < PATH_SIZE ||
+           glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+}
+
+/* {FILE: true} of a run, run.json among them; NULL with an error. */
+static json_t *files_of(const char *folder, struct glint_error *err) {
+    struct glint_run *run = glint_run_open(folder, err); /* which checks the names */
+    json_t *root = run ? json_loads(glint_run_json(run), 0, NULL) : NULL, *files = json_object(), *pass, *image;
+    size_t p, i;
+    json_object_set_new(files, "run.json", json_true());
+    json_array_foreach(json_object_get(root, "passes"), p, pass)
+        json_array_foreach(json_object_get(pass, "images"), i, image)
+            json_object_set_new(files, json_string_value(json_object_get(image, "file")), json_true());
+    if (run && !root) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
+    if (!root) {
+        json_decref(files);
+        files = NULL;
+    }
+    json_decref(root);
+    glint_run_close(&run);
+    return files;
+}
+
+static bool copy_file(const char *from, const char *to, struct glint_error *err) {
+    static const size_t size = 1 << 20;
+    const int in = open(from, O_RDONLY | O_CLOEXEC),
+              out = in < 0 ? -1 : open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    char *block = malloc(size);
+    bool ok = block || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok && (in < 0 || out < 0)) ok = fail_at(in < 0 ? from : to, err);
+    for (ssize_t count = 1; ok && count > 0;) {
+        count = read(in, block, size);
+        if (count < 0) ok = fail_at(from, err);
+        else if (count > 0 && write(out, block, (size_t)count) != count) ok = fail_at(to, err);
+    }
+    if (ok && fsync(out) != 0) ok = fail_at(to, err);
+    if (out >= 0 && close(out) != 0 && ok) ok = fail_at(to, err);
+    if (in >= 0) close(in);
+    free(block);
+    return ok;
+}
+
+static bool copy_run(const char *from, const char *to, const json_t *files, struct glint_error *err) {
+    const char *name;
+    json_t *value;
+    bool ok = glint_make_folder(to, err);
+    json_object_foreach((json_t *)files, name, value) {
+        char source[PATH_SIZE], copy[PATH_SIZE], file[300];
+        snprintf(file, sizeof file, "/%.290s", name);
+        ok = ok && join(source, from, file, err) && join(copy, to, file, err) && copy_file(source, copy, err);
+    }
+    return ok;
+}
+
+/* What a folder holds beside a run's files would be lost with it. */
+static bool holds_only(const char *folder, const json_t *files, struct glint_error *err) {
+    DIR *directory = opendir(folder);
+    if (!directory) return fail_at(folder, err);
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(directory)) != NULL;)
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
+            !json_object_get(files, entry->d_name))
+            ok = glint_fail(err, GLINT_ERROR_USAGE,
+                            "%s: %s is no file of this run, and approving would move it away: put it elsewhere", folder,
+                            entry->d_name);
+    closedir(directory);
+    return ok;
+}
+
+/* A folder that holds these files at most. */
+static void remove_files(const char *folder, const json_t *files) {
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)files, name, value) {
+        char path[PATH_SIZE];
+        if (snprintf(path, sizeof path, "%s/%s", folder, name) < PATH_SIZE) unlink(path);
+    }
+    rmdir(folder);
+}
+
+/* Removes what was kept before. */
+static bool clear_kept(const char *kept, struct glint_error *err) {
+    if (access(kept, F_OK) != 0) return true;
+    json_t *files = files_of(kept, err);
+    const bool ok = files && holds_only(kept, files, err);
+    if (ok) remove_files(kept, files);
+    json_decref(files);
+    return ok;
+}
+
+/* The new folder takes the old one's name, which becomes `kept`. Where a file system cannot exchange two names, there is a
+   moment in which neither has it, and both are there. */
+static bool exchange(const char *fresh, const char *baseline, const char *kept, struct glint_error *err) {
+    const bool swapped = renameat2(AT_FDCWD, fresh, AT_FDCWD, baseline, RENAME_EXCHANGE) == 0;
+    if (!swapped && errno != EINVAL && errno != ENOSYS) return fail_at(baseline, err);
+    if (rename(swapped ? fresh : baseline, kept) != 0) {
+        fail_at(kept, err);
+        if (swapped) renameat2(AT_FDCWD, fresh, AT_FDCWD, baseline, RENAME_EXCHANGE);
+        return false;
+    }
+    if (swapped || rename(fresh, baseline) == 0) return true;
+    fail_at(baseline, err);
+    return rename(kept, baseline), false;
+}
+
+static bool replace(const char *fresh, const char *baseline, struct glint_error *err) {
+    char kept[PATH_SIZE];
+    if (access(baseline, F_OK) != 0 || rmdir(baseline) == 0)
+        return rename(fresh, baseline) == 0 || fail_at(baseline, err);
+    json_t *files = files_of(baseline, err);
+    const bool ok = files && holds_only(baseline, files, err) && join(kept, baseline, "~", err) &&
+                    clear_kept(kept, err) && exchange(fresh, baseline, kept, err);
+    json_decref(files);
+    return ok;
+}
+
+bool check_approve(const char *run, const char *baseline, struct glint_error *err) {
+    char path[PATH_SIZE], fresh[PATH_SIZE], suffix[32];
+    size_t length = strlen(baseline);
+    while (length > 1 && baseline[length - 1] == '/') length--;
+    snprintf(path, sizeof path, "%.*s", (int)length, baseline);
+    snprintf(suffix, sizeof suffix, ".tmp-%ld", (long)getpid());
+    struct stat from, to;
+    if (length >= sizeof path || !join(fresh, path, suffix, err))
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", baseline);
+    if (stat(run, &from) == 0 && stat(path, &to) == 0 && from.st_dev == to.st_dev && from.st_ino == to.st_ino)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: run and baseline are one folder", run);
+    json_t *files = files_of(run, err);
+    const bool ok = files && copy_run(run, fresh, files, err) && replace(fresh, path, err);
+    if (!ok && files) remove_files(fresh, files);
+    json_decref(files);
+    return ok;
+}

@@ -1,0 +1,178 @@
+/* glint check: whether runs are still what was approved. */
+#include <string.h>
+
+#include "check/check.h"
+#include "diff/options.h"
+
+struct arguments {
+    const char *run, *baseline;
+    bool approve;
+    struct diff_args diff;
+};
+
+enum { KEY_BASELINE = KEY_AFTER_DIFF, KEY_APPROVE };
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"baseline", KEY_BASELINE, "DIR", 0, "The run that was approved; of a folder of runs, the folder of theirs", 0},
+    {"approve",  KEY_APPROVE,  NULL,  0, "Say what changed, and make RUN the baseline; the one before is kept as DIR~", 0},
+    DIFF_OPTIONS,
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint check run --baseline approved --approve", "what later runs are compared with"},
+    {"glint check run --baseline approved", "exit 0 the same, 1 warning, 2 failure, as glint diff"},
+    {"glint check run --baseline approved -fail 0.004 -failpercent 0.1 --html changed.html",
+     "another driver: tolerances, and a page of what changed"},
+    {"glint check runs --baseline approved", "every run of a folder, as glint replay shots/*.exr -o runs made them"},
+    {0},
+};
+
+extern const struct command cmd_check;
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case KEY_BASELINE:
+        a->baseline = arg;
+        return 0;
+    case KEY_APPROVE:
+        a->approve = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->run) argp_error(state, "one run, or a folder of them; %s is the second", arg);
+        a->run = arg;
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->run) argp_error(state, "which run?");
+        if (!a->baseline) argp_error(state, "against what? --baseline DIR");
+        return 0;
+    }
+    return diff_args_parse(key, arg, state, &a->diff);
+}
+
+/* ---- One run ---- */
+
+struct counts {
+    size_t changed, added, gone;
+};
+
+static struct counts count(const struct diff *diff) {
+    struct counts counts = {0};
+    for (size_t i = 0; i < diff->count; i++) {
+        const struct diff_pair *pair = &diff->pairs[i];
+        counts.added += !pair->a;
+        counts.gone += !pair->b;
+        counts.changed += pair->a && pair->b && (pair->status != DIFF_SAME || pair->difference.differing);
+    }
+    return counts;
+}
+
+static void say_approved(const struct arguments *a, const struct check_pair *pair, const struct counts *counts,
+                         json_t *json) {
+    if (json)
+        json_object_set_new(json, "approved",
+                            json_pack("{s:I, s:I, s:I}", "changed", (json_int_t)counts->changed, "new",
+                                      (json_int_t)counts->added, "gone", (json_int_t)counts->gone));
+    else if (!a->diff.quiet && pair->has_baseline)
+        printf("approved: images that changed: %zu, new: %zu, gone: %zu; the baseline before is %s~\n", counts->changed,
+               counts->added, counts->gone, pair->baseline);
+    else if (!a->diff.quiet) printf("approved: a new baseline, %s\n", pair->baseline);
+}
+
+/* What both have, compared, and approved when that is asked for. */
+static bool check_both(const struct arguments *a, const struct check_pair *pair, json_t *list, enum diff_status *status,
+                       struct glint_error *err) {
+    const char *const paths[2] = {pair->baseline, pair->run};
+    struct diff diff;
+    bool ok = diff_args_compare(&a->diff, paths, &diff, err);
+    json_t *json = ok && list ? diff_json(&diff) : NULL;
+    if (ok && !list && !a->diff.quiet) diff_print(&diff, a->diff.verbose);
+    if (ok) *status = diff.status;
+    const struct counts counts = count(&diff);
+    diff_finish(&diff);
+    if (ok && a->approve) {
+        *status = DIFF_SAME;
+        if ((ok = check_approve(pair->run, pair->baseline, err))) say_approved(a, pair, &counts, json);
+    }
+    if (json) json_array_append_new(list, json);
+    return ok;
+}
+
+static bool check_one(const struct arguments *a, const struct check_pair *pair, json_t *list, enum diff_status *status,
+                      struct glint_error *err) {
+    if (pair->has_run && pair->has_baseline) return check_both(a, pair, list, status, err);
+    json_t *json = json_pack("{s:s, s:s}", "a", pair->baseline, "b", pair->run);
+    *status = a->approve ? DIFF_SAME : DIFF_FAIL;
+    bool ok = true;
+    if (a->approve && pair->has_run) {
+        const struct counts none = {0};
+        if ((ok = check_approve(pair->run, pair->baseline, err))) say_approved(a, pair, &none, list ? json : NULL);
+    } else {
+        char note[64];
+        snprintf(note, sizeof note, "%s",
+                 pair->has_run ? "there is no baseline; --approve makes it one" : "there is no run of this name");
+        json_object_set_new(json, "note", json_string(note));
+        command_note(&cmd_check, "%s: %s", pair->has_run ? pair->run : pair->baseline, note);
+    }
+    json_object_set_new(json, "status", json_integer(*status));
+    if (list) json_array_append(list, json);
+    json_decref(json);
+    return ok;
+}
+
+/* ---- All of them ---- */
+
+static bool writes_files(const struct diff_args *a) {
+    return a->heat || a->beside || a->flicker || a->html;
+}
+
+static bool check_all(const struct arguments *a, const struct check_pairs *pairs, json_t *list, enum diff_status *worst,
+                      struct glint_error *err) {
+    if (pairs->count > 1 && writes_files(&a->diff))
+        return glint_fail(err, GLINT_ERROR_USAGE, "pictures and pages are of one run, and %s holds %zu: name one",
+                          a->run, pairs->count);
+    for (size_t i = 0; i < pairs->count; i++) {
+        enum diff_status status = DIFF_SAME;
+        if (pairs->count > 1 && !list && !a->diff.quiet) printf("%s%s\n", i ? "\n" : "", pairs->items[i].run);
+        if (!check_one(a, &pairs->items[i], list, &status, err)) return false;
+        if (status > *worst) *worst = status;
+    }
+    return true;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {.diff = diff_args_default()};
+    struct glint_error err = {0};
+    struct check_pairs pairs;
+    enum diff_status status = DIFF_SAME;
+    command_parse(&cmd_check, argc, argv, &a);
+    json_t *list = a.diff.json ? json_array() : NULL;
+    const bool ok = check_pairs_find(&pairs, a.run, a.baseline, &err) && check_all(&a, &pairs, list, &status, &err);
+    if (!ok) status = diff_args_fail(&cmd_check, &err);
+    if (ok && list) print_json(json_pack("{s:i, s:O}", "status", (int)status, "runs", list));
+    json_decref(list);
+    check_pairs_finish(&pairs);
+    return (enum status)status;
+}
+
+const struct command cmd_check = {
+    .name = "check",
+    .arguments = "RUN --baseline DIR",
+    .summary = "whether a run is still the one that was approved",
+    .description =
+        "Compares a run with an earlier one that was looked at and approved: glint diff DIR RUN, with its limits, "
+        "pictures, page and exit codes (0 the same, 1 a warning, 2 a failure, 3 not the same size, 4 cannot be read). "
+        "An "
+        "image that one of them lacks is a failure, and so is a run without a baseline. --approve says what changed "
+        "and "
+        "makes RUN the baseline, all of it at once; the one before is kept.",
+    .options = options,
+    .one_dash = true,
+    .usage_status = DIFF_USAGE,
+    .parse = parse,
+    .examples = examples,
+    .values = metric_args_values,
+    .run = run,
+};

@@ -1,0 +1,66 @@
+/* The options that diff and check share: limits, what to write, what to print. */
+#ifndef GLINT_VIEWER_DIFF_OPTIONS_H
+#define GLINT_VIEWER_DIFF_OPTIONS_H
+
+#include "args.h"
+#include "diff/diff.h"
+#include "metric_args.h"
+
+struct diff_args {
+    struct diff_options options;
+    const char *heat, *beside, *flicker, *html;
+    bool only_different, verbose, quiet, json;
+};
+
+enum {
+    KEY_FAIL = 256,
+    KEY_FAIL_RELATIVE,
+    KEY_FAIL_PERCENT,
+    KEY_HARD_FAIL,
+    KEY_ALLOW,
+    KEY_WARN,
+    KEY_WARN_RELATIVE,
+    KEY_WARN_PERCENT,
+    KEY_HARD_WARN,
+    KEY_ONLY_DIFFERENT,
+    KEY_BESIDE,
+    KEY_FLICKER,
+    KEY_HTML,
+    KEY_AFTER_DIFF
+};
+
+/* clang-format off */
+#define DIFF_OPTIONS \
+    {"fail",          KEY_FAIL,          "X", 0, "A pixel fails when a value differs by more than X (default 1e-6)", 0}, \
+    {"failrelative",  KEY_FAIL_RELATIVE, "X", 0, "… and by more than X of the mean of both magnitudes (default 0)", 0}, \
+    {"failpercent",   KEY_FAIL_PERCENT,  "P", 0, "So many per cent of the pixels may fail (default 0)", 0}, \
+    {"hardfail",      KEY_HARD_FAIL,     "X", 0, "One value that differs by more than X is enough (default: infinite)", 0}, \
+    {"allowfailures", KEY_ALLOW,         "N", 0, "Up to N pixels of an image may fail by any amount, and it is the same (default 0)", 0}, \
+    {"warn",          KEY_WARN,          "X", 0, "As --fail, for warnings (default 1e-6)", 0}, \
+    {"warnrelative",  KEY_WARN_RELATIVE, "X", 0, "As --failrelative (default 0)", 0}, \
+    {"warnpercent",   KEY_WARN_PERCENT,  "P", 0, "As --failpercent (default 0)", 0}, \
+    {"hardwarn",      KEY_HARD_WARN,     "X", 0, "As --hardfail (default: infinite)", 0}, \
+    {"output",        'o',               "FILE.png", 0, "Heat map of the differences; of several images a sheet of those that differ", 0}, \
+    {"side-by-side",  KEY_BESIDE,        "FILE.png", 0, "Both images and the heat map beside each other; of several images, a row for each that differs", 0}, \
+    {"flicker",       KEY_FLICKER,       "FILE.png", 0, "Both images in turns, as an animated PNG; of several images, the first that differs", 0}, \
+    {"html",          KEY_HTML,          "FILE.html", 0, "One page of it all: tables, histograms, and each image that differs under a slider, with values", 0}, \
+    {"od",            KEY_ONLY_DIFFERENT, NULL, 0, "Write these only when something differs", 0}, \
+    METRIC_OPTIONS, \
+    {"all",           'a',               NULL, 0, "As idiff's -a, which is what this command does anyway", 0}, \
+    {"verbose",       'v',               NULL, 0, "List images that are the same, too", 0}, \
+    {"quiet",         'q',               NULL, 0, "Print nothing: the exit status says it", 0}, \
+    {"json",          'j',               NULL, 0, "Print JSON", 0}
+/* clang-format on */
+
+/* idiff's limits. */
+struct diff_args diff_args_default(void);
+/* Reads one of DIFF_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */
+error_t diff_args_parse(int key, char *arg, struct argp_state *state, struct diff_args *args);
+
+/* Compares two sides, and writes the pictures and the page that were asked for. Release `diff` whether or not this succeeds. */
+bool diff_args_compare(const struct diff_args *args, const char *const paths[2], struct diff *diff,
+                       struct glint_error *err);
+/* The exit status of what could not be compared, said on stderr. */
+enum diff_status diff_args_fail(const struct command *command, const struct glint_error *err);
+
+#endif

@@ -1,0 +1,242 @@
+/* A stage of page.h: pictures over each other, a slider between two of them, both beside each other or in turns, one alone;
+   the values of the pixel that is pointed at or reached by keys. `own`: page.js's element, list, sourceOf and numberText. */
+const glintStage = (function () {
+    'use strict';
+    const TURN_MS = 500;
+    const stages = [];
+
+    /* ---- Values ---- */
+
+    /* The bytes of page_values, inflated: planes of like bytes, each less the one to its left. */
+    async function inflate(values) {
+        const packed = Uint8Array.from(atob(values.data), c => c.charCodeAt(0));
+        const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
+        const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+        const width = Math.ceil(values.width / values.every);
+        for (let row = 0; row < bytes.length; row += width)
+            for (let i = row + 1; i < row + width; i++) bytes[i] += bytes[i - 1];
+        return bytes;
+    }
+
+    /* The channels' values at a pixel, or at the kept one before it. */
+    function valuesAt(values, bytes, x, y) {
+        const width = Math.ceil(values.width / values.every), height = Math.ceil(values.height / values.every);
+        const at = Math.floor(y / values.every) * width + Math.floor(x / values.every), plane = width * height;
+        const bits = new DataView(new ArrayBuffer(4));
+        return values.channels.map((_, k) => {
+            for (let b = 0; b < 4; b++) bits.setUint8(3 - b, bytes[(4 * k + b) * plane + at]);
+            return bits.getFloat32(0);
+        });
+    }
+
+    function digits(v) {
+        if (Number.isNaN(v)) return 'NaN';
+        if (!Number.isFinite(v)) return v > 0 ? '\u221e' : '\u2212\u221e';
+        return String(+v.toPrecision(6)).replace('-', '\u2212');
+    }
+
+    /* ---- One stage ---- */
+
+    function stage(block, own) {
+        const {element, list, sourceOf} = own;
+        const pictures = list(block.pictures).filter(p => p && sourceOf(p));
+        if (!pictures.length) return null;
+        const pairs = pictures.filter(p => !p.alone), alone = pictures.filter(p => p.alone);
+        const name = glintChart.text(block.title);
+        const state = {mode: pairs.length > 1 ? 'slider' : 'left', left: 0, right: Math.max(0, pairs.length - 1), share: 50, zoom: 0, turn: 0, x: -1, y: -1};
+        const key = `${document.title}|${name}|${stages.length}`;
+        let timer = 0;
+        stages.push({keep: () => store(key, state)});
+        Object.assign(state, recall(key));
+        if (!pairs[state.left] || !pairs[state.right]) state.left = state.right = 0;
+
+        const images = [element('img', {alt: ''}), element('img', {alt: ''})];
+        const tags = [element('span', {class: 'tag'}), element('span', {class: 'tag right'})];
+        const line = element('i', {class: 'line'}), cross = element('i', {class: 'cross'});
+        const frame = element('div', {class: 'frame', tabindex: 0, role: 'group',
+            'aria-label': `${name}: arrow keys go from pixel to pixel, Shift by ten, Space shows the other picture`}, ...images, line, ...tags, cross);
+        const scroll = element('div', {class: 'stage-scroll'}, frame);
+        const slider = element('input', {type: 'range', min: 0, max: 100, step: 0.1, 'aria-label': `${name}: where the first picture ends`});
+        const readout = element('div', {class: 'readout', 'aria-live': 'polite'});
+
+        function chooser(which, label) {
+            const select = element('select', {'aria-label': label}, ...pairs.map((p, i) => element('option', {value: i}, p.caption)));
+            select.value = state[which];
+            select.addEventListener('change', () => { state[which] = +select.value; draw(); });
+            return select;
+        }
+
+        const modes = [...(pairs.length > 1 ? [['slider', 'Slider'], ['beside', 'Side by side'], ['flicker', 'Flicker']] : []),
+            ['left', glintChart.text(pairs.length === 2 ? pairs[0].caption : 'First alone')],
+            ...(pairs.length > 1 ? [['right', glintChart.text(pairs.length === 2 ? pairs[1].caption : 'Second alone')]] : []),
+            ...alone.map((p, i) => [`alone${i}`, glintChart.text(p.caption)])];
+        const buttons = modes.map(([mode, text]) => {
+            const button = element('button', {type: 'button'}, text);
+            button.addEventListener('click', () => { state.mode = mode; draw(); });
+            return button;
+        });
+        const zoom = element('select', {'aria-label': 'size'}, ...['fit', '1\u00d7', '2\u00d7', '4\u00d7', '8\u00d7'].map((t, i) => element('option', {value: i}, t)));
+        zoom.addEventListener('change', () => { state.zoom = +zoom.value; draw(); });
+
+        function shown() {
+            const match = /^alone(\d+)$/.exec(state.mode);
+            return match ? [alone[+match[1]], null] : state.mode === 'right' ? [pairs[state.right], null]
+                : state.mode === 'left' ? [pairs[state.left], null] : [pairs[state.left], pairs[state.right]];
+        }
+
+        function draw() {
+            if (!modes.some(([mode]) => mode === state.mode)) state.mode = modes[0][0];
+            const two = shown();
+            buttons.forEach((b, i) => b.setAttribute('aria-pressed', String(modes[i][0] === state.mode)));
+            zoom.value = state.zoom;
+            frame.className = `frame ${state.mode}`;
+            two.forEach((p, i) => {
+                images[i].hidden = tags[i].hidden = !p;
+                if (!p) return;
+                if (images[i].src !== sourceOf(p)) images[i].src = sourceOf(p);
+                images[i].alt = tags[i].textContent = glintChart.text(p.caption);
+            });
+            slider.hidden = line.hidden = state.mode !== 'slider';
+            slide(state.share);
+            clearInterval(timer);
+            if (state.mode === 'flicker') timer = setInterval(turn, TURN_MS);
+            flip();
+            size();
+            point();
+        }
+
+        /* As wide as its column, or by whole pixels of the values. */
+        function size() {
+            const values = pictures.map(p => p.values).find(v => v);
+            const two = state.mode === 'beside' ? 2 : 1, width = values ? values.width : images[0].naturalWidth || 16;
+            const height = values ? values.height : images[0].naturalHeight || 9;
+            frame.style.width = slider.style.width = state.zoom ? `${two * width * 2 ** (state.zoom - 1)}px`
+                : `min(100%, ${(two * 78 * width / height).toFixed(1)}vh)`;
+        }
+
+        function slide(share) {
+            state.share = Math.min(100, Math.max(0, share));
+            slider.value = state.share;
+            images[1].style.clipPath = state.mode === 'slider' ? `inset(0 0 0 ${state.share}%)` : '';
+            line.style.left = `${state.share}%`;
+        }
+
+        function flip() {
+            const second = state.mode === 'flicker' && state.turn % 2 === 1;
+            images[1].style.visibility = tags[1].style.visibility = state.mode === 'flicker' && !second ? 'hidden' : '';
+            tags[0].style.visibility = second ? 'hidden' : '';
+        }
+
+        function turn() { state.turn++; flip(); }
+
+        /* ---- The pixel ---- */
+
+        const told = pictures.filter(p => p.values && p.values.data);
+
+        async function point() {
+            const v = told[0]?.values;
+            if (!v || state.x < 0) {
+                cross.hidden = true;
+                readout.replaceChildren(told.length ? element('p', {class: 'faint'}, 'Point at a pixel, or go there with the arrow keys, to read its values.') : '');
+                return;
+            }
+            state.x = Math.min(v.width - 1, state.x);
+            state.y = Math.min(v.height - 1, state.y);
+            const half = state.mode === 'beside' ? 0.5 : 1, x = state.x, y = state.y;
+            cross.hidden = false;
+            cross.style.left = `${100 * half * (x + 0.5) / v.width}%`;
+            cross.style.top = `${100 * (y + 0.5) / v.height}%`;
+            const rows = await Promise.all(told.map(async p => {
+                if (!p.bytes) p.bytes = inflate(p.values);
+                return valuesAt(p.values, await p.bytes, x, y);
+            }));
+            if (x !== state.x || y !== state.y) return;
+            readout.replaceChildren(table(v, rows, x, y));
+        }
+
+        function table(v, rows, x, y) {
+            const left = told.indexOf(pairs[state.left]), right = told.indexOf(pairs[state.right]);
+            const both = left >= 0 && right >= 0 && left !== right;
+            const lines = rows.map((row, i) => [told[i].caption, row]);
+            if (both) lines.push([`${glintChart.text(pairs[state.right].caption)} \u2212 ${glintChart.text(pairs[state.left].caption)}`, rows[right].map((b, k) => b - rows[left][k])]);
+            const e = v.every > 1 ? ` (of ${x - x % v.every},${y - y % v.every}: one of ${v.every} \u00d7 ${v.every} is kept)` : '';
+            return element('table', null,
+                element('thead', null, element('tr', null, element('th', {scope: 'col'}, `${x},${y}${e}`),
+                    ...v.channels.map(c => element('th', {scope: 'col', class: 'number'}, c)), element('th', null, v.unit || ''))),
+                element('tbody', null, ...lines.map(([caption, row]) => element('tr', null, element('th', {scope: 'row'}, caption),
+                    ...row.map(c => element('td', {class: 'number'}, digits(c))), element('td')))));
+        }
+
+        function place(event) {
+            const v = told[0]?.values, box = frame.getBoundingClientRect();
+            const two = state.mode === 'beside' ? 2 : 1;
+            let x = (event.clientX - box.left) / box.width * two;
+            if (x >= 1 && two === 2) x -= 1;
+            if (!v) return;
+            state.x = Math.max(0, Math.floor(x * v.width));
+            state.y = Math.max(0, Math.floor((event.clientY - box.top) / box.height * v.height));
+            point();
+        }
+
+        frame.addEventListener('pointermove', event => {
+            place(event);
+            if (state.mode !== 'slider' || !(event.buttons & 1)) return;
+            const box = frame.getBoundingClientRect();
+            slide(100 * (event.clientX - box.left) / box.width);
+        });
+        frame.addEventListener('pointerdown', event => {
+            if (state.mode !== 'slider') return;
+            frame.setPointerCapture(event.pointerId);
+            const box = frame.getBoundingClientRect();
+            slide(100 * (event.clientX - box.left) / box.width);
+        });
+        frame.addEventListener('keydown', event => {
+            const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1]}[event.key];
+            if (step) {
+                const by = event.shiftKey ? 10 : 1, v = told[0]?.values;
+                if (!v) return;
+                if (state.x < 0) { state.x = Math.floor(v.width / 2); state.y = Math.floor(v.height / 2); }
+                else { state.x = Math.max(0, state.x + by * step[0]); state.y = Math.max(0, state.y + by * step[1]); }
+                point();
+            } else if (event.key === ' ') {
+                if (state.mode === 'flicker') turn();
+                else if (pairs.length > 1) { state.mode = state.mode === 'right' ? 'left' : 'right'; draw(); }
+            } else return;
+            event.preventDefault();
+        });
+        slider.addEventListener('input', () => slide(+slider.value));
+        images[0].addEventListener('load', size);
+
+        const result = element('section', {class: 'stage'},
+            element('div', {class: 'bar', role: 'toolbar', 'aria-label': name}, ...buttons,
+                ...(pairs.length > 2 ? [chooser('left', 'first picture'), chooser('right', 'second picture')] : []), zoom),
+            slider, scroll, readout);
+        draw();
+        return result;
+    }
+
+    /* ---- What a page that loads itself again keeps: where nothing can be stored, it starts anew ---- */
+
+    function store(key, value) {
+        try { sessionStorage.setItem(key, JSON.stringify(value)); } catch { /* nothing is kept */ }
+    }
+
+    function recall(key) {
+        try { return JSON.parse(sessionStorage.getItem(key)) || {}; } catch { return {}; }
+    }
+
+    /* Loads the page again every so many seconds, unless it is out of sight or somebody is at work on it. */
+    function refresh(seconds) {
+        let busy = 0;
+        for (const kind of ['pointermove', 'pointerdown', 'keydown', 'wheel']) addEventListener(kind, () => { busy = Date.now(); }, {passive: true});
+        scrollTo(0, recall(`${document.title}|top`).top || 0);
+        setInterval(() => {
+            if (document.hidden || Date.now() - busy < 1500) return;
+            stages.forEach(s => s.keep());
+            store(`${document.title}|top`, {top: scrollY});
+            location.reload();
+        }, 1000 * seconds);
+    }
+
+    return {stage, refresh};
+})();
