@@ -230,6 +230,7 @@ bool host_buffer_init(struct host_buffer *buffer, struct glint_device *device, e
         [HOST_BUFFER_UPLOAD] = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
         [HOST_BUFFER_READBACK] = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
         [HOST_BUFFER_UNIFORM] = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+        [HOST_BUFFER_STORAGE] = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
     };
     *buffer = (struct host_buffer){.size = size};
     const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage[use]};
@@ -240,7 +241,8 @@ bool host_buffer_init(struct host_buffer *buffer, struct glint_device *device, e
     vkGetBufferMemoryRequirements(device->device, buffer->buffer, &need);
     const VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     /* Reading uncached memory is slow for the host; what shaders read over the bus is slow for every pass. */
-    const VkMemoryPropertyFlags preferred = use == HOST_BUFFER_READBACK ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+    const VkMemoryPropertyFlags preferred = use == HOST_BUFFER_READBACK || use == HOST_BUFFER_STORAGE
+                                                ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                                             : use == HOST_BUFFER_UPLOAD ? 0
                                                                         : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     if (!device_allocate(device, &need, coherent, preferred, name, &buffer->memory, err)) goto fail;

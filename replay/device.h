@@ -77,7 +77,7 @@ struct host_buffer {
     void *map;
     VkDeviceSize size;
 };
-enum host_buffer_use { HOST_BUFFER_UPLOAD, HOST_BUFFER_READBACK, HOST_BUFFER_UNIFORM };
+enum host_buffer_use { HOST_BUFFER_UPLOAD, HOST_BUFFER_READBACK, HOST_BUFFER_UNIFORM, HOST_BUFFER_STORAGE };
 bool host_buffer_init(struct host_buffer *buffer, struct glint_device *device, enum host_buffer_use use,
                       VkDeviceSize size, const char *name, struct glint_error *err);
 void host_buffer_finish(struct host_buffer *buffer, struct glint_device *device);

@@ -159,6 +159,7 @@ void step_record(const struct run *run, struct step *step) {
         struct barriers barriers = {0};
         if (dispatch->list) image_access(dispatch->list, IMAGE_GROUPS, &barriers);
         access_images(run, step->pass->pass, &barriers);
+        probes_access(step, &barriers);
         barriers_record(&barriers, device);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, dispatch->program->pipeline);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);

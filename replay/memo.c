@@ -90,12 +90,12 @@ static bool given_key(const struct run *run, size_t i, uint64_t *key, struct gli
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
     const struct glint_pass *pass = step->pass->pass;
     if (!spirv_find(&step->spirv, &run->replay->device->shaders, step->pass->entry, err) ||
-        !constants_init(&step->constants, &run->graph, step->pass, run->options->diagnostics,
-                        !run->options->float_precision, err))
+        !constants_init(&step->constants, &run->graph, step->pass, &step->spirv, run->options, err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
-    /* The first constant switches diagnostics on, which changes nothing else; what a user's shader makes of it is not known. */
-    const uint32_t skipped = step->pass->entry->shader ? 0 : 1;
+    /* The first constants switch diagnostics and probes on, which changes nothing else; what a user's shader makes of them is
+       not known. */
+    const uint32_t skipped = step->pass->entry->shader ? 0 : 2;
     key = mix(key, step->constants.data + skipped, (step->constants.count - skipped) * sizeof(uint32_t));
     key = mix(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));
     uint32_t words[FRAME_WORDS];
@@ -130,6 +130,7 @@ static void decide(struct run *run, struct step *step, size_t place) {
             step->execute = true;
     }
     if (run_restore(run, step)) step->execute = false;
+    step->execute |= step->constants.probed;
     /* What a pass of the loop reads from another one is there for one ray at a time. */
     for (size_t later = place + 1; later < run->graph.loop_end && place >= run->graph.loop_first; later++)
         step->execute |= run->steps[later].execute && pass_depends(run->steps[later].pass->pass, step->pass->pass);

@@ -10,12 +10,25 @@ static VkResult create_pool(struct run *run, uint32_t sets, uint32_t sampled, ui
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, sampled + 1},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, storage + 1},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1},
                                           {VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
     const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                              .maxSets = sets + 1,
                                              .poolSizeCount = sizeof sizes / sizeof sizes[0],
                                              .pPoolSizes = sizes};
     return vkCreateDescriptorPool(run->replay->device->device, &info, NULL, &run->pool);
+}
+
+static void describe_buffer(const struct run *run, uint32_t binding, VkDescriptorType type,
+                            const struct host_buffer *buffer, VkDeviceSize size) {
+    const VkDescriptorBufferInfo info = {buffer->buffer, 0, size};
+    const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                        .dstSet = run->frame_set,
+                                        .dstBinding = binding,
+                                        .descriptorCount = 1,
+                                        .descriptorType = type,
+                                        .pBufferInfo = &info};
+    vkUpdateDescriptorSets(run->replay->device->device, 1, &write, 0, NULL);
 }
 
 static bool prepare_frame_set(struct run *run, struct glint_error *err) {
@@ -28,14 +41,8 @@ static bool prepare_frame_set(struct run *run, struct glint_error *err) {
     if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
     device_set_name(replay->device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)run->frame_set, "frame");
     memcpy(replay->frame.map, &run->block, sizeof run->block);
-    const VkDescriptorBufferInfo buffer = {replay->frame.buffer, 0, sizeof run->block};
-    const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                        .dstSet = run->frame_set,
-                                        .dstBinding = 0,
-                                        .descriptorCount = 1,
-                                        .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                                        .pBufferInfo = &buffer};
-    vkUpdateDescriptorSets(replay->device->device, 1, &write, 0, NULL);
+    describe_buffer(run, 0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, &replay->frame, sizeof run->block);
+    describe_buffer(run, 3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, &replay->probes, VK_WHOLE_SIZE);
     return true;
 }
 

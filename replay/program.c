@@ -34,15 +34,17 @@ struct workgroup pass_workgroup(const struct glint_pass *pass) {
 }
 
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
-                    bool diagnostics, bool halves, struct glint_error *err) {
-    *constants = (struct constants){.push_count = 1};
+                    const struct spirv *spirv, const struct glint_replay_options *options, struct glint_error *err) {
+    *constants = (struct constants){.push_count = 1, .probed = spirv->probes && options->probe_count > 0};
     const struct glint_pass *pass = graph_pass->pass;
     const double *values = graph_pass->entry->values;
     uint32_t facts = 0;
     const struct workgroup group = pass_workgroup(pass);
-    bool fits = add_constant(constants, 0, diagnostics) && add_constant(constants, 1, group.width) &&
-                add_constant(constants, 2, group.height) && add_constant(constants, 3, halves) &&
-                add_constant(constants, CONSTANT_PHASE, 0);
+    const uint32_t place = (uint32_t)(graph_pass - graph->passes) + 1;
+    bool fits = add_constant(constants, 0, options->diagnostics) &&
+                add_constant(constants, CONSTANT_PROBE, constants->probed ? place : 0) &&
+                add_constant(constants, 1, group.width) && add_constant(constants, 2, group.height) &&
+                add_constant(constants, CONSTANT_PHASE, 0) && add_constant(constants, 3, !options->float_precision);
     for (size_t i = 0; i < pass->row_count && fits; i++) {
         uint32_t bits = row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], values[i]) : 0;
         if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
@@ -56,7 +58,7 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
             constants->push[constants->push_count++] = bits;
     }
     return fits || glint_fail(err, GLINT_ERROR_LIMIT, "%s/%s: more than %d constants or %d bytes of push constants",
-                              pass->slot, pass->variant, CONSTANTS_MAX - 5, PUSH_BYTES_MAX);
+                              pass->slot, pass->variant, CONSTANTS_MAX - 6, PUSH_BYTES_MAX);
 }
 
 static VkResult create_sampler(struct glint_device *device, VkFilter filter, const char *name, VkSampler *sampler) {
@@ -81,9 +83,10 @@ bool programs_init(struct programs *programs, struct glint_device *device, struc
         {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
         {1, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->linear},
         {2, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->nearest},
+        {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
     };
     const VkDescriptorSetLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 3, .pBindings = bindings};
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
     if (result == VK_SUCCESS) result = vkCreateDescriptorSetLayout(device->device, &info, NULL, &programs->frame);
     if (result != VK_SUCCESS) return vk_fail(err, "creating the samplers", result);
     device_set_name(device, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");

@@ -13,7 +13,7 @@ struct workgroup {
 };
 struct workgroup pass_workgroup(const struct glint_pass *pass);
 
-enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64, CONSTANT_PHASE = 4 /* its id and its place */ };
+enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64, CONSTANT_PHASE = 4 /* its id and its place */, CONSTANT_PROBE = 999 };
 
 /* Values of a pass's parameters as the shader takes them. */
 struct constants {
@@ -22,9 +22,10 @@ struct constants {
     uint32_t count;
     uint32_t push[PUSH_BYTES_MAX / 4]; /* the dispatch's level first */
     uint32_t push_count;
+    bool probed; /* the shader tells of probed pixels */
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
-                    bool diagnostics, bool halves, struct glint_error *err);
+                    const struct spirv *spirv, const struct glint_replay_options *options, struct glint_error *err);
 
 struct program {
     uint64_t key;

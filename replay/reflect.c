@@ -1,4 +1,4 @@
-/* What a SPIR-V module says of itself: its bindings, and which words of the frame's block it reads. */
+/* What a SPIR-V module says of itself: its bindings, which words of the frame's block it reads, whether it tells of probes. */
 #include "shader.h"
 
 #include <stdlib.h>
@@ -41,7 +41,7 @@ static const uint32_t *next_op(const struct spirv *spirv, const uint32_t *op) {
 }
 
 static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
-    if (set == 1) return binding <= 2; /* passes/shared/bindings.glsl */
+    if (set == 1) return binding <= 3; /* passes/shared/bindings.glsl */
     for (size_t r = 0; set == 0 && r < pass->row_count; r++)
         if (row_is_image(&pass->rows[r]) && pass->rows[r].id == binding) return true;
     return false;
@@ -65,13 +65,14 @@ bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pa
     return ok;
 }
 
-/* The variable of set 1, binding 0 (passes/shared/bindings.glsl); 0: none. */
-static uint32_t find_frame(const struct spirv *spirv) {
+/* The variable of set 1 with this binding (passes/shared/bindings.glsl); 0: none. */
+static uint32_t find_common(const struct spirv *spirv, uint32_t binding) {
     uint32_t found = 0;
     for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op)) {
         if (opcode(op) != OP_DECORATE || op_words(op) != 4 || op[2] != DESCRIPTOR_SET || op[3] != 1) continue;
         for (const uint32_t *at = first_op(spirv); at; at = next_op(spirv, at))
-            if (opcode(at) == OP_DECORATE && op_words(at) == 4 && at[1] == op[1] && at[2] == BINDING && at[3] == 0)
+            if (opcode(at) == OP_DECORATE && op_words(at) == 4 && at[1] == op[1] && at[2] == BINDING &&
+                at[3] == binding)
                 found = op[1];
     }
     return found;
@@ -102,12 +103,13 @@ static void mark(struct spirv *spirv, uint32_t type, const uint32_t *op) {
         if (place == NONE || word == begin / 4 + place) spirv->frame_words[word] = true;
 }
 
-void spirv_find_frame_words(struct spirv *spirv) {
-    const uint32_t frame = find_frame(spirv);
+void spirv_find_uses(struct spirv *spirv) {
+    const uint32_t frame = find_common(spirv, 0);
     const uint32_t pointer = look_up(spirv, OP_VARIABLE, 2, frame, 1);
     const uint32_t type = look_up(spirv, OP_TYPE_POINTER, 1, pointer, 3);
     bool code = false, whole = false;
     memset(spirv->frame_words, 0, sizeof spirv->frame_words);
+    spirv->probes = find_common(spirv, 3) != 0;
     for (const uint32_t *op = first_op(spirv); op && frame; op = next_op(spirv, op)) {
         const bool chain = opcode(op) == OP_ACCESS_CHAIN || opcode(op) == OP_IN_BOUNDS_ACCESS_CHAIN;
         code |= opcode(op) == OP_FUNCTION;

@@ -49,8 +49,10 @@ void glint_replay_destroy(struct glint_replay **pointer) {
         programs_finish(&replay->programs, replay->device);
         host_buffer_finish(&replay->frame, replay->device);
         host_buffer_finish(&replay->staging, replay->device);
+        host_buffer_finish(&replay->probes, replay->device);
     }
     free(replay->plan);
+    free(replay->probed);
     free(replay);
 }
 
@@ -133,7 +135,7 @@ bool run_work(struct run *run, struct glint_error *err) {
     if (!replay_graph(replay, run->pipeline, options, run->inputs, &run->graph, err)) return false;
     double start;
     if (!allocate_run(run, err) || !tables_init(&run->tables, &run->graph, replay->capture, run->host_seconds, err) ||
-        !run_sizes(run, err) || !run_history(run, err))
+        !run_sizes(run, err) || !probes_prepare(run, err) || !run_history(run, err))
         return false;
     frame_block_fill(&run->block, glint_capture_frame(replay->capture), &run->sizes);
     const struct glint_part_info *mirror = glint_capture_find(replay->capture, MIRROR_PART);
@@ -149,7 +151,7 @@ bool run_work(struct run *run, struct glint_error *err) {
     run_decide(run);
     if (!run_put_aside(run, err) || !run_upload(run, err)) return false;
     start = now_seconds();
-    bool ok = run_prepare(run, err) && run_execute(run, err);
+    bool ok = run_prepare(run, err) && run_execute(run, err) && probes_finish(run, err);
     replay->seconds[PHASE_PASSES] += now_seconds() - start;
     return ok;
 }

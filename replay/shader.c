@@ -114,7 +114,7 @@ bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipel
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s/%s: this build has no shader for it", pass->slot,
                           pass->variant);
     spirv->hash = XXH3_64bits(spirv->words, spirv->bytes);
-    spirv_find_frame_words(spirv);
+    spirv_find_uses(spirv);
     return true;
 }
 

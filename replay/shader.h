@@ -23,6 +23,7 @@ struct spirv {
     const char *from; /* the file or folder that it was compiled from; NULL: built in */
     uint64_t hash;
     bool frame_words[FRAME_WORDS]; /* those of the frame's block that it reads */
+    bool probes;                   /* it has the buffer that probed pixels are told in */
 };
 
 bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipeline_pass *pass,
@@ -32,7 +33,8 @@ bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipel
 /* A user's shader may declare bindings by hand; what no row declares has no image behind it. */
 bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
                           struct glint_error *err);
-void spirv_find_frame_words(struct spirv *spirv);
+/* Sets frame_words and probes. */
+void spirv_find_uses(struct spirv *spirv);
 
 /* flatten.c: a shader's text with every include in place, and #line directives that keep files and lines as the author
    sees them. The caller frees it. What is not beside the user's file comes from `folder` (or NULL), else from what is

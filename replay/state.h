@@ -38,7 +38,10 @@ struct glint_replay {
     uint64_t sky_hash;       /* of its pixels; 0: not known yet */
     struct image *images;    /* kept between runs while their descriptions stay */
     struct programs programs;
-    struct host_buffer frame, staging;
+    struct host_buffer frame, staging, probes;
+    uint32_t (*probed)[2]; /* the last run's probes; full-resolution pixels of a texel that they are in */
+    size_t probe_count;
+    uint32_t probe_reduction;
     struct glint_plan_entry *plan;
     struct glint_pass_result *results;
     size_t *result_places; /* in the whole pipeline's order, counted from 1 */
@@ -173,6 +176,11 @@ void rays_release(struct run *run);
 bool run_prepare(struct run *run, struct glint_error *err);
 bool run_execute(struct run *run, struct glint_error *err);
 void run_release(struct run *run);
+
+/* probe.c: where shaders tell of probed pixels. Before a run, before a dispatch, after a run. */
+bool probes_prepare(struct run *run, struct glint_error *err);
+void probes_access(const struct step *step, struct barriers *barriers);
+bool probes_finish(struct run *run, struct glint_error *err);
 
 /* survey_record.c */
 json_t *survey_record(const struct glint_survey *survey, const struct glint_time *time,

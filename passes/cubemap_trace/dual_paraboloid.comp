@@ -13,7 +13,9 @@
 Result end_of(vec3 origin, vec3 direction, float start_m, uint best) {
     vec3 at = paraboloid_uv(direction * paraboloid_axes(frame.up.xyz), float(frame.counts.z));
     at.z += 2.0 * float(best);
-    if (textureLod(sampler2DArray(paraboloids, linear_clamp), at, 0.0).a > 0.0) {
+    float alpha = textureLod(sampler2DArray(paraboloids, linear_clamp), at, 0.0).a;
+    probe(PROBE_cubemap_proxy, vec4(best, 0.0, INFINITE, alpha));
+    if (alpha > 0.0) {
         Result result = by_direction(best);
         result.fetches = 1u;
         return result;

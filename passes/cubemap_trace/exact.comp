@@ -10,6 +10,7 @@
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
 #include "cubemap_trace/place.glsl"
+#include "cubemap_trace/probe.glsl"
 #include "cubemap_trace/texels.glsl"
 
 float seen_distance(vec3 from_center, uint place) {
@@ -43,6 +44,18 @@ float gap_at(View view, vec3 direction, float t, inout uint fetches) {
     vec3 from_center = at(view, direction, t);
     fetches++;
     return length(from_center) / seen_distance(from_center, view.place) - 1.0;
+}
+
+void probe_view(View view, vec3 direction, float t, float step_m, uint decision) {
+    if (!probing()) return;
+    vec3 from_center = at(view, direction, t);
+    probe_face_texel(cubemap_distance, IMAGE_cubemap_distance, from_center, view.place, 0, t, step_m,
+                     seen_distance(from_center, view.place), decision);
+}
+void probe_cell(View view, vec3 direction, float t, int level, float beyond) {
+    if (!probing()) return;
+    probe_face_texel(cubemap_distance_mips, IMAGE_cubemap_distance_mips, at(view, direction, t), view.place, level, t, 0.0,
+                     beyond, !(beyond < LARGEST) ? DECISION_sky : beyond > t ? DECISION_skipped : DECISION_finer);
 }
 
 // Where the direction from the centre has turned by so many texels; +inf when what is left to turn is less. With s along
@@ -184,6 +197,7 @@ const float UNSEEN = 4.0;  // steps of a ray that no cube map sees, each of whic
 
 Result march(vec3 origin, vec3 direction, float start_m, uint best) {
     Result result = Result(start_m, NO_PLACE, END_steps_exhausted, 0u, 0u);
+    probe_cubemap_ray(origin, direction, start_m, best);
     Walk walk;
     walk.best = best;
     walk.used = -1;
@@ -193,6 +207,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
         result.steps++;
         if (skip && has_cubemap_distance_mips && walk.seen && --wait < 0) {
             float beyond = beyond_cell(walk.view, direction, walk.t, level, result.fetches);
+            if (beyond > walk.t || level > FINEST_SKIP) probe_cell(walk.view, direction, walk.t, level, beyond);
             if (!(beyond < LARGEST)) {
                 end_at(result, INFINITE, place_of_sky(walk.view.place), END_sky);
                 return result;
@@ -214,30 +229,39 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
         if (!(next < LARGEST)) { // one texel is left: the sky, or a surface that the ray must be behind at twice its distance
             float last_m = seen_distance(direction, walk.view.place);
             result.fetches++;
-            if (!walk.seen) break;
+            if (!walk.seen) {
+                probe_view(walk.view, direction, walk.t, 0.0, DECISION_unseen);
+                break;
+            }
             if (!(last_m < LARGEST)) {
+                probe_view(walk.view, direction, walk.t, 0.0, DECISION_sky);
                 end_at(result, INFINITE, place_of_sky(walk.view.place), END_sky);
                 return result;
             }
             next = max(2.0 * (last_m + walk.view.aside) - walk.view.from_foot, 2.0 * walk.t);
         }
         if (!walk.seen) {
+            probe_view(walk.view, direction, next, next - walk.t, DECISION_unseen);
             change_view(walk, origin, direction, next, next, result.fetches);
             continue;
         }
         float gap = gap_at(walk.view, direction, next, result.fetches);
         if (gap <= 0.0) {
+            probe_view(walk.view, direction, next, next - walk.t, DECISION_front);
             walk.t = next;
             walk.front = true;
             take_finer_view(walk, origin, direction, result.fetches);
         } else if (!walk.front && gap <= tolerance) { // still on the surface where it started
+            probe_view(walk.view, direction, next, next - walk.t, DECISION_resting);
             walk.t = next;
         } else { // from there it may go straight behind another one, as beside a corner
             float low = walk.t, high = next;
             if (closes_in(walk.view, direction, walk.front ? 0.0 : tolerance, low, high, result.fetches)) {
                 end_at(result, 0.5 * (low + high), walk.view.place, END_hit);
+                probe_view(walk.view, direction, result.travelled_m, high - low, DECISION_hit);
                 return result;
             }
+            probe_view(walk.view, direction, high, high - low, DECISION_unseen);
             change_view(walk, origin, direction, low, high, result.fetches);
         }
     }
@@ -260,6 +284,7 @@ void main() {
     vec4 normal = texelFetch(normal_jittered, pixel, 0);
     float start_m = texelFetch(screen_travelled, pixel, 0).x;
     Result result = Result(start_m, NO_PLACE, END_not_traced, 0u, 0u);
+    probe_texel(pixel);
     if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal.xyz)) {
         vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
         vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
@@ -268,6 +293,7 @@ void main() {
         result = frame.counts.x > 0u ? march(origin, direction, start_m, best)
                                      : Result(start_m, NO_PLACE, END_no_cubemap, 0u, 0u);
     }
+    probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
     imageStore(travelled, pixel, vec4(result.travelled_m));
     imageStore(cubemap_index, pixel, uvec4(result.place));
     if (diagnostics) {

@@ -19,6 +19,8 @@ Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
 }
 
 void store(ivec2 pixel, Result result) {
+    probe_texel(pixel);
+    probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
     imageStore(travelled, pixel, vec4(result.travelled_m));
     imageStore(cubemap_index, pixel, uvec4(result.place));
     if (!diagnostics) return;
@@ -46,5 +48,6 @@ void main() {
         pixel = listed_pixel(cubemap_list);
         traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
     }
+    if (traced) probe_texel(pixel);
     if (traced) store(pixel, trace(pixel, depth_m, normal, texelFetch(screen_travelled, pixel, 0).x));
 }

@@ -6,6 +6,7 @@
 #include "shared/random.glsl"
 #include "shared/steps.glsl"
 #include "cubemap_trace/place.glsl"
+#include "cubemap_trace/probe.glsl"
 #include "cubemap_trace/texels.glsl"
 #include "cubemap_trace/volume.glsl"
 
@@ -148,6 +149,20 @@ Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, int leve
     return Sample(t, distance_m - seen_m, distance_m, seen_m, found < 0.0);
 }
 
+void probe_sample(vec3 from_center, vec3 direction, Sample s, float step_m, uint place, int level, uint decision) {
+    vec3 at = from_center + direction * s.t;
+    if (through_cocoon())
+        probe_face_texel(cocoon_distance, IMAGE_cocoon_distance, at, place, level, s.t, step_m, s.seen_m, decision);
+    else if (has_cubemap_distance_mips && level > 0)
+        probe_face_texel(cubemap_distance_mips, IMAGE_cubemap_distance_mips, at, place, level, s.t, step_m, s.seen_m, decision);
+    else probe_face_texel(cubemap_distance, IMAGE_cubemap_distance, at, place, 0, s.t, step_m, s.seen_m, decision);
+}
+void probe_met(vec3 from_center, vec3 direction, float step_m, Result result, int level, uint decision) {
+    if (!probing()) return;
+    Sample s = sample_at(from_center, direction, result.travelled_m, result.place, level);
+    probe_sample(from_center, direction, s, step_m, result.place, level, decision);
+}
+
 // Whether it lies on what is seen, give or take what verify accepts.
 bool on_surface(Sample s) { return s.seen_m < LARGEST && abs(s.gap) <= verify_part * s.seen_m; }
 
@@ -170,6 +185,7 @@ float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
 // strip that a cube map does not see, would use it up.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
     const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0, false);
+    probe_cubemap_ray(origin, direction, start_m, best);
     int longest = min(chain, int(frame.flags.z));
     uint fetches = fetches_of(quality.level);
     Result result = Result(start_m, best, END_steps_exhausted, 0u, 0u);
@@ -190,6 +206,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         bool seen = !(now.gap > bias * now.seen_m + bias_m);
         emerged = emerged || seen;
         if (seen || (surfaces == surfaces_exact && !emerged && on_surface(now))) {
+            probe_sample(from_center, direction, now, step_m, result.place, quality.level, seen ? DECISION_front : DECISION_resting);
             front = now;
             refused = 0;
             if (refined > 0) continue;
@@ -203,6 +220,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         }
         if (now.cap) { // nothing to close in on
             result.travelled_m = secant_between(front, now);
+            probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_sky);
             end_on_cap(result, quality.roughness);
             return result;
         }
@@ -211,22 +229,29 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             behind = now;
             if (quality.ratio > 1.0) full_step_m = max(full_step_m, step_m); // of steps that shrink the sum would be more than the length
             if (++refined < quality.refinements) {
+                probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_closing);
                 now.t -= step_m;
                 step_m *= 0.5;
                 continue;
             }
             result.travelled_m = secant ? secant_between(front, behind) : behind.t;
             result.end = END_hit;
-            if (!verify) return result;
-            if (surfaces == surfaces_exact && (on_surface(front) || on_surface(behind))) return result;
+            if (!verify || (surfaces == surfaces_exact && (on_surface(front) || on_surface(behind)))) {
+                probe_met(from_center, direction, step_m, result, quality.level, DECISION_hit);
+                return result;
+            }
             result.fetches += fetches;
             Sample end = sample_at(from_center, direction, result.travelled_m, result.place, quality.level);
+            probe_sample(from_center, direction, end, step_m, result.place, quality.level,
+                         end.cap ? DECISION_sky : on_surface(end) ? DECISION_hit : DECISION_absent);
             if (end.cap) end_on_cap(result, quality.roughness);
             if (end.cap || on_surface(end)) return result;
         }
+        probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_unseen);
         if (++refused >= longest) {
             result.travelled_m = now.t;
             fall_back(result, origin, direction, best, quality.roughness);
+            probe(PROBE_cubemap_fallback, vec4(result.place, now.t, result.travelled_m, 0.0));
             result.end = END_shadow_region;
             return result;
         }
@@ -246,6 +271,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     if (refined > 0) {
         result.travelled_m = secant ? secant_between(front, behind) : behind.t;
         result.end = END_hit;
+        probe_met(from_center, direction, step_m, result, quality.level, DECISION_hit);
         return result;
     }
     if (now.seen_m == INFINITE) {
@@ -254,6 +280,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         end_on_cap(result, quality.roughness);
     } else if (exhausted == exhausted_fallback) {
         fall_back(result, origin, direction, best, quality.roughness);
+        probe(PROBE_cubemap_fallback, vec4(result.place, now.t, result.travelled_m, 0.0));
         result.end = END_steps_exhausted;
     } else if (exhausted == exhausted_direction) {
         result.travelled_m = INFINITE;

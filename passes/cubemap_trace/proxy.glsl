@@ -34,14 +34,20 @@ vec2 within_cube(vec3 from_center, vec3 direction, float radius) {
 // by its direction.
 Result end_on_proxy(vec3 origin, vec3 direction, float start_m, uint best, vec2 span, uint fetches) {
     if (!(span.x <= span.y && span.y > 0.0 && span.y < LARGEST)) {
+        probe(PROBE_cubemap_proxy, vec4(best, span, -1.0));
         Result result = by_direction(best);
         result.fetches = fetches;
         return result;
     }
     Result result = Result(max(span.y, start_m), best, END_hit, fetches);
-    if (!sky) return result;
+    if (!sky) {
+        probe(PROBE_cubemap_proxy, vec4(best, span, -1.0));
+        return result;
+    }
     result.fetches++;
     vec4 at = vec4(origin + result.travelled_m * direction - active_centers[best].xyz, best);
-    if (textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0).a > 0.0) return result;
+    float alpha = textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0).a;
+    probe(PROBE_cubemap_proxy, vec4(best, span, alpha));
+    if (alpha > 0.0) return result;
     return Result(INFINITE, place_of_sky(best), END_sky, result.fetches);
 }

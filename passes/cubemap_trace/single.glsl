@@ -5,6 +5,7 @@
 #include "shared/end_reasons.glsl"
 #include "shared/work_list.glsl"
 #include "cubemap_trace/place.glsl"
+#include "cubemap_trace/probe.glsl"
 
 struct Result {
     float travelled_m;
@@ -17,6 +18,8 @@ Result by_direction(uint best) { return Result(INFINITE, best, END_fallback, 0u)
 Result end_of(vec3 origin, vec3 direction, float start_m, uint best);
 
 void store(ivec2 pixel, Result result) {
+    probe_texel(pixel);
+    probe_cubemap_end(result.travelled_m, result.place, result.end, 0u, result.fetches);
     imageStore(travelled, pixel, vec4(result.travelled_m));
     imageStore(cubemap_index, pixel, uvec4(result.place));
     if (!diagnostics) return;
@@ -38,7 +41,9 @@ Result traced(ivec2 pixel, float depth_m, vec3 normal) {
     if (best >= frame.counts.x) return Result(start_m, NO_PLACE, END_no_cubemap, 0u);
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-    return end_of(origin, mirror_direction(origin, normal), start_m, best);
+    vec3 direction = mirror_direction(origin, normal);
+    probe_cubemap_ray(origin, direction, start_m, best);
+    return end_of(origin, direction, start_m, best);
 }
 
 void main() {
@@ -53,5 +58,6 @@ void main() {
         pixel = listed_pixel(cubemap_list);
         has = inside(pixel, size) && has_ray(pixel, depth_m, normal);
     }
+    if (has) probe_texel(pixel);
     if (has) store(pixel, traced(pixel, depth_m, normal));
 }

@@ -84,6 +84,12 @@ bool joined(CellRay ray, float s, vec2 cell, float inverse, vec2 slopes, vec2 be
     return apart <= jump * inverse;
 }
 
+// A look at a texel, which the ray crosses from s_from to s.
+void probe_crossing(ScreenRay ray, CellRay path, vec2 cell, float s_from, float s, float inverse, vec2 slopes, uint what) {
+    uint decision = what == CELL_FRONT ? DECISION_front : what == CELL_HIT ? DECISION_hit : DECISION_behind;
+    if (probing()) probe_texel_seen(ray, s_from, s, ivec2(cell), facet_inverse(path, cell, s, inverse, slopes), decision);
+}
+
 // What a ray has gone hidden behind surfaces, without a break of more than the texels that a stippled surface leaves out.
 const float STIPPLE = 4.25; // texels; no whole number, which rays along an axis would meet, and no half one, from their start
 struct Hidden {

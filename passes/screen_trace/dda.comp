@@ -23,20 +23,23 @@ Result march(ScreenRay ray, ivec2 texel) {
             result.steps++;
             result.fetches += 2u;
             Crossing crossing = Crossing(CELL_FRONT, s_out);
+            vec2 slopes = vec2(0.0);
             // In front of all that a facet of this depth can be: it rises to twice its inverse depth at most.
             if (min(inverse_at(path, s_in), inverse_at(path, s_out)) * depth_m < 1.0 + STEEPEST) {
                 result.fetches += 5u;
-                crossing = cross(path, cell, s_in, s_out, seam * path.texel, inverse, facet_slopes_at(ivec2(cell), depth_m));
+                slopes = facet_slopes_at(ivec2(cell), depth_m);
+                crossing = cross(path, cell, s_in, s_out, seam * path.texel, inverse, slopes);
             }
             if (crossing.what == CELL_SEAM) {
                 vec2 before = cell_before(path, cell);
                 float before_m = texelFetch(depth_half, ivec2(before), 0).x;
                 float before_inverse = texelFetch(inverse_half, ivec2(before), 0).x;
                 result.fetches += 12u;
-                bool meet = joined(path, s_in, cell, inverse, facet_slopes_at(ivec2(cell), depth_m), before,
-                                   before_inverse, facet_slopes_at(ivec2(before), before_m));
+                bool meet = joined(path, s_in, cell, inverse, slopes, before, before_inverse,
+                                   facet_slopes_at(ivec2(before), before_m));
                 crossing.what = meet ? CELL_HIT : CELL_BEHIND;
             }
+            probe_crossing(ray, path, cell, s_in, crossing.what == CELL_HIT ? crossing.s : s_out, inverse, slopes, crossing.what);
             if (crossing.what == CELL_HIT)
                 return Result(travelled_at(ray, crossing.s), true, END_hit, result.steps, result.fetches);
             if (crossing.what == CELL_BEHIND) {

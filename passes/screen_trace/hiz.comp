@@ -48,6 +48,18 @@ uint meets(CellRay path, ivec2 texel, float s_out, inout Hidden hidden, inout fl
     return !pass_behind || blocked(hidden, path, inverse) ? BLOCKED : PASSED;
 }
 
+void probe_facet(ScreenRay ray, CellRay path, ivec2 texel, float s, float s_out, uint what) {
+    if (!probing()) return;
+    uint crossing = what == MET ? CELL_HIT : what == IN_FRONT ? CELL_FRONT : CELL_BEHIND;
+    probe_crossing(ray, path, vec2(texel), cell_entry(path, vec2(texel)), what == MET ? s : s_out,
+                   texelFetch(inverse_half, texel, 0).x, texelFetch(depth_slopes, texel, 0).xy, crossing);
+}
+
+void probe_cell(ScreenRay ray, float s, float s_out, ivec2 cell, int level, vec2 range, uint decision) {
+    probe(PROBE_screen_cell, vec4(travelled_at(ray, s), travelled_at(ray, s_out), ray.start + s_out * ray.across),
+          vec4(1.0 / inverse_depth_at(ray, s), 1.0 / inverse_depth_at(ray, s_out), cell), vec4(level, range, decision));
+}
+
 // A ray among the cells: a cell of level k covers 2ᵏ texels along each axis, and the last one of a row what is left over.
 // Texels are counted in the direction in which it goes: turned, -1 - x, the cells are the same ones, and what lies ahead
 // has the larger numbers. A cell is told by the last of its texels.
@@ -117,16 +129,20 @@ Result march(ScreenRay ray, ivec2 texel) {
         float highest = max(u_in - 0.5 * path.texel * path.inverse_rate, u_out); // a seam's reach before the cell
         if (what == PASSED && !passes_behind(hidden, path, s, s_out, range.y, highest)) {
             if (walk.level > 0) {
+                probe_cell(ray, s, s_out, cell, walk.level, range, DECISION_finer);
                 s = clamp((range.x - path.inverse) * per_rate - 1e-6, s, s_out);
                 step_down(walk, s);
                 continue;
             }
             what = meets(path, cell, s_out, hidden, s, result.fetches);
+            probe_facet(ray, path, cell, s, s_out, what);
             if (what == MET) return Result(travelled_at(ray, s), true, END_hit, result.steps, result.fetches);
             if (what == BLOCKED) {
                 result.end = END_behind;
                 break;
             }
+        } else {
+            probe_cell(ray, s, s_out, cell, walk.level, range, what == IN_FRONT ? DECISION_front : DECISION_hidden);
         }
         if (what == IN_FRONT) s_front = s_out;
         if (s_out >= path.end) {

@@ -23,8 +23,10 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     Result result = march(ray, grid, shift);
     if (sky && ray.vanishes && result.end == ray.limit) {
         result.fetches++;
-        if (seen_inverse(texel_at(grid, ray.end), grid) == 0.0)
+        if (seen_inverse(texel_at(grid, ray.end), grid) == 0.0) {
+            probe_texel_seen(ray, ray.end, ray.end, nearest_texel(texel_at(grid, ray.end)), 0.0, DECISION_sky);
             return Result(INFINITE, true, END_sky, result.steps, result.fetches);
+        }
     }
     return result;
 }

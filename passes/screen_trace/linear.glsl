@@ -71,6 +71,7 @@ Result march(ScreenRay ray, Grid grid, float shift) {
         result.steps++;
         result.fetches++;
         if (gap >= -bias * inverse) {
+            probe_texel_seen(ray, s, s, nearest_texel(texel), seen, DECISION_front);
             s_before = s_front = s;
             gap_front = gap;
             if (!been_behind) s_clear = s;
@@ -79,19 +80,24 @@ Result march(ScreenRay ray, Grid grid, float shift) {
         // The ray's nearest depth within the step, against the far side of what is seen.
         float least_m = 1.0 / max(inverse, inverse_depth_at(ray, s_before)), seen_m = 1.0 / seen;
         s_before = s;
-        uint reason = END_behind;
+        uint reason = END_behind, decision = DECISION_behind;
         if (least_m - seen_m <= thickness * seen_m + thickness_m) {
             Facet facet = facet_at(texel, grid);
             result.fetches += 2u;
             if (!back_faces || dot(facet.normal, ray.direction) < 0.0) {
                 float s_end = refine ? meeting(ray, facet, s_front, gap_front, s, gap, grid.scale) : s;
                 if (verify) result.fetches++;
-                if (!verify || shows(ray, s_end, grid))
+                if (!verify || shows(ray, s_end, grid)) {
+                    probe_texel_seen(ray, s_end, s_end, nearest_texel(texel), seen, DECISION_hit);
                     return Result(travelled_at(ray, s_end), true, END_hit, result.steps, result.fetches);
+                }
+                decision = DECISION_absent;
             } else {
                 reason = END_back_face;
+                decision = DECISION_back_face;
             }
         }
+        probe_texel_seen(ray, s, s, nearest_texel(texel), seen, decision);
         been_behind = true;
         result.end = reason;
         if (!pass_behind) break;

@@ -23,13 +23,21 @@ struct March {
     ScreenRay ray;
 };
 
+ivec2 texel_of(March march, float s) {
+    vec2 place = vec2(march.pixel) + 0.5 + s * march.ray.across / reduction(frame.size);
+    return clamp(ivec2(floor(place)), ivec2(0), ivec2(frame.size.zw) - 1);
+}
+
 // Whether the ray is behind what the picture shows there; behind_m: by how much. The nearest texel counts.
 bool behind(March march, float s, out float behind_m, out float seen_m) {
-    vec2 place = vec2(march.pixel) + 0.5 + s * march.ray.across / reduction(frame.size);
-    seen_m = texelFetch(depth_half, clamp(ivec2(floor(place)), ivec2(0), ivec2(frame.size.zw) - 1), 0).x;
+    seen_m = texelFetch(depth_half, texel_of(march, s), 0).x;
     float inverse = inverse_depth_at(march.ray, s);
     behind_m = inverse > 0.0 ? 1.0 / inverse - seen_m : INFINITE;
     return inverse * seen_m < 1.0;
+}
+
+void probe_sample(March march, float s, uint decision) {
+    if (probing()) probe_texel_seen(march.ray, s, s, texel_of(march, s), 1.0 / texelFetch(depth_half, texel_of(march, s), 0).x, decision);
 }
 
 Result walk(March march) {
@@ -46,10 +54,12 @@ Result walk(March march) {
         result.steps++;
         result.fetches++;
         if (!behind(march, s, behind_m, seen_m)) {
+            probe_sample(march, s, DECISION_front);
             s_front = s;
             continue;
         }
         if (thickness_m < EVERYTHING_M && behind_m > thickness * seen_m + thickness_m) {
+            probe_sample(march, s, DECISION_behind);
             result.end = END_behind;
             break;
         }
@@ -57,9 +67,11 @@ Result walk(March march) {
         for (int k = 0; k < refinements; ++k) {
             float middle = 0.5 * (near + s);
             result.fetches++;
+            probe_sample(march, middle, DECISION_closing);
             if (behind(march, middle, behind_m, seen_m)) s = middle;
             else near = middle;
         }
+        probe_sample(march, s, DECISION_hit);
         return Result(travelled_at(ray, s), true, END_hit, result.steps, result.fetches);
     }
     result.travelled_m = travelled_at(ray, s_front);

@@ -49,6 +49,13 @@ Crossing meets(CellRay path, Visit visit, out float inverse, inout uint fetches)
     return crossing;
 }
 
+void probe_visit(ScreenRay ray, CellRay path, Visit visit, Crossing crossing) {
+    if (!probing()) return;
+    Surface surface = surface_at(visit.cell);
+    probe_crossing(ray, path, visit.cell, visit.s_in, crossing.what == CELL_HIT ? crossing.s : visit.s_out, surface.inverse,
+                   surface.slopes, crossing.what);
+}
+
 Visit visit_of(CellRay path, vec2 cell, float s_before) {
     vec2 exits = cell_exits(path, cell);
     float s_in = cell_entry(path, cell);
@@ -77,6 +84,7 @@ Result march(ScreenRay ray, ivec2 texel) {
         result.steps++;
         float inverse;
         Crossing crossing = meets(path, visit, inverse, result.fetches);
+        probe_visit(ray, path, visit, crossing);
         Visit first = visit;
         for (int k = 0; k < refinements && crossing.what == CELL_BEHIND && in_front; ++k) {
             cell = cell_at(path, 0.5 * (s_front + first.s_in));
@@ -85,6 +93,7 @@ Result march(ScreenRay ray, ivec2 texel) {
             result.steps++;
             float unused;
             Crossing middle = meets(path, between, unused, result.fetches);
+            probe_visit(ray, path, between, middle);
             if (middle.what == CELL_FRONT) s_front = between.s_out;
             else first = between;
             if (middle.what == CELL_HIT) crossing = middle;

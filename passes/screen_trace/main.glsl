@@ -3,6 +3,8 @@
 #include "shared/work_list.glsl"
 
 void store(ivec2 pixel, Result result) {
+    probe_texel(pixel);
+    probe_screen_end(result);
     imageStore(screen_travelled, pixel, vec4(result.travelled_m));
     imageStore(screen_finished, pixel, uvec4(result.finished ? 1u : 0u));
     if (!diagnostics) return;
@@ -28,5 +30,6 @@ void main() {
         pixel = listed_pixel(screen_list);
         traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
     }
+    if (traced) probe_texel(pixel);
     if (traced) store(pixel, trace(pixel, depth_m, normal));
 }

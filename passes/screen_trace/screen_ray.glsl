@@ -3,6 +3,7 @@
 // t = s P.w/(1 - s D.w), so 1/w = (1 - s D.w)/P.w. Next include of a pass with the parameter length_m.
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
+#include "probe/tell.glsl"
 
 struct ScreenRay {
     vec3 origin, direction; // view
@@ -49,7 +50,18 @@ ScreenRay screen_ray(vec2 start, vec3 position, vec3 direction) {
         ray.limit = END_steps_exhausted;
     }
     ray.vanishes = shows_vanishing_point && (1.0 / ray.rate - ray.end) * length(ray.across) < reduction(frame.size);
+    probe(PROBE_screen_ray, vec4(start, ray.depth_m, position.x), vec4(position.yz, direction.xy),
+          vec4(direction.z, start + ray.end * ray.across, ray.limit));
     return ray;
+}
+
+// A look at a texel of depth_half, which the ray crosses from s_from to s; of a sample both are the same. surface: the
+// inverse depth that the ray's was compared with.
+void probe_texel_seen(ScreenRay ray, float s_from, float s, ivec2 texel, float surface, uint decision) {
+    if (!probing()) return;
+    probe(PROBE_screen_texel, vec4(travelled_at(ray, s_from), travelled_at(ray, s), ray.start + s * ray.across),
+          vec4(1.0 / inverse_depth_at(ray, s_from), 1.0 / inverse_depth_at(ray, s), texel),
+          vec4(texelFetch(depth_half, texel, 0).x, 1.0 / surface, decision, 0.0));
 }
 
 struct Result {
@@ -57,3 +69,7 @@ struct Result {
     bool finished;
     uint end, steps, fetches;
 };
+
+void probe_screen_end(Result result) {
+    probe(PROBE_screen_end, vec4(result.travelled_m, result.finished, result.end, result.steps), vec4(result.fetches));
+}

@@ -11,8 +11,10 @@ Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     if (sky && ray.vanishes && result.end == ray.limit) {
         result.fetches++;
         vec2 end = clamp(vec2(pixel) + 0.5 + ray.end * ray.across / reduction(frame.size), vec2(0.0), vec2(frame.size.zw) - 0.5);
-        if (!(texelFetch(depth_half, ivec2(end), 0).x < LARGEST))
+        if (!(texelFetch(depth_half, ivec2(end), 0).x < LARGEST)) {
+            probe_texel_seen(ray, ray.end, ray.end, ivec2(end), 0.0, DECISION_sky);
             return Result(INFINITE, true, END_sky, result.steps, result.fetches);
+        }
     }
     return result;
 }

@@ -27,6 +27,7 @@
 // value. Otherwise they are stand-ins of one texel with that value.
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
+layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (probe/tell.glsl)
 layout(constant_id = 3) const bool halves = true; // images declared as halves are that, and not floats instead
 layout(constant_id = 4) const uint dispatch_phase = 0u;
 #define PASS(title, source)

@@ -25,8 +25,10 @@ void main() {
     vec4 normal = texelFetch(transparent_normal_jittered, texel, 0);
     float start_m = texelFetch(transparent_screen_travelled, texel, 0).x;
     Result result = Result(start_m, NO_PLACE, END_not_traced, 0u, 0u);
+    probe_texel(texel);
     if (texelFetch(transparent_screen_finished, texel, 0).x == 0u && reflects(depth_m, normal.xyz))
         result = trace(texel, depth_m, normal, start_m);
+    probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
     imageStore(transparent_travelled, texel, vec4(result.travelled_m));
     imageStore(transparent_place, texel, uvec4(result.place));
     if (!diagnostics) return;

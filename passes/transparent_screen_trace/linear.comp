@@ -21,8 +21,10 @@ Result trace(ivec2 texel, float depth_m, vec3 normal) {
     Result result = march(ray, grid, dither ? random4(uvec2(texel), random_frame(), RANDOM_SCREEN_START).x : 0.0);
     if (ray.vanishes && result.end == ray.limit) {
         result.fetches++;
-        if (seen_inverse(texel_at(grid, ray.end), grid) == 0.0)
+        if (seen_inverse(texel_at(grid, ray.end), grid) == 0.0) {
+            probe_texel_seen(ray, ray.end, ray.end, nearest_texel(texel_at(grid, ray.end)), 0.0, DECISION_sky);
             return Result(INFINITE, true, END_sky, result.steps, result.fetches);
+        }
     }
     return result;
 }
@@ -33,7 +35,9 @@ void main() {
     float depth_m = texelFetch(transparent_depth_half, texel, 0).x;
     vec3 normal = texelFetch(transparent_normal_jittered, texel, 0).xyz;
     Result result = Result(0.0, false, END_not_traced, 0u, 0u);
+    probe_texel(texel);
     if (reflects(depth_m, normal)) result = trace(texel, depth_m, normal);
+    probe_screen_end(result);
     imageStore(transparent_screen_travelled, texel, vec4(result.travelled_m));
     imageStore(transparent_screen_finished, texel, uvec4(result.finished ? 1u : 0u));
     if (!diagnostics) return;

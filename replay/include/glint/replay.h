@@ -109,6 +109,10 @@ struct glint_replay_options {
     /* No pass is dropped for having nothing to do, no ray for being seen by nobody; no survey, and no list unless `passes`
        names its maker. */
     bool all;
+    /* Full-resolution pixels whose steps are told (glint/probe.h); changes no bit of an image. Passes that can tell run though
+       nothing changed. */
+    const uint32_t (*probes)[2];
+    size_t probe_count;
     bool captured;        /* images that are read from the capture are among the run's, with no pass */
     bool diagnostics;     /* end reasons, steps, fetches; changes no bit of the other images */
     bool float_precision; /* every half image as float */

@@ -1,0 +1,13 @@
+/* What a step of a probed ray led to, read by C and GLSL. The place in the list is the value. */
+DECISION(front,     "in front, goes on")
+DECISION(hit,       "hit")
+DECISION(behind,    "behind by more than the thickness")
+DECISION(back_face, "the surface's back")
+DECISION(absent,    "not there when looked at again")
+DECISION(finer,     "may meet something: a level finer")
+DECISION(hidden,    "behind all that the cell shows, goes on")
+DECISION(closing,   "behind: the step is halved")
+DECISION(resting,   "still on the surface where it starts")
+DECISION(unseen,    "not seen here: the next cube map")
+DECISION(skipped,   "nothing as near: steps over the cell")
+DECISION(sky,       "sky")

@@ -1,0 +1,266 @@
+/* Probed pixels of the street: what is told of them is what the run computed, and telling changes nothing. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "glint/probe.h"
+#include "gpu.h"
+
+enum { WIDTH = 160, HEIGHT = 90, FACE = 32, PIXELS = 1000, IMAGES_MAX = 160, WORDS = 6 };
+
+static void check(bool ok, const struct glint_error *err) {
+    if (!ok) fail_msg("%s", err->message);
+}
+
+/* ---- All images of a run, as floats or uints ---- */
+
+struct kept {
+    char name[96];
+    uint32_t width, height, components;
+    uint32_t *bits;
+};
+struct images {
+    struct kept list[IMAGES_MAX];
+    size_t count;
+};
+
+static void keep_images(struct gpu *gpu, struct images *images) {
+    struct glint_error err = {0};
+    images->count = glint_replay_image_count(gpu->replay);
+    assert_in_range(images->count, 1, IMAGES_MAX);
+    for (size_t i = 0; i < images->count; i++) {
+        const struct glint_image *image = glint_replay_image(gpu->replay, i);
+        struct kept *kept = &images->list[i];
+        *kept = (struct kept){.width = image->width, .height = image->height, .components = image->components};
+        snprintf(kept->name, sizeof kept->name, "%s", image->name);
+        kept->bits = calloc((size_t)image->width * image->height * image->components, sizeof *kept->bits);
+        assert_non_null(kept->bits);
+        const bool uint = image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;
+        check(glint_replay_read_image(gpu->replay, image, uint ? GLINT_U32 : GLINT_F32, kept->bits, &err), &err);
+    }
+}
+
+static void free_images(struct images *images) {
+    for (size_t i = 0; i < images->count; i++) free(images->list[i].bits);
+    images->count = 0;
+}
+
+static const struct kept *find(const struct images *images, const char *name) {
+    for (size_t i = 0; i < images->count; i++)
+        if (strcmp(images->list[i].name, name) == 0) return &images->list[i];
+    fail_msg("the run has no image %s", name);
+    return NULL;
+}
+
+static uint32_t bits_at(const struct kept *image, uint32_t x, uint32_t y, uint32_t component) {
+    assert_in_range(x, 0, image->width - 1);
+    assert_in_range(y, 0, image->height - 1);
+    return image->bits[((size_t)y * image->width + x) * image->components + component];
+}
+static uint32_t bits_of(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* ---- Runs ---- */
+
+static const char *const ways[][WORDS] = {
+    {"screen_trace=linear", "cubemap_trace=march"},
+    {"screen_trace=linear_binary", "cubemap_trace=exact"},
+    {"screen_trace=linear_facets", "cubemap_trace=box"},
+    {"hiz=nearest", "screen_trace=hiz", "cubemap_trace=sphere"},
+    {"screen_trace=dda", "cubemap_trace=lookup"},
+    {"screen_trace=dda", "cubemap_convert=dual_paraboloid", "cubemap_trace=dual_paraboloid"},
+    {"screen_trace.length_m=0", "cocoon=max", "cubemap_trace.rough_level=4"},
+    {"screen_trace.length_m=0", "cubemap_mips=plain", "cubemap_trace.rough_level=4", "cubemap_trace.depth=captured"},
+    {"screen_trace.length_m=0", "cubemap_mips=plain", "cubemap_mips.join=nearest", "cubemap_trace=exact",
+     "cubemap_trace.skip=true"},
+};
+enum { WAYS = sizeof ways / sizeof ways[0] };
+
+static void arrange(struct gpu *gpu, const char *const *words) {
+    gpu_reset(gpu);
+    for (size_t i = 0; i < WORDS && words[i]; i++) {
+        const char *dot = strchr(words[i], '.');
+        if (dot && dot < strchr(words[i], '=')) gpu_set(gpu, words[i]);
+        else gpu_use(gpu, words[i]);
+    }
+}
+
+static void replay(struct gpu *gpu, const uint32_t (*probes)[2], size_t count, struct images *images) {
+    struct glint_error err = {0};
+    const struct glint_replay_options options = {
+        .captured = true, .diagnostics = true, .probes = probes, .probe_count = count};
+    check(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
+    keep_images(gpu, images);
+}
+
+static void draw_pixels(uint32_t (*pixels)[2]) {
+    uint32_t state = 1;
+    for (size_t i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 2; k++) {
+            state = state * 1664525u + 1013904223u;
+            pixels[i][k] = (state >> 8) % (k ? HEIGHT : WIDTH);
+        }
+}
+
+/* ---- What a story must agree with ---- */
+
+static void same(const struct glint_probe_record *record, const char *value, const struct kept *image, uint32_t x,
+                 uint32_t y, uint32_t component) {
+    const uint32_t told = bits_of(glint_probe_value(record, value)), found = bits_at(image, x, y, component);
+    if (told != found)
+        fail_msg("%s.%s is 0x%08x, but %s holds 0x%08x at %u,%u", record->kind->name, value, told, image->name, found,
+                 x, y);
+}
+
+static uint32_t number(const struct glint_probe_record *record, const char *value) {
+    return (uint32_t)glint_probe_value(record, value);
+}
+
+/* The image of a level: its own name, or NAME.levelN. */
+static const struct kept *level_of(const struct images *images, const char *name, uint32_t level) {
+    char text[128];
+    snprintf(text, sizeof text, level ? "%s.level%u" : "%s", name, level);
+    return find(images, text);
+}
+
+static void check_depth(const struct glint_probe_record *record, const struct images *images) {
+    const uint32_t x = number(record, "texel_x"), y = number(record, "texel_y");
+    if (glint_probe_is(record, "screen_texel")) same(record, "depth_m", find(images, "depth_half"), x, y, 0);
+    if (glint_probe_is(record, "screen_cell")) {
+        const struct kept *hiz = level_of(images, "hiz", number(record, "level"));
+        same(record, "nearest", hiz, x, y, 0);
+        same(record, "farthest", hiz, x, y, 1);
+    }
+    if (!glint_probe_is(record, "cubemap_texel")) return;
+    const struct glint_probe_word of = glint_probe_word("image", glint_probe_value(record, "image"));
+    assert_non_null(of.name);
+    const struct kept *image = level_of(images, of.name, number(record, "level"));
+    const uint32_t faces = 6 * number(record, "place") + number(record, "face");
+    same(record, "texel_m", image, x, y + faces * image->width, 0);
+}
+
+/* The last step of a tracer, its end, and the images agree. */
+struct last {
+    const struct glint_probe_record *step;
+    uint32_t steps;
+};
+
+static bool is_hit(const struct glint_probe_record *record, const char *unit, const char *value) {
+    const struct glint_probe_word word = glint_probe_word(unit, glint_probe_value(record, value));
+    return word.name && strcmp(word.name, "hit") == 0;
+}
+
+static bool counts_steps(const struct glint_probe_record *end) {
+    return strcmp(end->pass->variant, "linear_binary") != 0 && strcmp(end->pass->variant, "march") != 0;
+}
+
+static void check_end(const struct glint_probe_record *end, const struct last *last, const struct images *images,
+                      uint32_t x, uint32_t y) {
+    const bool screen = glint_probe_is(end, "screen_end");
+    const struct kept *far = find(images, screen ? "screen_travelled" : "travelled");
+    same(end, "travelled_m", far, x, y, 0);
+    if (!screen) assert_int_equal(number(end, "place"), bits_at(find(images, "cubemap_index"), x, y, 0));
+    assert_int_equal(number(end, "end"), bits_at(find(images, screen ? "screen_end" : "cubemap_end"), x, y, 0));
+    assert_int_equal(number(end, "steps"), bits_at(find(images, screen ? "screen_steps" : "cubemap_steps"), x, y, 0));
+    if (counts_steps(end)) assert_int_equal(number(end, "steps"), last->steps);
+    if (!is_hit(end, "end reason", "end") || !last->step) return;
+    assert_true(is_hit(last->step, "decision", "decision"));
+    same(last->step, "travelled_m", far, x, y, 0);
+}
+
+struct tally {
+    size_t stories, depths, screen_hits, cube_hits;
+};
+
+static void check_story(const struct glint_probe_story *story, const struct images *images, const uint32_t pixel[2],
+                        struct tally *tally) {
+    struct last last = {0};
+    assert_int_equal(story->lost, 0);
+    tally->stories += story->count > 0;
+    for (size_t i = 0; i < story->count; i++) {
+        const struct glint_probe_record *record = &story->records[i];
+        const bool texel = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "cubemap_texel");
+        check_depth(record, images);
+        if (texel || glint_probe_is(record, "screen_cell")) {
+            const struct glint_probe_word word = glint_probe_word("decision", glint_probe_value(record, "decision"));
+            assert_non_null(word.name);
+            last.step = record;
+            last.steps += strcmp(word.name, "sky") != 0 || glint_probe_is(record, "cubemap_texel");
+            tally->depths++;
+        }
+        const bool screen = glint_probe_is(record, "screen_end");
+        if (!screen && !glint_probe_is(record, "cubemap_end")) continue;
+        check_end(record, &last, images, pixel[0] / 2, pixel[1] / 2);
+        *(screen ? &tally->screen_hits : &tally->cube_hits) += is_hit(record, "end reason", "end");
+        last = (struct last){0};
+    }
+}
+
+static void street(struct gpu *gpu) {
+    gpu_sample(gpu, "street", "street",
+               &(struct glint_sample_options){.width = WIDTH, .height = HEIGHT, .cube_size = FACE});
+}
+
+static void test_stories(void **state) {
+    struct gpu *gpu = *state;
+    static uint32_t pixels[PIXELS][2];
+    static struct images plain, probed;
+    street(gpu);
+    draw_pixels(pixels);
+    for (size_t w = 0; w < WAYS; w++) {
+        struct tally tally = {0};
+        struct glint_error err = {0};
+        arrange(gpu, ways[w]);
+        replay(gpu, NULL, 0, &plain);
+        replay(gpu, (const uint32_t(*)[2])pixels, PIXELS, &probed);
+        assert_int_equal(plain.count, probed.count);
+        for (size_t i = 0; i < plain.count; i++) {
+            const struct kept *a = &plain.list[i], *b = find(&probed, a->name);
+            assert_memory_equal(a->bits, b->bits, (size_t)a->width * a->height * a->components * sizeof *a->bits);
+        }
+        for (size_t i = 0; i < PIXELS; i++) {
+            struct glint_probe_story story;
+            check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
+            check_story(&story, &plain, pixels[i], &tally);
+            free(story.records);
+        }
+        print_message("# %s: %zu stories, %zu depths, hits %zu on screen, %zu in cube maps\n", ways[w][0],
+                      tally.stories, tally.depths, tally.screen_hits, tally.cube_hits);
+        assert_true(tally.stories == PIXELS && tally.cube_hits + tally.screen_hits > 0);
+        free_images(&plain);
+        free_images(&probed);
+    }
+}
+
+static void test_errors(void **state) {
+    struct gpu *gpu = *state;
+    struct glint_error err = {0};
+    struct glint_probe_story story;
+    static const uint32_t outside[][2] = {{3, 3}, {WIDTH, 3}}, one[][2] = {{3, 3}};
+    street(gpu);
+    gpu_reset(gpu);
+    struct glint_replay_options options = {.probes = outside, .probe_count = 2};
+    assert_false(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
+    assert_string_equal(err.message, "pixel 160,3: outside of the picture of 160 x 90 pixels");
+    options = (struct glint_replay_options){.probes = one, .probe_count = 1, .repeat = 2};
+    assert_false(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
+    options.repeat = 0;
+    assert_true(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
+    assert_false(glint_replay_probe(gpu->replay, 1, &story, &err));
+    assert_true(glint_replay_run(gpu->replay, gpu->pipeline, NULL, NULL, NULL, &err));
+    assert_false(glint_replay_probe(gpu->replay, 0, &story, &err));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stories), cmocka_unit_test(test_errors)};
+    return cmocka_run_group_tests_name("gpu_probe", tests, gpu_set_up, gpu_tear_down);
+}
