@@ -23,6 +23,7 @@
     enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c), PLACE(parameter, d) };
 #define DISPATCH(image)
 #define DISPATCH_LEVELS(image, first, last, order)
+#define DISPATCH_LEVELS_BY(image, width, first, last, order)
 #define DISPATCH_LIST(list)
 #define WORKGROUP(width, height)
 #define FACT(fact)

@@ -15,6 +15,7 @@
 #undef CHOICE4
 #undef DISPATCH
 #undef DISPATCH_LEVELS
+#undef DISPATCH_LEVELS_BY
 #undef DISPATCH_LIST
 #undef WORKGROUP
 #undef FACT
@@ -74,6 +75,9 @@
 #define DISPATCH_LEVELS(image_, first_, last_, order_)                                                       \
     {.kind = GLINT_ROW_DISPATCH_LEVELS, .id = __LINE__, .name = #image_, .first = first_, .last = last_,      \
      .order = GLINT_ORDER_##order_},
+#define DISPATCH_LEVELS_BY(image_, width_, first_, last_, order_)                                             \
+    {.kind = GLINT_ROW_DISPATCH_LEVELS, .id = __LINE__, .name = #image_, .assigned = #width_, .first = first_,   \
+     .last = last_, .order = GLINT_ORDER_##order_},
 #define DISPATCH_LIST(list) {.kind = GLINT_ROW_DISPATCH_LIST, .id = __LINE__, .name = #list},
 #define WORKGROUP(width, height) {.kind = GLINT_ROW_WORKGROUP, .id = __LINE__, .name = "", .first = width, .last = height},
 #define FACT(fact) {.kind = GLINT_ROW_FACT, .id = __LINE__, .name = #fact},

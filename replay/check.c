@@ -61,6 +61,9 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
             !pass_row(pass, GLINT_ROW_PUSH, row->name))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: ASSUMED %s: expected a number that the pass takes",
                        pass->slot, pass->variant, row->name);
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && row->assigned && !pass_row(pass, GLINT_ROW_SPEC, row->assigned))
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: DISPATCH_LEVELS_BY %s: expected a number that the pass takes",
+                       pass->slot, pass->variant, row->assigned);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && (!own || !size_has_levels(own->size)))
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: DISPATCH_LEVELS %s: expected an image with levels that the pass writes", pass->slot,

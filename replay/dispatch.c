@@ -1,6 +1,7 @@
 /* What a pass's rows dispatch: a list of dispatches, each with its level, its phase and its descriptors. */
 #include "state.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,14 +34,33 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
                                      (extent.height + group.height - 1) / group.height, image_layers(&image->desc)}};
 }
 
+static double value_of(const struct graph_pass *pass, const char *parameter) {
+    size_t r = 0;
+    while (!row_is_parameter(&pass->pass->rows[r]) || strcmp(pass->pass->rows[r].name, parameter) != 0) r++;
+    return pass->entry->values[r];
+}
+
+/* The finest level that is no wider than a parameter says. */
+static int level_of_width(const struct step *step, const struct image *image, const char *parameter) {
+    const double width = value_of(step->pass, parameter);
+    int level = 0;
+    while (level < 31 && ldexp(width, level) < image->desc.width) level++;
+    return level;
+}
+
 /* From the finer to the coarser of the two levels that the row names, or back. An image may have fewer levels. */
 static void add_levels(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
                        const struct image *image) {
     const int count = (int)image->desc.levels;
     const bool swapped = (row->first < 0) == (row->last < 0) ? row->first > row->last : row->first < 0;
     int fine = swapped ? row->last : row->first, coarse = swapped ? row->first : row->last;
-    fine = fine < 0 ? fine + count : fine;
-    coarse = coarse < 0 ? coarse + count : coarse;
+    if (row->assigned) {
+        const int from = level_of_width(step, image, row->assigned);
+        fine = from + row->first, coarse = from + row->last;
+    } else {
+        fine = fine < 0 ? fine + count : fine;
+        coarse = coarse < 0 ? coarse + count : coarse;
+    }
     if (fine < 0) fine = 0;
     if (coarse > count - 1) coarse = count - 1;
     for (int i = 0; i <= coarse - fine; i++)

@@ -9,11 +9,12 @@
 #include "shared/cocoon.glsl"
 #include "shared/cube_chain.glsl"
 
-float texel_of(ivec3 at, int level) { return texelFetch(faces, at, level).x; }
+float captured(ivec3 at) { return texelFetch(cubemap_distance, at, 0).x; }
+float texel_of(ivec3 at, int level) { return level == 0 ? captured(at) : texelFetch(faces, at, level).x; }
 
-// Top-down: the farthest that is not sky.
+// Top-down: the farthest that is not sky. The finest level, the captured distances, is written last.
 float farthest_child(ivec3 at, int width, int level) {
-    if (level == 0) return texelFetch(cubemap_distance, at, 0).x;
+    if (level == 0) return captured(at);
     int finer = face_size(faces, level - 1);
     Footprint x = footprint(at.x, width, finer), y = footprint(at.y, width, finer);
     float most = -1.0;
@@ -30,8 +31,7 @@ float farthest_child(ivec3 at, int width, int level) {
 float farthest_of_map(int layer, int level) {
     float most = -1.0;
     for (int face = 0; face < 6; ++face) {
-        float distance_m = level == 0 ? texelFetch(cubemap_distance, ivec3(0, 0, layer - layer % 6 + face), 0).x
-                                      : farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level);
+        float distance_m = farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level);
         if (distance_m < LARGEST) most = max(most, distance_m);
     }
     return most < 0.0 ? INFINITE : most;
@@ -73,6 +73,29 @@ float weighted_max(vec4 direction, int level) {
 
 int cocoon_level() { return int(ceil(log2(max(float(face_size(faces, 0)) / float(size), 1.0)) - 1e-4)); }
 
+// From the coarsest level up to the cocoon's: coarser ones fill the sky, the cocoon's own is smooth all over.
+void fill_level(ivec3 at, int width, int level) {
+    int coarsest = textureQueryLevels(samplerCubeArray(chain, nearest_clamp)) - 1;
+    float distance_m = texel_of(at, level);
+    bool is_sky = !(distance_m < LARGEST);
+    if (!is_sky && level != cocoon_level()) return;
+    if (level < coarsest) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
+    else if (is_sky) distance_m = farthest_of_map(at.z, level);
+    imageStore(cocoon_distance, at, vec4(distance_m < LARGEST ? distance_m : INFINITE)); // filtered, it may be NaN
+}
+
+// Levels finer than the cocoon's take it where they see sky.
+void cap_level(ivec3 at, int width, int level) {
+    float distance_m = texel_of(at, level);
+    if (cap_sky && !(distance_m < LARGEST)) {
+        float cap_m = seen(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_level());
+        distance_m = cap_m < LARGEST ? -cap_m : INFINITE;
+    } else if (level > 0) {
+        return;
+    }
+    imageStore(cocoon_distance, at, vec4(distance_m));
+}
+
 void keep_cocoon(ivec3 at) {
     if (any(greaterThanEqual(at.xy, ivec2(COCOON_SIZE)))) return;
     vec3 direction = direction_of_sample(at.xy, at.z % 6);
@@ -82,27 +105,13 @@ void keep_cocoon(ivec3 at) {
 
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (dispatch_phase == 2u) {
+    if (dispatch_phase == 3u) {
         keep_cocoon(at);
         return;
     }
     int width = imageSize(cocoon_distance).x, level = int(dispatch_level);
     if (at.x >= width || at.y >= width) return;
-    if (dispatch_phase == 0u) {
-        imageStore(cocoon_distance, at, vec4(farthest_child(at, width, level)));
-        return;
-    }
-    int coarsest = textureQueryLevels(samplerCubeArray(chain, nearest_clamp)) - 1;
-    int cocoon_at = cocoon_level();
-    bool is_sky = !(texel_of(at, level) < LARGEST);
-    if (!is_sky && level != cocoon_at) return;
-    float distance_m;
-    if (level == coarsest) distance_m = is_sky ? farthest_of_map(at.z, level) : texel_of(at, level);
-    else if (level >= cocoon_at) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
-    else if (cap_sky)
-        distance_m = seen(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_at);
-    else return;
-    if (!(distance_m < LARGEST)) distance_m = INFINITE; // filtered, it may be NaN
-    if (level < cocoon_at && distance_m < LARGEST) distance_m = -distance_m;
-    imageStore(cocoon_distance, at, vec4(distance_m));
+    if (dispatch_phase == 0u) imageStore(cocoon_distance, at, vec4(farthest_child(at, width, level)));
+    else if (dispatch_phase == 1u) fill_level(at, width, level);
+    else cap_level(at, width, level);
 }

@@ -7,6 +7,9 @@
 // Cube maps are written as WRITE(image2DArray, ...): layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), and
 // gl_GlobalInvocationID.z is the layer. They are read as textureCube or textureCubeArray,
 // or as texture2DArray where the texel is known: layers as above, texelFetch, no filter and no search for the face.
+// DISPATCH_LEVELS(image, first, last, order) is one dispatch for each level from the one to the other; -1 is the coarsest.
+// DISPATCH_LEVELS_BY(image, width, first, last, order) counts from the finest level that is no wider than the parameter: 0 is that
+// one, -1 the next finer; numbers beyond the levels that there are end at those.
 // Dispatches of a pass run in the order of their rows; dispatch_phase is the row's number among them, from 0. It is a constant,
 // so that what other phases do costs nothing: not all devices jump over what no invocation does.
 //
@@ -56,6 +59,7 @@ layout(constant_id = 4) const uint dispatch_phase = 0u;
 #define PUSH(type, name, initial, lowest, highest, unit, source, help)
 #define DISPATCH(image)
 #define DISPATCH_LEVELS(image, first, last, order)
+#define DISPATCH_LEVELS_BY(image, width, first, last, order)
 #define DISPATCH_LIST(list)
 #define WORKGROUP(width, height)
 #define FACT(fact) layout(constant_id = __LINE__) const bool fact_##fact = true;

@@ -100,8 +100,9 @@ struct glint_row {
     bool required;        /* CAPTURE: false: `nothing` when absent */
     bool optional;        /* READ: format, size and nothing are given here, for when no pass makes the image */
     const char *image;    /* SELF, HISTORY: the image; NULL: `name` */
-    const char *assigned; /* REFERENCE_SET: as glint_pipeline_set takes it */
-    /* DISPATCH_LEVELS: the levels from one to the other, both included; negative: from the coarsest, which is -1 */
+    const char *assigned; /* REFERENCE_SET: as glint_pipeline_set takes it. DISPATCH_LEVELS: a parameter, or NULL */
+    /* DISPATCH_LEVELS: the levels from one to the other, both included; negative: from the coarsest, which is -1.
+       With a parameter: of the levels that there are, counted from the finest one that is no wider than that */
     int first, last;
     enum glint_level_order order;
     /* parameters */
