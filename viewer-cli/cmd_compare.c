@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "compare/contest.h"
+#include "page/page.h"
 #include "pipe.h"
 #include "view/png_file.h"
 #include "text_file.h"
@@ -96,23 +97,23 @@ static bool write_table(const char *folder, const struct contest_table *table, s
 }
 
 static bool write_all(const char *folder, const struct contest_table *table, const struct sheet *sheet,
-                      struct glint_error *err) {
+                      const struct contest_pictures *pictures, struct glint_error *err) {
     struct picture picture = {0};
     char path[4096];
     if (snprintf(path, sizeof path, "%s/sheet.png", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     bool ok = write_table(folder, table, err) && sheet_lay_out(&picture, sheet, err) &&
-              png_file_write(path, &picture, err) && contest_write_page(folder, table, sheet, err);
+              png_file_write(path, &picture, err) && contest_write_page(folder, table, pictures, err);
     picture_finish(&picture);
     return ok;
 }
 
-static bool run_capture(struct contest *contest, const char *path, struct showing *showings, struct picture *cells,
-                        struct glint_error *err) {
+static bool run_capture(struct contest *contest, const char *path, struct showing *showings,
+                        struct contest_pictures *pictures, struct glint_error *err) {
     struct pipe pipe;
     const char *file = pipe_input(&pipe, path, err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
-    bool ok = capture && contest_run(contest, capture, showings, cells, err);
+    bool ok = capture && contest_run(contest, capture, showings, pictures, err);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
     return ok;
@@ -131,28 +132,56 @@ static enum status report_failures(const struct contest_table *table) {
     return status;
 }
 
+static bool make_folders(const char *folder, struct glint_error *err) {
+    char path[4096];
+    if (snprintf(path, sizeof path, "%s/pictures", folder) >= (int)sizeof path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    return glint_make_folder(path, err);
+}
+
+/* A share of the sheet and of the page for each capture. */
+static struct contest_pictures *begin_pictures(const struct arguments *a, struct sheet *sheet, uint32_t columns,
+                                               struct glint_error *err) {
+    const size_t count = a->captures.count, cells = CONTEST_ROWS * (size_t)columns;
+    struct contest_pictures *pictures = calloc(count, sizeof *pictures);
+    if (!pictures) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (!pictures || !sheet_init(sheet, columns, CONTEST_ROWS * (uint32_t)count, err) || !make_folders(a->out, err)) {
+        free(pictures);
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++)
+        pictures[i] = (struct contest_pictures){.cells = &sheet->cells[i * cells],
+                                                .columns = columns,
+                                                .capture = i,
+                                                .folder = a->out,
+                                                .values_bytes = PAGE_VALUE_BYTES / (count * cells),
+                                                .rows = json_pack("[[], [], []]")};
+    return pictures;
+}
+
 static enum status compare(struct contest *contest, const struct arguments *a, struct glint_error *err) {
     struct sheet sheet = {0};
     struct progress progress;
-    uint32_t columns = (uint32_t)contest->count + 1, rows = CONTEST_ROWS * (uint32_t)a->captures.count;
+    struct contest_pictures *pictures = NULL;
     struct showing *showings = calloc(a->captures.count * contest->count + 1, sizeof *showings);
     const struct contest_table table = {contest, a->captures.items, showings, a->captures.count};
-    bool ok = showings ? !a->out || sheet_init(&sheet, columns, rows, err)
-                       : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok && a->out) ok = glint_make_folder(a->out, err);
+    bool ok = showings || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok && a->out) ok = (pictures = begin_pictures(a, &sheet, (uint32_t)contest->count + 1, err)) != NULL;
     progress_begin(&progress);
     contest->progress = &progress;
     for (size_t i = 0; ok && i < a->captures.count; i++)
-        ok = run_capture(contest, a->captures.items[i], &showings[i * contest->count],
-                         a->out ? &sheet.cells[i * CONTEST_ROWS * columns] : NULL, err);
-    if (ok && a->out) ok = write_all(a->out, &table, &sheet, err);
+        ok = run_capture(contest, a->captures.items[i], &showings[i * contest->count], pictures ? &pictures[i] : NULL,
+                         err);
+    if (ok && a->out) ok = write_all(a->out, &table, &sheet, pictures, err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_compare, err);
     if (ok && a->json) status = print_json(contest_json(&table));
     else if (ok) contest_print(&table);
     if (ok && status == STATUS_DONE) status = report_failures(&table);
     for (size_t i = 0; showings && i < a->captures.count * contest->count; i++) showing_finish(&showings[i]);
+    for (size_t i = 0; pictures && i < a->captures.count; i++) json_decref(pictures[i].rows);
     free(showings);
+    free(pictures);
     sheet_finish(&sheet);
     return status;
 }

@@ -10,16 +10,17 @@
 #include "report/report.h"
 #include "shot.h"
 #include "table.h"
+#include "watch/watch.h"
 
 struct arguments {
     struct pipeline_args pipeline;
     struct list captures;
     const char *out, *device, *cache;
-    bool json;
+    bool json, watch;
     struct against against;
 };
 
-enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_CACHE, KEY_AGAINST };
+enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_CACHE, KEY_AGAINST, KEY_WATCH };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -42,6 +43,9 @@ static const struct argp_option options[] = {
         "the reference itself is off the truth. The truth has no fog: with truth and both add --set resolve.fog=false, and trace "
         "RUN with it too", 0},
     METRIC_OPTIONS,
+    {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset's file or a shader changes: RUN holds the newest version, "
+        "RUN/first the first, and RUN/watch.html shows both and what differs, and loads itself again. A shader that does not compile "
+        "is waited past. Ctrl-C ends", 0},
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
@@ -55,6 +59,8 @@ static const struct example examples[] = {
     {"glint replay street.exr --against truth --set downsample.jitter=false", "how many rays are right, and why not"},
     {"glint replay street.exr --against reference", "how far the picture is from the converged answer"},
     {"glint replay street.exr --against truth --metrics rmse,hdr_flip --ppd 40", "by these metrics, seen from nearer"},
+    {"glint replay street.exr -o run --shader resolve=my.comp --watch",
+     "edit my.comp, and see in run/watch.html what changes"},
     {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME; again: completes what was interrupted"},
     {0},
 };
@@ -93,6 +99,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     case KEY_CACHE:
         a->cache = arg;
         return 0;
+    case KEY_WATCH:
+        a->watch = true;
+        return 0;
     case KEY_AGAINST:
         against_parse(&a->against, arg, state);
         r->diagnostics = r->diagnostics || a->against.truth;
@@ -102,6 +111,12 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case ARGP_KEY_NO_ARGS:
         argp_error(state, "which capture?");
+        return 0;
+    case ARGP_KEY_END:
+        if (a->watch && (!a->out || a->captures.count != 1))
+            argp_error(state, "--watch is of one capture, with -o RUN");
+        if (a->watch && (a->json || a->against.truth || a->against.reference))
+            argp_error(state, "--watch compares with the first version; --json and --against are of one replay");
         return 0;
     }
     if (metric_args_parse(key, arg, state, &a->against.metrics) == 0) return 0;
@@ -375,10 +390,12 @@ static enum status run(int argc, char **argv) {
     struct glint_error err = {0};
     struct glint_device_options device_options = {.select = a.device};
     enum status status;
-    job.pipeline = pipeline_args_create(&a.pipeline, &err);
-    if (job.pipeline) job.device = glint_device_create(&device_options, &err);
-    if (job.device) job.replay = glint_replay_create(job.device, &err);
-    if (job.replay && against_begin(&a.against, job.device, job.pipeline, &err)) {
+    job.pipeline = a.watch ? NULL : pipeline_args_create(&a.pipeline, &err);
+    if (job.pipeline || a.watch) job.device = glint_device_create(&device_options, &err);
+    if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
+    if (job.device && a.watch) {
+        status = watch_run(&(struct watch){&cmd_replay, &a.pipeline, a.captures.items[0], a.out, cache, job.device});
+    } else if (job.replay && against_begin(&a.against, job.device, job.pipeline, &err)) {
         if (a.json) job.runs = json_array();
         status = replay_all(&job);
         if (job.runs && print_json(json_pack("{s:o}", "runs", job.runs)) != STATUS_DONE) status = STATUS_CHECK;

@@ -176,13 +176,46 @@ class Tests:
         self.browser.show(os.path.join(compared, "index.html"))
         assert self.browser.evaluate("[...document.querySelectorAll('h2')].map(e => e.textContent)") == [NAME]
         assert self.browser.evaluate("[...document.querySelectorAll('h3')].map(e => e.textContent)") == \
-            ["Error against time", "Error by surface", "Why rays ended"]
+            ["Error against time", "Error by surface", "Why rays ended", "Reflection", "Its error, 0 (dark) to 1 (bright)", "Picture"]
         (rows,) = [t for t in self.browser.evaluate(f"{TABLE}({json.dumps(NAME)})") if t[0][-1] == "notes"]
         for row, preset in zip(rows[1:], presets, strict=True):
             (everything,) = [s for s in preset["surfaces"] if s["surfaces"] == "all"]
             assert row[0] == preset["preset"] and abs(float(row[5]) - everything["symmetric"]) < 1e-4, (row, everything)
-        # the truth has no error of its own
-        assert self.browser.evaluate("document.querySelectorAll('.pictures img').length") == 3 * 3 - 1
+        # the truth has no error of its own; this scene has no finished picture of its own either
+        stages = self.browser.evaluate("[...document.querySelectorAll('.stage')].map(s => [...new Set([...s.querySelectorAll('option, .bar button')].map(o => o.textContent))])")
+        assert [s[5:8] for s in (stages[0], stages[2])] == [["truth", "mafia3", "kf2"], ["without reflections", "mafia3", "kf2"]], stages
+        assert stages[1][:5] == ["Slider", "Side by side", "Flicker", "mafia3", "kf2"], stages
+        self.browser.quiet()
+
+    def test_presets_are_compared_pixel_by_pixel(self):
+        compared = self.path("pixels")
+        glint("compare", self.capture, "--presets=mafia3,kf2", "--repeat=1", "-o", compared)
+        with open(os.path.join(compared, "page.json"), encoding="utf-8") as file:
+            assert all(picture["values"]["every"] == 1 for section in json.load(file)["sections"] for block in section["blocks"]
+                       if "stage" in block for picture in block["stage"]["pictures"])
+        self.browser.show(os.path.join(compared, "index.html"))
+        stage = "document.querySelectorAll('.stage')[{}]"
+
+        def values(number, x, y):
+            """What the stage says of a pixel: {preset: [value of each channel]}."""
+            box = stage.format(number) + ".querySelector('.frame')"
+            self.browser.evaluate(box + ".scrollIntoView()")
+            left, top, width, height = self.browser.evaluate(f"(r => [r.x, r.y, r.width, r.height])({box}.getBoundingClientRect())")
+            self.browser.point_at(left + (x + 0.5) / 96 * width, top + (y + 0.5) / 54 * height)
+            self.browser.evaluate(f"new Promise(done => {{ const wait = () => {stage.format(number)}.querySelector('.readout th')?.textContent === '{x},{y}' ? done() : setTimeout(wait, 10); wait(); }})")
+            rows = self.browser.evaluate(f"[...{stage.format(number)}.querySelectorAll('.readout tbody tr')].map(r => [...r.cells].slice(0, -1).map(c => c.textContent))")
+            return {row[0]: [float(v.replace("\u2212", "-")) for v in row[1:4] if v != "\u2013"] for row in rows}
+
+        # an error is what docs/metrics.md calls symmetric, of the reflections that the page itself gives
+        for x, y in ((20, 40), (48, 30), (70, 45)):
+            reflection, error = values(0, x, y), values(1, x, y)
+            for preset in ("mafia3", "kf2"):
+                if not any(reflection[preset]):
+                    continue
+                expected = sum(abs(a - b) / (abs(a) + abs(b) + 0.05) for a, b in zip(reflection[preset], reflection["truth"])) / 3
+                assert abs(error[preset][0] - expected) < 1e-5, (x, y, preset, error, expected)
+        self.browser.evaluate(f"(s => {{ s.value = 1; s.dispatchEvent(new Event('change')); }})({stage.format(0)}.querySelectorAll('select')[0])")
+        assert self.browser.evaluate(f"[...{stage.format(0)}.querySelectorAll('.tag')].map(t => t.textContent)") == ["mafia3", "kf2"]
         self.browser.quiet()
 
     def test_what_cannot_be_reported_is_named(self):

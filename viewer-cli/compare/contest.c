@@ -239,29 +239,29 @@ static bool share_pixels(const struct contest *contest, struct showing *showings
 }
 
 static bool look_at_all(const struct contest *contest, struct showing *showings, struct answer *answers,
-                        struct picture *cells, struct glint_error *err) {
+                        struct contest_pictures *pictures, struct glint_error *err) {
     const struct glint_pixels *truth = NULL;
     const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
-    size_t columns = contest->count + 1;
     for (size_t i = 0; i < contest->count; i++) {
         const struct contestant *c = &contest->contestants[i];
         struct glint_error own = {0};
         showings[i].ran = look(contest, i, &showings[i], &answers[i], &own) &&
-                          (!cells || contest_draw(cells, columns, i + 1, c, &answers[i], surfaces, &own));
+                          (!pictures || contest_draw(pictures, i + 1, c, &answers[i], surfaces, &own));
         if (!showings[i].ran && !fail_alone(&showings[i], c, &own, err)) return false;
         if (!truth && showings[i].compared) truth = answers[i].truth;
     }
-    return !cells || contest_draw_truth(cells, columns, truth, glint_judge_capture(contest->judge), err);
+    return !pictures || contest_draw_truth(pictures, truth, glint_judge_capture(contest->judge), err);
 }
 
 bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
-                 struct picture *cells, struct glint_error *err) {
+                 struct contest_pictures *pictures, struct glint_error *err) {
     static const struct glint_judge_options options = {.truth = true};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
     struct answer *answers = calloc(contest->count + 1, sizeof *answers);
     bool ok = (answers || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
               (contest->judge || (contest->judge = glint_judge_create(contest->device, &options, err))) &&
-              glint_judge_load(contest->judge, capture, err) && look_at_all(contest, showings, answers, cells, err) &&
+              glint_judge_load(contest->judge, capture, err) &&
+              look_at_all(contest, showings, answers, pictures, err) &&
               share_pixels(contest, showings, answers, glint_judge_surfaces(contest->judge),
                            (size_t)gbuffer->width * gbuffer->height, err) &&
               take_turns(contest, showings, err);

@@ -56,14 +56,22 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
                    struct glint_error *err);
 void contest_finish(struct contest *contest);
 
-/* Runs every preset on the capture; showings[i] is of contestant i. One that fails says so in its showing. `row`: NULL,
-   or 3 rows of count + 1 cells of a sheet, the truth's first. False when nothing can be shown at all, or after Ctrl-C. */
+/* Pictures of one capture: rows of a column each for the truth and the presets. */
+enum { CONTEST_ROWS = 3 }; /* reflection, its error, the composed picture */
+struct contest_pictures {
+    struct picture *cells; /* of a sheet, row by row */
+    size_t columns, capture;
+    const char *folder;  /* where they are kept at their own size, in pictures/ */
+    size_t values_bytes; /* for the values of each */
+    json_t *rows;        /* for each row what a page's stage shows of it */
+};
+
+/* Runs every preset on the capture; showings[i] is of contestant i. One that fails says so in its showing. `pictures`: NULL
+   for none. False when nothing can be shown at all, or after Ctrl-C. */
 bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
-                 struct picture *cells, struct glint_error *err);
+                 struct contest_pictures *pictures, struct glint_error *err);
 void showing_finish(struct showing *showing);
 
-/* Pictures of one capture. */
-enum { CONTEST_ROWS = 3 }; /* reflection, its error, the composed picture */
 struct answer {
     struct glint_verdict verdict;
     const struct glint_pixels *truth; /* of the lobe that the preset draws from; NULL without one */
@@ -71,9 +79,9 @@ struct answer {
     struct glint_pixels picture; /* the last one; empty without one */
     char picture_name[64];
 };
-bool contest_draw_truth(struct picture *cells, size_t columns, const struct glint_pixels *truth,
+bool contest_draw_truth(struct contest_pictures *pictures, const struct glint_pixels *truth,
                         struct glint_capture *capture, struct glint_error *err);
-bool contest_draw(struct picture *cells, size_t columns, size_t column, const struct contestant *contestant,
+bool contest_draw(struct contest_pictures *pictures, size_t column, const struct contestant *contestant,
                   const struct answer *answer, const uint8_t *surfaces, struct glint_error *err);
 
 /* All captures of a call: showings[capture · contest->count + contestant]. */
@@ -87,8 +95,8 @@ void contest_print(const struct contest_table *table);
 json_t *contest_json(const struct contest_table *table);
 /* Lines of text, malloc'd; NULL when memory is short. */
 char *contest_csv(const struct contest_table *table);
-/* FOLDER/index.html, from page.json and pictures of the sheet's cells, which are kept beside it. */
-bool contest_write_page(const char *folder, const struct contest_table *table, const struct sheet *sheet,
+/* FOLDER/index.html, from page.json and the pictures of each capture. */
+bool contest_write_page(const char *folder, const struct contest_table *table, const struct contest_pictures *pictures,
                         struct glint_error *err);
 
 #endif

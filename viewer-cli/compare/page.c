@@ -5,7 +5,6 @@
 
 #include "compare/contest.h"
 #include "page/page.h"
-#include "view/png_file.h"
 
 static const struct showing *showing_of(const struct contest_table *t, size_t capture, size_t preset) {
     return &t->showings[capture * t->contest->count + preset];
@@ -32,34 +31,34 @@ static json_t *time_json(const struct contest_time *time) {
 
 /* ---- Pictures ---- */
 
-static bool keep_picture(const char *folder, const char *file, const struct picture *cell, struct glint_error *err) {
-    char path[4096];
-    if (snprintf(path, sizeof path, "%s/%s", folder, file) >= (int)sizeof path)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    return png_file_write(path, cell, err);
+static const char *const row_titles[CONTEST_ROWS] = {"Reflection", "Its error, 0 (dark) to 1 (bright)", "Picture"};
+
+/* A capture's pictures by column, the truth's first, without their values. */
+static json_t *by_column(const struct contest_pictures *pictures) {
+    json_t *columns = json_array(), *row, *shown;
+    size_t r, i;
+    for (i = 0; i < pictures->columns; i++) json_array_append_new(columns, json_array());
+    json_array_foreach(pictures->rows, r, row) json_array_foreach(row, i, shown) {
+        const size_t column = (size_t)json_integer_value(json_object_get(shown, "column"));
+        json_t *caption = json_sprintf("%s: %s", json_string_value(json_object_get(shown, "caption")), row_titles[r]);
+        json_array_append_new(json_array_get(columns, column),
+                              json_pack("{s:O, s:o}", "file", json_object_get(shown, "file"), "caption", caption));
+    }
+    return columns;
 }
 
-static const char *const row_names[CONTEST_ROWS] = {"reflection", "error", "picture"};
-
-/* Keeps one capture's, and appends them to `rows`, and to `presets` beginning with the truth's. */
-static bool keep_pictures(const struct contest_table *t, const char *folder, const struct sheet *sheet, size_t capture,
-                          json_t *rows, json_t *presets, struct glint_error *err) {
-    for (size_t row = 0; row < CONTEST_ROWS; row++) {
-        json_array_append_new(rows, json_array());
-        for (size_t column = 0; column < sheet->columns; column++) {
-            const struct picture *cell = &sheet->cells[(capture * CONTEST_ROWS + row) * sheet->columns + column];
-            if (row == 0) json_array_append_new(presets, json_array());
-            if (!cell->rgba) continue;
-            char file[96];
-            snprintf(file, sizeof file, "pictures/%zu-%zu-%s.png", capture, column, row_names[row]);
-            if (!keep_picture(folder, file, cell, err)) return false;
-            json_t *caption = json_sprintf("%s, %s", column ? label_of(t, column - 1) : "truth", row_names[row]);
-            json_t *picture = json_pack("{s:s, s:o}", "file", file, "caption", caption);
-            json_array_append(json_array_get(rows, row), picture);
-            json_array_append_new(json_array_get(presets, column), picture);
-        }
+/* What is in the columns from the left: the truth was drawn last. */
+static void add_stages(const struct contest_pictures *pictures, json_t *blocks) {
+    json_t *row, *shown;
+    size_t r, i;
+    json_array_foreach(pictures->rows, r, row) {
+        if (!json_array_size(row)) continue;
+        page_text(blocks, "heading", row_titles[r]);
+        json_t *stage = page_stage(blocks, row_titles[r]);
+        for (size_t column = 0; column < pictures->columns; column++)
+            json_array_foreach(row, i, shown) if ((size_t)json_integer_value(json_object_get(shown, "column")) ==
+                                                  column) json_array_append(stage, shown);
     }
-    return true;
 }
 
 /* ---- Charts and tables of one capture ---- */
@@ -168,31 +167,24 @@ static void add_ends(const struct contest_table *t, size_t capture, json_t *bloc
     json_decref(series);
 }
 
-static bool add_capture(json_t *document, const struct contest_table *t, const char *folder, const struct sheet *sheet,
-                        size_t capture, struct glint_error *err) {
+static void add_capture(json_t *document, const struct contest_table *t, const struct contest_pictures *pictures,
+                        size_t capture) {
     const char *path = t->captures[capture], *slash = strrchr(path, '/');
-    json_t *blocks = page_section(document, slash ? slash + 1 : path), *rows = json_array(), *presets = json_array();
-    bool ok = keep_pictures(t, folder, sheet, capture, rows, presets, err);
-    if (ok) {
-        add_times(t, capture, presets, blocks);
-        add_surfaces(t, capture, blocks);
-        add_table(t, capture, blocks);
-        add_ends(t, capture, blocks);
-        for (size_t row = 0; row < CONTEST_ROWS; row++)
-            json_array_append_new(blocks, json_pack("{s:O}", "pictures", json_array_get(rows, row)));
-    }
-    json_decref(rows);
-    json_decref(presets);
-    return ok;
+    json_t *blocks = page_section(document, slash ? slash + 1 : path), *columns = by_column(pictures);
+    add_times(t, capture, columns, blocks);
+    add_surfaces(t, capture, blocks);
+    add_table(t, capture, blocks);
+    add_ends(t, capture, blocks);
+    add_stages(pictures, blocks);
+    json_decref(columns);
 }
 
-bool contest_write_page(const char *folder, const struct contest_table *t, const struct sheet *sheet,
+bool contest_write_page(const char *folder, const struct contest_table *t, const struct contest_pictures *pictures,
                         struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(t->contest->device);
     char path[4096], text[400];
-    if (snprintf(path, sizeof path, "%s/pictures", folder) >= (int)sizeof path)
+    if (snprintf(path, sizeof path, "%s/index.html", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    if (!glint_make_folder(path, err)) return false;
     json_t *document = page_create("Presets beside each other");
     snprintf(text, sizeof text, "median of %u rounds in turns%s", t->contest->rounds,
              device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");
@@ -201,8 +193,7 @@ bool contest_write_page(const char *folder, const struct contest_table *t, const
     page_fact(document, "errors",
               "mean of |found \u2212 truth| over their sum, 0 to 1, where a preset gives a reflection");
     bool ok = document || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t c = 0; ok && c < t->capture_count; c++) ok = add_capture(document, t, folder, sheet, c, err);
-    if (ok) snprintf(path, sizeof path, "%.4000s/index.html", folder);
+    for (size_t c = 0; ok && c < t->capture_count; c++) add_capture(document, t, &pictures[c], c);
     ok = ok && page_store(folder, document, err) && page_write(path, document, folder, err);
     json_decref(document);
     return ok;

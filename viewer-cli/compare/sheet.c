@@ -3,25 +3,59 @@
 #include <string.h>
 
 #include "compare/contest.h"
+#include "page/page.h"
 #include "view/pixels.h"
+#include "view/png_file.h"
+
+enum { REFLECTION, ERROR, PICTURE };
+static const char *const row_names[CONTEST_ROWS] = {"reflection", "error", "picture"};
+
+/* Kept at its own size, and as what a stage shows. */
+static bool keep(struct contest_pictures *p, size_t row, size_t column, const struct glint_pixels *pixels,
+                 const char *label, struct glint_error *err) {
+    const struct render_options options = pixels_options();
+    const struct source source = pixels_source(pixels, "");
+    struct picture picture = {0};
+    struct legend legend;
+    char file[96], path[4096];
+    size_t invalid;
+    snprintf(file, sizeof file, "pictures/%zu-%zu-%s.png", p->capture, column, row_names[row]);
+    if (snprintf(path, sizeof path, "%s/%s", p->folder, file) >= (int)sizeof path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", p->folder);
+    const bool ok =
+        render_plain(&picture, &legend, &source, &options, &invalid, err) && png_file_write(path, &picture, err);
+    picture_finish(&picture);
+    json_array_append_new(json_array_get(p->rows, row),
+                          json_pack("{s:s, s:s, s:I, s:o}", "file", file, "caption", label, "column",
+                                    (json_int_t)column, "values", page_values(&source, p->values_bytes)));
+    return ok;
+}
+
+/* On the sheet, with its title below, and on the page, which calls it `name`. */
+static bool draw(struct contest_pictures *p, size_t row, size_t column, const struct glint_pixels *pixels,
+                 const char *title, const char *label, const char *name, struct glint_error *err) {
+    return pixels_draw(&p->cells[row * p->columns + column], pixels, title, label, err) &&
+           keep(p, row, column, pixels, name, err);
+}
 
 /* The symmetric error of each pixel that the preset gives; black elsewhere. */
-static bool draw_error(struct picture *cell, const struct answer *a, const uint8_t *surfaces, const char *label,
-                       struct glint_error *err) {
+static bool draw_error(struct contest_pictures *p, size_t column, const struct answer *a, const uint8_t *surfaces,
+                       const char *label, struct glint_error *err) {
     const size_t count = (size_t)a->truth->width * a->truth->height;
     struct glint_pixels error = {0};
     uint8_t *mask = malloc(count + 1);
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE;
     ok = ok && pixels_difference(&a->verdict.reflection, a->truth, mask, &error, err) &&
-         pixels_draw(cell, &error, "error where it gives a reflection", label, err);
+         draw(p, ERROR, column, &error, "error where it gives a reflection", label, label, err);
     glint_pixels_finish(&error);
     free(mask);
     return ok;
 }
 
 /* The reflection where it is given. */
-static bool draw_given(struct picture *cell, const struct answer *a, const char *label, struct glint_error *err) {
+static bool draw_given(struct contest_pictures *p, size_t column, const struct answer *a, const char *label,
+                       struct glint_error *err) {
     size_t count = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
     struct glint_pixels given = {a->verdict.reflection.width, a->verdict.reflection.height,
                                  a->verdict.reflection.components, NULL};
@@ -31,32 +65,33 @@ static bool draw_given(struct picture *cell, const struct answer *a, const char 
         if (a->verdict.given[i])
             memcpy(given.values + i * given.components, a->verdict.reflection.values + i * given.components,
                    given.components * sizeof *given.values);
-    bool ok = pixels_draw(cell, &given, "reflection", label, err);
+    bool ok = draw(p, REFLECTION, column, &given, "reflection", label, label, err);
     glint_pixels_finish(&given);
     return ok;
 }
 
-bool contest_draw(struct picture *cells, size_t columns, size_t column, const struct contestant *contestant,
+bool contest_draw(struct contest_pictures *p, size_t column, const struct contestant *contestant,
                   const struct answer *answer, const uint8_t *surfaces, struct glint_error *err) {
-    return draw_given(&cells[column], answer, contestant->label, err) &&
-           (!answer->truth || draw_error(&cells[columns + column], answer, surfaces, contestant->label, err)) &&
+    const char *label = contestant->label;
+    return draw_given(p, column, answer, label, err) &&
+           (!answer->truth || draw_error(p, column, answer, surfaces, label, err)) &&
            (!answer->picture.values ||
-            pixels_draw(&cells[2 * columns + column], &answer->picture, answer->picture_name, contestant->label, err));
+            draw(p, PICTURE, column, &answer->picture, answer->picture_name, label, label, err));
 }
 
-bool contest_draw_truth(struct picture *cells, size_t columns, const struct glint_pixels *truth,
-                        struct glint_capture *capture, struct glint_error *err) {
+bool contest_draw_truth(struct contest_pictures *p, const struct glint_pixels *truth, struct glint_capture *capture,
+                        struct glint_error *err) {
     static const char *const rgb[] = {"R", "G", "B"};
     const char *path = glint_capture_path(capture), *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     const struct glint_part_info *scene = glint_capture_find(capture, "scene");
     const struct glint_part_info *lit = scene ? scene : glint_capture_find(capture, "lit");
-    if (truth && !pixels_draw(&cells[0], truth, "the true reflection", name, err)) return false;
+    if (truth && !draw(p, REFLECTION, 0, truth, "the true reflection", name, "truth", err)) return false;
     if (!lit) return true;
     struct glint_pixels pixels = {lit->width, lit->height, 3, NULL};
     pixels.values = malloc((size_t)lit->width * lit->height * 3 * sizeof *pixels.values);
     bool ok = pixels.values ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
-                                  pixels_draw(&cells[2 * columns], &pixels,
-                                              scene ? "the true picture" : "lit, without reflections", name, err)
+                                  draw(p, PICTURE, 0, &pixels, scene ? "the true picture" : "lit, without reflections",
+                                       name, scene ? "truth" : "without reflections", err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     glint_pixels_finish(&pixels);
     return ok;

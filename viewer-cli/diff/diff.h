@@ -110,6 +110,7 @@ struct diff_page {
     const char *title;
     const char *lead, *kind; /* a text shown first, and which of page_text's kinds it is */
     bool refresh;            /* it loads itself again while somebody works on what it shows */
+    bool picture_first;      /* the finished picture before the images that differ, not after them */
 };
 bool diff_write_page(const char *path, struct diff *diff, const struct diff_page *page, struct glint_error *err);
 

@@ -181,20 +181,21 @@ static bool add_image(json_t *document, struct diff *diff, size_t i, size_t shar
     return true;
 }
 
-static bool add_images(json_t *document, struct diff *diff, struct glint_error *err) {
+static bool add_images(json_t *document, struct diff *diff, bool picture_first, struct glint_error *err) {
     const size_t last = last_picture(diff);
-    size_t shown = 0, count = 0;
+    size_t shown = 0, stages = 1;
     for (size_t i = 0; i < diff->count; i++)
-        count += compared(&diff->pairs[i]) && (diff->pairs[i].difference.differing || i == last);
-    const size_t stages = count < STAGES ? count + !count : STAGES;
-    for (size_t i = 0; i < diff->count; i++) {
-        if (!compared(&diff->pairs[i]) || (i != last && (!diff->pairs[i].difference.differing || shown + 1 >= stages)))
-            continue;
+        stages += i != last && compared(&diff->pairs[i]) && diff->pairs[i].difference.differing;
+    if (stages > STAGES) stages = STAGES;
+    const size_t share = PAGE_PICTURE_BYTES / (3 * stages), values_share = PAGE_VALUE_BYTES / (2 * stages);
+    if (last == diff->count) return true;
+    if (picture_first && !add_image(document, diff, last, share, values_share, err)) return false;
+    for (size_t i = 0; i < diff->count && shown + 1 < stages; i++) {
+        if (i == last || !compared(&diff->pairs[i]) || !diff->pairs[i].difference.differing) continue;
         shown++;
-        if (!add_image(document, diff, i, PAGE_PICTURE_BYTES / (3 * stages), PAGE_VALUE_BYTES / (2 * stages), err))
-            return false;
+        if (!add_image(document, diff, i, share, values_share, err)) return false;
     }
-    return true;
+    return picture_first || add_image(document, diff, last, share, values_share, err);
 }
 
 bool diff_write_page(const char *path, struct diff *diff, const struct diff_page *page, struct glint_error *err) {
@@ -208,7 +209,8 @@ bool diff_write_page(const char *path, struct diff *diff, const struct diff_page
     add_settings(document, diff, labels);
     add_table(document, diff);
     const bool ok = (document || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-                    add_images(document, diff, err) && page_write(path, document, NULL, err);
+                    add_images(document, diff, page && page->picture_first, err) &&
+                    page_write(path, document, NULL, err);
     json_decref(document);
     return ok;
 }

@@ -5,7 +5,7 @@
       "facts": [[NAME, CELL], …]            provenance: tool, device, capture, command line
       "sections": [{"title": T, "blocks": [BLOCK, …]}, …]}
    BLOCK, one of
-     {"text": T}  {"note": T}  {"code": T}  prose; a warning; a command line or JSON as it stands
+     {"text": T}  {"heading": T}  {"note": T}  {"code": T}  prose; a title within the section; a warning; a command line or JSON as it stands
      {"table": {"columns": [{"name": T, "unit": T, "help": T, "decimals": N, "bar": BOOL}, …], "rows": [[CELL, …], …]}}
                                              bar: numbers also as bars in their cells
      {"pictures": [PICTURE, …], "columns": N}
@@ -69,7 +69,7 @@ json_t *page_create(const char *title);
 void page_fact(json_t *document, const char *name, const char *value);
 /* A new section's blocks, borrowed. */
 json_t *page_section(json_t *document, const char *title);
-void page_text(json_t *blocks, const char *kind, const char *text); /* kind: "text", "note", "code" */
+void page_text(json_t *blocks, const char *kind, const char *text); /* kind: "text", "heading", "note", "code" */
 void page_chart(json_t *blocks, json_t *chart);                     /* takes the chart */
 /* A new table, borrowed. */
 json_t *page_table(json_t *blocks);

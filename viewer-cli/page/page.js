@@ -307,6 +307,7 @@
 
     const blocks = {
         text: b => element('p', null, b.text),
+        heading: b => element('h3', null, b.heading),
         note: b => element('p', {class: 'note'}, b.note),
         code: b => element('pre', {tabindex: 0}, b.code),
         table: b => tableElement(b.table),

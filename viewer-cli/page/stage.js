@@ -18,18 +18,19 @@ const glintStage = (function () {
         return bytes;
     }
 
-    /* The channels' values at a pixel, or at the kept one before it. */
+    /* {channel: value} at a pixel, or at the kept one before it. */
     function valuesAt(values, bytes, x, y) {
         const width = Math.ceil(values.width / values.every), height = Math.ceil(values.height / values.every);
         const at = Math.floor(y / values.every) * width + Math.floor(x / values.every), plane = width * height;
         const bits = new DataView(new ArrayBuffer(4));
-        return values.channels.map((_, k) => {
+        return Object.fromEntries(values.channels.map((name, k) => {
             for (let b = 0; b < 4; b++) bits.setUint8(3 - b, bytes[(4 * k + b) * plane + at]);
-            return bits.getFloat32(0);
-        });
+            return [name, bits.getFloat32(0)];
+        }));
     }
 
     function digits(v) {
+        if (v === undefined) return '\u2013';
         if (Number.isNaN(v)) return 'NaN';
         if (!Number.isFinite(v)) return v > 0 ? '\u221e' : '\u2212\u221e';
         return String(+v.toPrecision(6)).replace('-', '\u2212');
@@ -44,9 +45,9 @@ const glintStage = (function () {
         const pairs = pictures.filter(p => !p.alone), alone = pictures.filter(p => p.alone);
         const name = glintChart.text(block.title);
         const state = {mode: pairs.length > 1 ? 'slider' : 'left', left: 0, right: Math.max(0, pairs.length - 1), share: 50, zoom: 0, turn: 0, x: -1, y: -1};
-        const key = `${document.title}|${name}|${stages.length}`;
+        const key = `${document.title}|${name}|${stages.filter(s => s.name === name).length}`;
         let timer = 0;
-        stages.push({keep: () => store(key, state)});
+        stages.push({name, keep: () => store(key, state)});
         Object.assign(state, recall(key));
         if (!pairs[state.left] || !pairs[state.right]) state.left = state.right = 0;
 
@@ -158,13 +159,14 @@ const glintStage = (function () {
             const left = told.indexOf(pairs[state.left]), right = told.indexOf(pairs[state.right]);
             const both = left >= 0 && right >= 0 && left !== right;
             const lines = rows.map((row, i) => [told[i].caption, row]);
-            if (both) lines.push([`${glintChart.text(pairs[state.right].caption)} \u2212 ${glintChart.text(pairs[state.left].caption)}`, rows[right].map((b, k) => b - rows[left][k])]);
+            if (both) lines.push([`${glintChart.text(pairs[state.right].caption)} \u2212 ${glintChart.text(pairs[state.left].caption)}`, 
+                Object.fromEntries(v.channels.filter(c => c in rows[left] && c in rows[right]).map(c => [c, rows[right][c] - rows[left][c]]))]);
             const e = v.every > 1 ? ` (of ${x - x % v.every},${y - y % v.every}: one of ${v.every} \u00d7 ${v.every} is kept)` : '';
             return element('table', null,
                 element('thead', null, element('tr', null, element('th', {scope: 'col'}, `${x},${y}${e}`),
                     ...v.channels.map(c => element('th', {scope: 'col', class: 'number'}, c)), element('th', null, v.unit || ''))),
                 element('tbody', null, ...lines.map(([caption, row]) => element('tr', null, element('th', {scope: 'row'}, caption),
-                    ...row.map(c => element('td', {class: 'number'}, digits(c))), element('td')))));
+                    ...v.channels.map(c => element('td', {class: 'number'}, digits(row[c]))), element('td')))));
         }
 
         function place(event) {

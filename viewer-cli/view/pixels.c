@@ -29,14 +29,23 @@ bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *
     return true;
 }
 
-bool pixels_draw(struct picture *picture, const struct glint_pixels *pixels, const char *title, const char *label,
-                 struct glint_error *err) {
-    const struct render_options options = {.falsecolor = {.range_given = true, .low = 0, .high = 1}};
+struct source pixels_source(const struct glint_pixels *pixels, const char *title) {
     struct source source = {
         .width = pixels->width, .height = pixels->height, .components = pixels->components, .texels = pixels->values};
     snprintf(source.title, sizeof source.title, "%s", title);
     snprintf(source.unit, sizeof source.unit, "%s", pixels->components == 1 ? "1" : "radiance");
     for (uint32_t k = 0; k < pixels->components; k++)
         snprintf(source.channels[k], sizeof source.channels[k], "%c", pixels->components == 1 ? 'E' : "RGBA"[k]);
+    return source;
+}
+
+struct render_options pixels_options(void) {
+    return (struct render_options){.falsecolor = {.range_given = true, .low = 0, .high = 1}};
+}
+
+bool pixels_draw(struct picture *picture, const struct glint_pixels *pixels, const char *title, const char *label,
+                 struct glint_error *err) {
+    const struct render_options options = pixels_options();
+    const struct source source = pixels_source(pixels, title);
     return sheet_cell(picture, &source, label, &options, err);
 }

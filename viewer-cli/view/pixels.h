@@ -11,6 +11,10 @@ bool pixels_read(struct glint_replay *replay, const struct glint_image *image, s
 /* How far two images of R G B are apart: |a - b| over their sum, 0 where `mask` is 0. */
 bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const uint8_t *mask,
                        struct glint_pixels *difference, struct glint_error *err);
+/* As what is shown, borrowing the values. */
+struct source pixels_source(const struct glint_pixels *pixels, const char *title);
+/* From 0 to 1. */
+struct render_options pixels_options(void);
 /* Colour, or one channel in false colour from 0 to 1, with its title below; `label` goes before it. */
 bool pixels_draw(struct picture *picture, const struct glint_pixels *pixels, const char *title, const char *label,
                  struct glint_error *err);
