@@ -140,6 +140,7 @@ void glint_device_destroy(struct glint_device **pointer) {
     if (!device) return;
     if (device->device) {
         vkDeviceWaitIdle(device->device);
+        if (device->programs) device->finish_programs(device);
         vkDestroyPipelineCache(device->device, device->cache, NULL);
         vkDestroyFence(device->device, device->fence, NULL);
         vkDestroyCommandPool(device->device, device->pool, NULL);

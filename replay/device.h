@@ -43,6 +43,8 @@ struct glint_device {
     VkFence fence;
     VkPipelineCache cache;
     struct shaders shaders;
+    struct programs *programs; /* NULL until a replay wants some */
+    void (*finish_programs)(struct glint_device *device);
     struct glint_device_info info;
 };
 

@@ -36,7 +36,7 @@ static bool prepare_frame_set(struct run *run, struct glint_error *err) {
     const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                               .descriptorPool = run->pool,
                                               .descriptorSetCount = 1,
-                                              .pSetLayouts = &replay->programs.frame};
+                                              .pSetLayouts = &replay->device->programs->frame};
     VkResult result = vkAllocateDescriptorSets(replay->device->device, &info, &run->frame_set);
     if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
     device_set_name(replay->device, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)run->frame_set, "frame");
@@ -60,8 +60,7 @@ static bool find_programs(struct glint_replay *replay, struct step *step, struct
     for (size_t d = 0; d < step->dispatch_count; d++) {
         struct dispatch *dispatch = &step->dispatches[d];
         constants.data[CONSTANT_PHASE] = dispatch->phase;
-        dispatch->program =
-            programs_get(&replay->programs, replay->device, step->pass->pass, &step->spirv, &constants, err);
+        dispatch->program = programs_get(replay->device, step->pass->pass, &step->spirv, &constants, err);
         if (!dispatch->program) return false;
     }
     return true;

@@ -76,7 +76,31 @@ static VkResult create_sampler(struct glint_device *device, VkFilter filter, con
     return result;
 }
 
-bool programs_init(struct programs *programs, struct glint_device *device, struct glint_error *err) {
+static void program_destroy(struct program *program, struct glint_device *device) {
+    vkDestroyPipeline(device->device, program->pipeline, NULL);
+    vkDestroyPipelineLayout(device->device, program->layout, NULL);
+    vkDestroyDescriptorSetLayout(device->device, program->images, NULL);
+    free(program);
+}
+
+static void finish(struct glint_device *device) {
+    struct programs *programs = device->programs;
+    for (struct program *program = programs->first, *next; program; program = next) {
+        next = program->next;
+        program_destroy(program, device);
+    }
+    vkDestroyDescriptorSetLayout(device->device, programs->frame, NULL);
+    vkDestroySampler(device->device, programs->linear, NULL);
+    vkDestroySampler(device->device, programs->nearest, NULL);
+    free(programs);
+    device->programs = NULL;
+}
+
+bool programs_init(struct glint_device *device, struct glint_error *err) {
+    if (device->programs) return true;
+    struct programs *programs = device->programs = calloc(1, sizeof *programs);
+    if (!programs) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    device->finish_programs = finish;
     VkResult result = create_sampler(device, VK_FILTER_LINEAR, "linear_clamp", &programs->linear);
     if (result == VK_SUCCESS) result = create_sampler(device, VK_FILTER_NEAREST, "nearest_clamp", &programs->nearest);
     const VkDescriptorSetLayoutBinding bindings[] = {
@@ -88,27 +112,12 @@ bool programs_init(struct programs *programs, struct glint_device *device, struc
     const VkDescriptorSetLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
     if (result == VK_SUCCESS) result = vkCreateDescriptorSetLayout(device->device, &info, NULL, &programs->frame);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating the samplers", result);
+    if (result != VK_SUCCESS) {
+        finish(device);
+        return vk_fail(err, "creating the samplers", result);
+    }
     device_set_name(device, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
     return true;
-}
-
-static void program_destroy(struct program *program, struct glint_device *device) {
-    vkDestroyPipeline(device->device, program->pipeline, NULL);
-    vkDestroyPipelineLayout(device->device, program->layout, NULL);
-    vkDestroyDescriptorSetLayout(device->device, program->images, NULL);
-    free(program);
-}
-
-void programs_finish(struct programs *programs, struct glint_device *device) {
-    for (struct program *program = programs->first, *next; program; program = next) {
-        next = program->next;
-        program_destroy(program, device);
-    }
-    vkDestroyDescriptorSetLayout(device->device, programs->frame, NULL);
-    vkDestroySampler(device->device, programs->linear, NULL);
-    vkDestroySampler(device->device, programs->nearest, NULL);
-    *programs = (struct programs){0};
 }
 
 VkDescriptorType row_descriptor(const struct glint_row *row) {
@@ -169,9 +178,10 @@ static VkResult create_pipeline(struct program *program, struct glint_device *de
     return result;
 }
 
-struct program *programs_get(struct programs *programs, struct glint_device *device, const struct glint_pass *pass,
-                             const struct spirv *spirv, const struct constants *constants, struct glint_error *err) {
+struct program *programs_get(struct glint_device *device, const struct glint_pass *pass, const struct spirv *spirv,
+                             const struct constants *constants, struct glint_error *err) {
     enum { KEPT = 256 };
+    struct programs *programs = device->programs;
     char name[128];
     snprintf(name, sizeof name, "%s/%s", pass->slot, pass->variant);
     uint64_t key = XXH3_64bits_withSeed(constants->data, constants->count * sizeof(uint32_t), spirv->hash);

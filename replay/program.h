@@ -1,4 +1,5 @@
-/* Compute programs: descriptor layout, pipeline layout and pipeline of a pass, kept while they may be used again. */
+/* Compute programs: descriptor layout, pipeline layout and pipeline of a pass. The device keeps them for all of its replays,
+   while they may be used again. */
 #ifndef GLINT_REPLAY_PROGRAM_H
 #define GLINT_REPLAY_PROGRAM_H
 
@@ -42,10 +43,10 @@ struct programs {
     VkDescriptorSetLayout frame; /* set 1 */
     VkSampler linear, nearest;
 };
-bool programs_init(struct programs *programs, struct glint_device *device, struct glint_error *err);
-void programs_finish(struct programs *programs, struct glint_device *device);
+/* Makes device->programs, empty, where there is none yet. */
+bool programs_init(struct glint_device *device, struct glint_error *err);
 /* Finds or makes the program of a pass, or of one phase of it, whose constant is set. */
-struct program *programs_get(struct programs *programs, struct glint_device *device, const struct glint_pass *pass,
-                             const struct spirv *spirv, const struct constants *constants, struct glint_error *err);
+struct program *programs_get(struct glint_device *device, const struct glint_pass *pass, const struct spirv *spirv,
+                             const struct constants *constants, struct glint_error *err);
 
 #endif

@@ -95,7 +95,7 @@ bool rays_prepare(struct run *run, struct glint_error *err) {
     struct spirv spirv;
     const struct pipeline_pass entry = {.pass = &accumulate};
     if (!spirv_find(&spirv, &replay->device->shaders, &entry, err)) return false;
-    run->rays->program = programs_get(&replay->programs, replay->device, &accumulate, &spirv, &constants, err);
+    run->rays->program = programs_get(replay->device, &accumulate, &spirv, &constants, err);
     if (!run->rays->program || !create_pool(run, (uint32_t)count, err)) return false;
     for (size_t p = graph->loop_first; p < graph->loop_end; p++)
         for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++) {

@@ -15,7 +15,7 @@ struct glint_replay *glint_replay_create(struct glint_device *device, struct gli
     }
     replay->device = device;
     if (!device) return replay;
-    if (!programs_init(&replay->programs, device, err) ||
+    if (!programs_init(device, err) ||
         !host_buffer_init(&replay->frame, device, HOST_BUFFER_UNIFORM, sizeof(struct frame_block), "frame", err))
         glint_replay_destroy(&replay);
     return replay;
@@ -46,7 +46,6 @@ void glint_replay_destroy(struct glint_replay **pointer) {
     channels_finish(&replay->sky);
     if (replay->device) {
         replay_drop_images(replay, true);
-        programs_finish(&replay->programs, replay->device);
         host_buffer_finish(&replay->frame, replay->device);
         host_buffer_finish(&replay->staging, replay->device);
         host_buffer_finish(&replay->probes, replay->device);

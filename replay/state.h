@@ -37,7 +37,6 @@ struct glint_replay {
     struct channels sky;     /* read for its key, likewise */
     uint64_t sky_hash;       /* of its pixels; 0: not known yet */
     struct image *images;    /* kept between runs while their descriptions stay */
-    struct programs programs;
     struct host_buffer frame, staging, probes;
     uint32_t (*probed)[2]; /* the last run's probes; full-resolution pixels of a texel that they are in */
     size_t probe_count;
