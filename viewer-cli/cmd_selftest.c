@@ -1,6 +1,7 @@
 /* glint selftest: the hard cases on this machine's device. */
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -135,7 +136,8 @@ static bool run_groups(const struct arguments *a, struct chosen *chosen, struct 
                        struct watch *watch, struct glint_error *err) {
     char folder[256] = "";
     bool ok = make_folder(folder, err);
-    const struct selftest test = {device, folder, a->quick, show, watch};
+    double filter_step = NAN;
+    const struct selftest test = {device, folder, a->quick, &filter_step, show, watch};
     for (size_t g = 0; ok && g < chosen->group_count; g++) {
         struct chosen_group *group = &chosen->groups[g];
         struct timespec start;

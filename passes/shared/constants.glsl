@@ -10,6 +10,10 @@ const float EVERYTHING_M = 1.0e6;  // a thickness of it and more: all is solid
 // A colour that may take part in a mean.
 bool finite(vec4 color) { return all(lessThan(abs(color), vec4(LARGEST))); }
 
-// A sum of colours as images can hold it (frame.up.w): what is too large becomes the largest. NaN stays NaN.
-vec3 storable(vec3 color, float largest) { return mix(color, vec3(largest), greaterThan(color, vec3(largest))); }
+// A sum of colours as images can hold it (frame.up.w): what is too large becomes the largest. NaN stays NaN: words that mean
+// (largest, +inf] are compared as such, because a choice by > may become min(), which some devices answer for NaN with the other.
+vec3 storable(vec3 color, float largest) {
+    uint most = floatBitsToUint(largest), endless = floatBitsToUint(INFINITE);
+    return mix(color, vec3(largest), lessThan(floatBitsToUint(color) - (most + 1u), uvec3(endless - most)));
+}
 #endif

@@ -12,10 +12,13 @@ vec2 slopes_of_normal(vec3 normal, vec2 uv, vec2 texel, vec4 view_from_uv, float
     return along < 0.0 ? normal.xy * view_from_uv.xy * texel / along : vec2(LARGEST);
 }
 
+// How much 1/z falls from a depth to another one, as a part of the first. A quotient of equals need not be 1 (Vulkan: 2.5 ULP).
+float fall(float depth_m, float other_m) { return depth_m == other_m ? 0.0 : 1.0 - depth_m / other_m; }
+
 // One axis: the flatter of the two sides continues the surface, because a step to another one is steeper. Where both
 // are far steeper than the normal says, the surface is no wider than the texel, and the normal is all there is.
 float facet_slope(float depth_m, float before_m, float after_m, float by_normal) {
-    float before = 1.0 - depth_m / before_m, after = depth_m / after_m - 1.0;
+    float before = fall(depth_m, before_m), after = -fall(depth_m, after_m);
     float flatter = abs(after) < abs(before) ? after : before;
     float slope = abs(flatter) <= 2.0 * abs(by_normal) + 0.002 ? flatter : by_normal;
     return clamp(slope, -STEEPEST, STEEPEST);

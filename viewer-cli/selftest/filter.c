@@ -2,7 +2,9 @@
 #include "filter.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "noise.h"
 
@@ -88,13 +90,56 @@ static bool check(struct frames *frames, const struct image_case *which, struct 
     return ok;
 }
 
-bool filter_step(const struct selftest *test, double *step, struct glint_error *err) {
+/* The step of the weights: 0 where they are as exact as floats. */
+static bool step_of(const struct selftest *test, double *step, struct glint_error *err) {
     struct frames frames;
     struct selftest_finding finding = {0};
     const bool ok = frames_begin(&frames, test, err) && check(&frames, NULL, &finding, err);
     frames_end(&frames);
     *step = finding.worst > 1e-6 ? 1.0 / 256 : 0;
     return ok;
+}
+
+/* ---- What ends that move by next to nothing bring ---- */
+
+static double largest_step(const float *rgb, uint32_t width, uint32_t height) {
+    double largest = 0;
+    for (uint32_t i = 0; i < width * height; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            const double v = (double)rgb[3 * i + k];
+            if ((i + 1) % width) largest = fmax(largest, fabs((double)rgb[3 * (i + 1) + k] - v));
+            if (i + width < width * height) largest = fmax(largest, fabs((double)rgb[3 * (i + width) + k] - v));
+        }
+    return largest;
+}
+
+bool filter_slack(const struct selftest *test, struct glint_capture *capture, double *slack, struct glint_error *err) {
+    static const char *const names[] = {"R", "G", "B"};
+    double largest = 0;
+    *slack = 0;
+    if (isnan(*test->filter_step) && !step_of(test, test->filter_step, err)) return false;
+    if (*test->filter_step <= 0) return true;
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        if (!part->has_cubemap && strcmp(part->name, "lit") != 0) continue;
+        float *rgb = malloc((size_t)part->width * part->height * 3 * sizeof *rgb);
+        bool ok = rgb || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        ok = ok && glint_capture_read(capture, part, names, 3, GLINT_F32, rgb, 0, err);
+        const uint32_t pictures_of = part->has_cubemap ? 6 : 1, height = part->height / pictures_of;
+        for (uint32_t k = 0; ok && k < pictures_of; k++)
+            largest = fmax(largest, largest_step(rgb + 3 * (size_t)k * part->width * height, part->width, height));
+        free(rgb);
+        if (!ok) return false;
+    }
+    *slack = 2 * *test->filter_step * largest;
+    return true;
+}
+
+void filter_limit_ties(struct selftest_finding *finding) {
+    if (100 * finding->ties <= finding->values) return;
+    finding->worst = INFINITY;
+    snprintf(finding->at, sizeof finding->at, "%zu of %zu values are off by a step of the filter's weights",
+             finding->ties, finding->values);
 }
 
 /* clang-format off */

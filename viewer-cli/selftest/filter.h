@@ -4,8 +4,11 @@
 
 #include "images.h"
 
-/* The step of the weights: 0 where they are as exact as floats. */
-bool filter_step(const struct selftest *test, double *step, struct glint_error *err);
+/* How far light at the end of a ray may be off because of the weights, when the end moves by next to nothing and reaches the
+   next step: two of them, a step each, between the most different neighbours of what rays of this capture look up. */
+bool filter_slack(const struct selftest *test, struct glint_capture *capture, double *slack, struct glint_error *err);
+/* Of ends that move by a small part of a texel few can be next to a step: more than 1 % of ties fail. */
+void filter_limit_ties(struct selftest_finding *finding);
 
 extern const struct image_list images_filter;
 

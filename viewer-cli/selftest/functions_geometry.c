@@ -140,6 +140,10 @@ static void expect_facet_slope(const double *x, double *y) {
     const double flatter = fabs(after) < fabs(before) ? after : before;
     y[0] = fmin(fmax(flatter, -1), 1);
 }
+static void expect_nothing(const double *x, double *y) {
+    (void)x;
+    y[0] = 0;
+}
 static void neighbours_of_depth(float *x) {
     x[1] *= x[0];
     x[2] *= x[0];
@@ -266,6 +270,7 @@ static const struct function list[] = {
 
     {"facet of a normal", "slopes of inverse depth on a plane", "slopes_of_normal(a.xyz, vec2(a.w, b.x), vec2(1.0 / 256.0), vec4(2.0, 2.0, -1.0, -1.0), -1.0), 0.0, 0.0", "nx ny nz u v",
      {{LINEAR, -0.45, 0.45, ZERO}, {LINEAR, -0.45, 0.45, ZERO}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}}, facing, expect_slopes, 2, ABSOLUTE, 2e-7, "the normal's dot product keeps a tenth of its terms"},
+    {"equal depths", "are level, whatever their quotient is", "fall(a.x, a.x)", "depth", {{LOG, 1e-6, 2.9e38, 0}}, NULL, expect_nothing, 1, ABSOLUTE, 0, "a decision"},
     {"facet of depths", "slope between neighbours, the sky and all but equal depths among them", "facet_slope(a.x, a.y, a.z, LARGEST)", "depth before after",
      {{LOG, 1e-3, 1e6, 0}, {LOG, 0.5, 2, ENDLESS}, {LOG, 0.5, 2, ENDLESS}}, neighbours_of_depth, expect_facet_slope, 1, ABSOLUTE, 3e-7, "parts of an inverse depth that itself is rounded by 6e-8; a division of 2.5 ULP (Vulkan)"},
 

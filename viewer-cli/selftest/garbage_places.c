@@ -113,28 +113,31 @@ static bool ends_in_texel(const struct court *court, const double place[2], doub
     return false;
 }
 
-static bool near_texel(const struct court *court, const struct picture_of *travelled, uint32_t x, uint32_t y) {
+/* The pixels that rays which end there may change: those of their texel, and of two around it. */
+static void mark_around(const struct court *court, const struct picture_of *travelled, enum garbage_effect *effects) {
     const uint32_t scale = court->width / travelled->width;
-    for (uint32_t i = 0; i < 25; i++) {
-        const uint32_t tx = x / scale + i % 5 - 2, ty = y / scale + i / 5 - 2;
-        if (tx >= travelled->width || ty >= travelled->height) continue;
-        const double place[2] = {scale * (tx + 0.5), scale * (ty + 0.5)};
-        if (ends_in_texel(court, place, (double)travelled->values[(size_t)ty * travelled->width + tx])) return true;
-    }
-    return false;
+    for (uint32_t y = 0; y < travelled->height; y++)
+        for (uint32_t x = 0; x < travelled->width; x++) {
+            const double place[2] = {scale * (x + 0.5), scale * (y + 0.5)};
+            if (!ends_in_texel(court, place, (double)travelled->values[(size_t)y * travelled->width + x])) continue;
+            const uint32_t left = scale * (x < 2 ? 0 : x - 2), top = scale * (y < 2 ? 0 : y - 2);
+            for (uint32_t py = top; py < scale * (y + 3) && py < court->height; py++)
+                for (uint32_t px = left; px < scale * (x + 3) && px < court->width; px++)
+                    effects[(size_t)py * court->width + px] = GARBAGE_CHANGES;
+        }
 }
 
 void garbage_mask(const struct garbage_case *c, const struct court *court, const struct picture_of *travelled,
                   enum garbage_effect *effects) {
+    for (size_t i = 0; i < (size_t)court->width * court->height; i++) effects[i] = GARBAGE_LEAVES;
+    if (c->where == GARBAGE_TEXEL) mark_around(court, travelled, effects);
     for (uint32_t y = 0; y < court->height; y++)
         for (uint32_t x = 0; x < court->width; x++) {
             const double place[2] = {x + 0.5, y + 0.5};
-            const bool near =
-                c->reach_px > court->width || (c->where == GARBAGE_TEXEL ? near_texel(court, travelled, x, y)
-                                                                         : near_bad(c, court, place, c->reach_px));
+            enum garbage_effect *effect = &effects[(size_t)y * court->width + x];
+            const bool near = c->reach_px > court->width || *effect == GARBAGE_CHANGES ||
+                              near_bad(c, court, place, c->reach_px); /* of texels there are no places */
             const bool bad = c->where == GARBAGE_WALL && near_bad(c, court, place, 0);
-            effects[(size_t)y * court->width + x] = bad || (near && c->direct) ? GARBAGE_SPOILS
-                                                    : near                     ? GARBAGE_CHANGES
-                                                                               : GARBAGE_LEAVES;
+            *effect = bad || (near && c->direct) ? GARBAGE_SPOILS : near ? GARBAGE_CHANGES : GARBAGE_LEAVES;
         }
 }

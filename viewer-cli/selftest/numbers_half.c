@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "filter.h"
+
 /* stores: how often a value was stored in half on the way from the capture to this image. */
 struct half_case {
     const char *preset, *image, *name;
@@ -84,10 +86,10 @@ static void free_images(struct images *images) {
 }
 
 static void compare(const struct images *expected, const struct images *found, const char *image,
-                    struct selftest_finding *finding) {
+                    const struct picture_ties *ties, struct selftest_finding *finding) {
     for (size_t i = 0; i < expected->count && i < found->count; i++) {
         const struct picture_of *e = &expected->pictures[i], *f = &found->pictures[i];
-        if (is_of(expected->names[i], image)) pictures_compare(e, f, NULL, NULL, finding);
+        if (is_of(expected->names[i], image)) pictures_compare(e, f, NULL, ties, finding);
         else if (e->whole_numbers && memcmp(e->whole, f->whole, (size_t)e->width * e->height * sizeof *e->whole) != 0) {
             finding->worst = INFINITY;
             snprintf(finding->at, sizeof finding->at, "decisions in %s are not the same", expected->names[i]);
@@ -101,15 +103,19 @@ static bool run_preset(const struct selftest *test, const char *preset, const bo
     struct pictures pictures = {0};
     struct images *images = calloc(2, sizeof *images);
     char path[4096];
+    double slack = 0;
     snprintf(path, sizeof path, "%s/court.exr", test->folder);
     bool ok = images || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     ok = ok && pictures_begin_preset(&pictures, test, preset, err) && pictures_court(&pictures, &court, err) &&
          read_images(&pictures, preset, &images[0], err) &&
          pictures_replay(&pictures, path, &(struct glint_replay_options){.all = true}, err) &&
-         read_images(&pictures, preset, &images[1], err);
-    for (size_t i = 0; ok && i < numbers_half_count(); i++)
-        if (chosen[i] && strcmp(cases[i].preset, preset) == 0)
-            compare(&images[0], &images[1], cases[i].image, &findings[i]);
+         read_images(&pictures, preset, &images[1], err) && filter_slack(test, pictures.capture, &slack, err);
+    for (size_t i = 0; ok && i < numbers_half_count(); i++) {
+        if (!chosen[i] || strcmp(cases[i].preset, preset) != 0) continue;
+        const struct picture_ties ties = {numbers_half_get(i).bound, slack};
+        compare(&images[0], &images[1], cases[i].image, &ties, &findings[i]);
+        filter_limit_ties(&findings[i]);
+    }
     for (size_t i = 0; images && i < 2; i++) free_images(&images[i]);
     free(images);
     pictures_end(&pictures);

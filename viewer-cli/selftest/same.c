@@ -54,51 +54,6 @@ static bool replay(struct pictures *pictures, const struct same_kind *kind, cons
     return ok;
 }
 
-/* ---- Filters that weigh texels in steps: an end that moves by next to nothing may reach the next one ---- */
-
-static double largest_step(const float *rgb, uint32_t width, uint32_t height) {
-    double largest = 0;
-    for (uint32_t i = 0; i < width * height; i++)
-        for (uint32_t k = 0; k < 3; k++) {
-            const double v = (double)rgb[3 * i + k];
-            if ((i + 1) % width) largest = fmax(largest, fabs((double)rgb[3 * (i + 1) + k] - v));
-            if (i + width < width * height) largest = fmax(largest, fabs((double)rgb[3 * (i + width) + k] - v));
-        }
-    return largest;
-}
-
-/* How far light at the end of a ray may be off because of the weights: two of them, a step each, between the most different
-   neighbours of what rays look up. */
-static bool filter_slack(const struct pictures *pictures, double *slack, struct glint_error *err) {
-    static const char *const names[] = {"R", "G", "B"};
-    double step, largest = 0;
-    *slack = 0;
-    if (!filter_step(pictures->test, &step, err)) return false;
-    if (step == 0) return true;
-    for (size_t i = 0; i < glint_capture_part_count(pictures->capture); i++) {
-        const struct glint_part_info *part = glint_capture_part(pictures->capture, i);
-        if (!part->has_cubemap && strcmp(part->name, "lit") != 0) continue;
-        float *rgb = malloc((size_t)part->width * part->height * 3 * sizeof *rgb);
-        bool ok = rgb || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        ok = ok && glint_capture_read(pictures->capture, part, names, 3, GLINT_F32, rgb, 0, err);
-        const uint32_t pictures_of = part->has_cubemap ? 6 : 1, height = part->height / pictures_of;
-        for (uint32_t k = 0; ok && k < pictures_of; k++)
-            largest = fmax(largest, largest_step(rgb + 3 * (size_t)k * part->width * height, part->width, height));
-        free(rgb);
-        if (!ok) return false;
-    }
-    *slack = 2 * step * largest;
-    return true;
-}
-
-/* Of ends that move by the bound's part of a texel few can be next to a step. */
-static void limit_ties(struct selftest_finding *finding) {
-    if (100 * finding->ties <= finding->values) return;
-    finding->worst = INFINITY;
-    snprintf(finding->at, sizeof finding->at, "%zu of %zu values are off by a step of the filter's weights",
-             finding->ties, finding->values);
-}
-
 static bool run_case(struct pictures *pictures, const struct same_kind *kind, const struct same *same, double slack,
                      const struct picture_of *expected, struct selftest_finding *finding, struct glint_error *err) {
     const struct picture_ties ties = {same->bound, slack};
@@ -109,10 +64,10 @@ static bool run_case(struct pictures *pictures, const struct same_kind *kind, co
         struct picture_of found = {0};
         if (same->vary) same->vary(i, &court);
         ok = replay(pictures, kind, &court, &found, err);
-        if (ok) pictures_compare(expected, &found, NULL, slack > 0 ? &ties : NULL, finding);
+        if (ok) pictures_compare(expected, &found, NULL, &ties, finding);
         free(found.values);
     }
-    limit_ties(finding);
+    filter_limit_ties(finding);
     return ok;
 }
 
@@ -126,7 +81,8 @@ bool same_run(const struct selftest *test, const struct same_kind *kind, const b
     if (!any) return true;
     bool ok = (kind->preset ? pictures_begin_preset(&pictures, test, kind->preset, err)
                             : pictures_begin(&pictures, test, "", err)) &&
-              replay(&pictures, kind, &kind->usual, &expected, err) && filter_slack(&pictures, &slack, err);
+              replay(&pictures, kind, &kind->usual, &expected, err) &&
+              filter_slack(test, pictures.capture, &slack, err);
     for (size_t i = 0; ok && i < kind->count; i++)
         if (chosen[i]) ok = run_case(&pictures, kind, &kind->cases[i], slack, &expected, &findings[i], err);
     free(expected.values);

@@ -24,6 +24,7 @@ struct selftest {
     struct glint_device *device;
     const char *folder; /* temporary, the self-test's own */
     bool quick;
+    double *filter_step; /* found when first asked for (filter.h); NaN: not yet */
     glint_progress progress;
     void *user;
 };
