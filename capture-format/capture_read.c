@@ -25,7 +25,7 @@ struct job {
     enum glint_type type;
     uint8_t *out;
     struct glint_precision precision[GLINT_EXR_MAX_WANTED]; /* of the planes that are perturbed */
-    uint64_t key[GLINT_EXR_MAX_WANTED];
+    struct glint_coins coins[GLINT_EXR_MAX_WANTED];
     bool moves[GLINT_EXR_MAX_WANTED];
 };
 
@@ -121,7 +121,7 @@ struct block {
 /* `pixel` is the first one's number. */
 static void load(const struct job *job, const uint8_t *in, uint64_t pixel, size_t count, int plane, float *out) {
     glint_decode_widen(job->stored[plane], in, count, out);
-    if (job->moves[plane]) glint_perturb(&job->precision[plane], job->key[plane], pixel, out, count);
+    if (job->moves[plane]) glint_perturb(&job->precision[plane], &job->coins[plane], pixel, out, count);
 }
 
 static const float *normal_of(const struct job *job, const struct output *from, const uint8_t *const *planes,
@@ -152,7 +152,7 @@ static void decode_packed(const struct job *job, const struct output *from, cons
     if (!job->moves[from->plane[0]]) return;
     glint_decode_motion_packed(&job->decoder, from->axis, ends, line, 2);
     for (size_t i = 0; i < count; i++)
-        v[i] += (float)(0.5 * glint_perturbation_sign(job->key[from->plane[0]], pixel + i)) * (line[1] - line[0]);
+        v[i] += (float)(0.5 * glint_perturbation_sign(&job->coins[from->plane[0]], pixel + i)) * (line[1] - line[0]);
 }
 
 static void decode(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,
@@ -224,7 +224,7 @@ static void plan_perturbation(const struct glint_capture *capture, const struct 
         const int at = glint_exr_channel(file, job->names[i]);
         const struct glint_role_channel *row = glint_role_channel_find(part->role, job->names[i]);
         job->moves[i] = glint_perturbation_moves(p, part, job->names[i]);
-        job->key[i] = glint_perturbation_key(p, part, job->names[i]);
+        job->coins[i] = glint_perturbation_coins(p, part, job->names[i]);
         job->precision[i] = glint_precision_of(part->channels[at].storage, job->names[i], job->stored[i]);
         if (row && !strcmp(row->encoding, "depth")) glint_precision_of_depth(&job->precision[i], &job->decoder);
     }

@@ -120,22 +120,37 @@ bool glint_perturbation_moves(const struct glint_perturbation *p, const struct g
     return p->seed && !p->only_count;
 }
 
-uint64_t glint_perturbation_key(const struct glint_perturbation *p, const struct glint_part_info *part,
-                                const char *channel) {
-    const uint64_t key = XXH3_64bits_withSeed(part->name, strlen(part->name), p->seed);
-    return XXH3_64bits_withSeed(channel, strlen(channel), key);
+enum { TURNS = 8 };
+
+struct glint_coins glint_perturbation_coins(const struct glint_perturbation *p, const struct glint_part_info *part,
+                                            const char *channel) {
+    struct glint_coins coins = {.turn = (p->seed - 1) % TURNS};
+    for (size_t i = 0; i < part->channel_count && strcmp(part->channels[i].name, channel) != 0; i++)
+        coins.number += glint_perturbation_moves(p, part, part->channels[i].name);
+    const bool follows = coins.number < TURNS - 1;
+    const uint64_t drawn = follows ? (uint64_t)((p->seed - 1) / TURNS + 1) << 32 : p->seed;
+    coins.shared = XXH3_64bits_withSeed(part->name, strlen(part->name), drawn);
+    coins.own = XXH3_64bits_withSeed(channel, strlen(channel), coins.shared);
+    return coins;
 }
 
-double glint_perturbation_sign(uint64_t key, uint64_t pixel) {
-    return XXH3_64bits_withSeed(&pixel, sizeof pixel, key) & 1 ? 1 : -1;
+double glint_perturbation_sign(const struct glint_coins *coins, uint64_t pixel) {
+    uint64_t up = XXH3_64bits_withSeed(&pixel, sizeof pixel, coins->own) & 1;
+    if (coins->number < TURNS - 1) {
+        const uint64_t place = XXH3_64bits_withSeed(&pixel, sizeof pixel, coins->shared) >> 32;
+        const uint64_t walsh = 1 + (place + coins->number) % (TURNS - 1), both = walsh & coins->turn;
+        up ^= (both ^ both >> 1 ^ both >> 2) & 1;
+    }
+    return up ? 1 : -1;
 }
 
-void glint_perturb(const struct glint_precision *precision, uint64_t key, uint64_t first, float *v, size_t count) {
+void glint_perturb(const struct glint_precision *precision, const struct glint_coins *coins, uint64_t first, float *v,
+                   size_t count) {
     for (size_t i = 0; i < count; i++) {
         const double value = (double)v[i];
         if (!isfinite(value) || value == 0) continue;
         const double step = glint_half_step(precision, value), low = precision->low, high = precision->high;
-        const double moved = value + glint_perturbation_sign(key, first + i) * step;
+        const double moved = value + glint_perturbation_sign(coins, first + i) * step;
         if (precision->ends_stay && (fmin(value, moved) <= low || fmax(value, moved) >= high)) continue;
         v[i] = (float)fmin(fmax(moved, low), high);
     }

@@ -32,12 +32,20 @@ struct glint_perturbation {
 };
 bool glint_perturbation_moves(const struct glint_perturbation *p, const struct glint_part_info *part,
                               const char *channel);
-/* The start of the draws for one channel of one part. */
-uint64_t glint_perturbation_key(const struct glint_perturbation *p, const struct glint_part_info *part,
-                                const char *channel);
-/* Up or down, by a coin for each pixel. */
-double glint_perturbation_sign(uint64_t key, uint64_t pixel);
+/* Up or down for each pixel of one channel of one part, as a seed has it. Of each eight seeds (1 to 8, 9 to 16, …) a coin says
+   what the first one does, and the others follow by a Walsh function: half of them go up. Of the first seven channels of a part that
+   move each pixel has another function for each, so that over eight seeds no two of them have anything in common; further
+   channels have a coin for each seed. */
+struct glint_coins {
+    uint64_t own, shared; /* keys: of the channel, of the part */
+    uint32_t turn;        /* among the eight */
+    uint32_t number;      /* of channels of the part that move and stand before this one */
+};
+struct glint_coins glint_perturbation_coins(const struct glint_perturbation *p, const struct glint_part_info *part,
+                                            const char *channel);
+double glint_perturbation_sign(const struct glint_coins *coins, uint64_t pixel);
 /* `count` values as stored, of pixels from `first`. Not finite and 0 stay as they are. */
-void glint_perturb(const struct glint_precision *precision, uint64_t key, uint64_t first, float *v, size_t count);
+void glint_perturb(const struct glint_precision *precision, const struct glint_coins *coins, uint64_t first, float *v,
+                   size_t count);
 
 #endif

@@ -16,7 +16,7 @@ enum { PIXELS = FIX_W * FIX_H };
 static struct fixture fixture;
 static char path[512];
 
-/* The smallest capture, with `values` and their storage in one channel of the G-buffer. */
+/* The smallest capture, with `values` and their storage in the channels of the G-buffer whose names begin so. */
 static struct glint_capture *capture_with(const char *channel, const float *values, const char *storage,
                                           struct glint_encodings encodings) {
     struct glint_error err = {0};
@@ -29,9 +29,9 @@ static struct glint_capture *capture_with(const char *channel, const float *valu
         struct glint_part part = fixture_part(&fixture, (enum fixture_part)p, &channels);
         if (p == FIXTURE_GBUFFER) part.encodings = encodings;
         for (size_t c = 0; c < part.channel_count; c++)
-            if (!strcmp(channels.all[c].name, channel))
-                channels.all[c] =
-                    (struct glint_channel){.name = channel, .type = GLINT_F32, .data = values, .storage = storage};
+            if (!strncmp(channels.all[c].name, channel, strlen(channel)))
+                channels.all[c] = (struct glint_channel){
+                    .name = channels.all[c].name, .type = GLINT_F32, .data = values, .storage = storage};
         if (!glint_writer_add_part(writer, &part, &err)) fail_msg("%s", err.message);
     }
     if (!glint_writer_finish(writer, &err)) fail_msg("%s", err.message);
@@ -103,13 +103,38 @@ static void values_move_by_half_a_step(void **state) {
             up += by > 0;
             differ += moved[i] != other[i];
         }
-        /* Five standard deviations of coins. */
+        /* Five standard deviations of coins. Of seven Walsh functions four differ between two seeds of eight. */
         assert_true(fabs((double)up - PIXELS / 2.0) < 2.5 * sqrt(PIXELS));
-        assert_true(fabs((double)differ - PIXELS / 2.0) < 2.5 * sqrt(PIXELS));
+        assert_true(fabs((double)differ - 4 * PIXELS / 7.0) < 2.5 * sqrt(PIXELS));
         read_moved(capture, "material.metalness", 0, NULL, moved);
         assert_memory_equal(moved, values, sizeof moved);
         finish(capture);
     }
+}
+
+/* Over eight seeds. Catches: channels that move alike, or each by coins of its own, which agree in other than half of eight seeds
+   for 73 % of all pixels; a ninth seed that is the first again. */
+static void channels_of_a_pixel_have_nothing_in_common(void **state) {
+    static const char *const channels[] = {"material.roughness", "material.metalness", "material.specular"};
+    static float values[PIXELS], moved[3 * PIXELS], first[3 * PIXELS];
+    static int agree[3][PIXELS];
+    struct glint_error err = {0};
+    (void)state;
+    for (size_t i = 0; i < PIXELS; i++) values[i] = 0.1F + 0.8F * (float)fixture_noise((uint32_t)i, 5);
+    struct glint_capture *capture = capture_with("material", values, "R8", (struct glint_encodings){0});
+    for (uint32_t seed = 1; seed <= 9; seed++) {
+        float *out = seed == 1 ? first : moved;
+        assert_true(glint_capture_perturb(capture, seed, NULL, &err));
+        assert_true(
+            glint_capture_read(capture, glint_capture_find(capture, "gbuffer"), channels, 3, GLINT_F32, out, 1, &err));
+        for (size_t i = 0; seed <= 8 && i < PIXELS; i++)
+            for (size_t k = 0; k < 3; k++)
+                agree[k][i] += (out[3 * i + k] > values[i]) == (out[3 * i + (k + 1) % 3] > values[i]);
+    }
+    for (size_t i = 0; i < PIXELS; i++)
+        for (size_t k = 0; k < 3; k++) assert_int_equal(agree[k][i], 4);
+    assert_memory_not_equal(first, moved, sizeof first);
+    finish(capture);
 }
 
 /* t² / |B| · h, whether the buffer was decoded before or is by the reader; sky stays. */
@@ -169,6 +194,7 @@ static void only_what_is_named_moves(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_move_by_half_a_step),
+        cmocka_unit_test(channels_of_a_pixel_have_nothing_in_common),
         cmocka_unit_test(depth_moves_as_its_buffer_does),
         cmocka_unit_test(only_what_is_named_moves),
     };
