@@ -1,0 +1,165 @@
+/* glint probe: one pixel's story through the pipeline. */
+#include <stdio.h>
+#include <string.h>
+
+#include "pipe.h"
+#include "pipeline_args.h"
+#include "probe/probe.h"
+
+struct arguments {
+    struct pipeline_args pipeline;
+    const char *capture, *out, *device;
+    uint32_t pixel[2];
+    bool has_pixel, json, alone;
+};
+
+enum { KEY_ALONE = 256 };
+
+/* clang-format off */
+static const struct argp_option options[] = {
+    {"output",  'o',         "FILE.svg",      0, "Draw the ray over the depths that it crossed: in the picture, and in each cube map", 0},
+    {"alone",   KEY_ALONE,   NULL,            0, "Leave the reference out (screen_trace/dda and cubemap_trace/exact on the same ray)", 0},
+    PIPELINE_OPTIONS,
+    {"device",  'd',         "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"json",    'j',         NULL,            0, "Print JSON", 0},
+    {0},
+};
+/* clang-format on */
+static const struct example examples[] = {
+    {"glint probe street.exr 640,500", "what became of this pixel, and why"},
+    {"glint probe street.exr 640,500 -o ray.svg", "and its ray as a picture"},
+    {"glint probe street.exr 640,500 --use screen_trace=hiz --set screen_trace.cells=64",
+     "the same ray, traced otherwise"},
+    {"glint probe shot.0002.exr 640,500 --history run.0001", "with the frame before, for what passes remember"},
+    {"glint probe street.exr 640,500 --json | jq '.story.passes[] | select(.slot == "
+     "\"cubemap_trace\").steps[].decision'",
+     "for scripts: every step is an object"},
+    {0},
+};
+
+extern const struct command cmd_probe;
+
+static error_t parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case 'j':
+        a->json = true;
+        return 0;
+    case 'd':
+        a->device = arg;
+        return 0;
+    case KEY_ALONE:
+        a->alone = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->has_pixel) argp_error(state, "one pixel at a time; %s is one argument too many", arg);
+        if (!a->capture) a->capture = arg;
+        else {
+            char rest;
+            a->has_pixel = sscanf(arg, "%6u,%6u%c", &a->pixel[0], &a->pixel[1], &rest) == 2;
+            if (!a->has_pixel || strchr(arg, '-'))
+                argp_error(state, "%s: expected a pixel X,Y in whole numbers from the top left corner, such as 640,360",
+                           arg);
+        }
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->capture) argp_error(state, "which capture?");
+        if (!a->has_pixel) argp_error(state, "which pixel of %s? X,Y from the top left corner", a->capture);
+        return 0;
+    }
+    return pipeline_args_parse(key, arg, state, &a->pipeline);
+}
+
+/* The tracers that step over nothing, with all else as it is. */
+static struct glint_pipeline *reference_of(const struct glint_pipeline *pipeline, struct glint_error *err) {
+    static const struct {
+        const char *slot, *assignment;
+    } uses[] = {{"screen_trace", "screen_trace=dda"}, {"cubemap_trace", "cubemap_trace=exact"}};
+    struct glint_pipeline *copy = glint_pipeline_copy(pipeline, err);
+    for (size_t u = 0; copy && u < 2; u++)
+        for (size_t i = 0; copy && i < glint_pipeline_pass_count(pipeline); i++)
+            if (strcmp(glint_pipeline_pass(pipeline, i)->slot, uses[u].slot) == 0 &&
+                !glint_pipeline_use(copy, uses[u].assignment, err))
+                glint_pipeline_destroy(&copy);
+    return copy;
+}
+
+static bool run_reference(const struct arguments *a, struct probe *probe, struct glint_replay *replay,
+                          const struct glint_pipeline *pipeline, const struct glint_replay_options *wanted,
+                          struct glint_error *err) {
+    if (a->alone) return true;
+    struct glint_pipeline *reference = reference_of(pipeline, err);
+    const bool ok = reference && probe_run(probe, &probe->reference, replay, reference, wanted, err);
+    glint_pipeline_destroy(&reference);
+    probe->has_reference = ok;
+    return ok;
+}
+
+static enum status report(const struct arguments *a, const struct probe *probe, struct glint_error *err) {
+    if (a->out && !probe_draw(a->out, probe, err)) return command_fail(&cmd_probe, err);
+    if (a->json) return print_json(probe_json(probe));
+    probe_print(probe);
+    return STATUS_DONE;
+}
+
+static enum status tell(const struct arguments *a, struct glint_device *device, const struct glint_pipeline *pipeline,
+                        const char *path, struct glint_error *err) {
+    struct probe probe = {.capture = a->capture,
+                          .preset = glint_pipeline_name(pipeline),
+                          .device = glint_device_get_info(device)->name,
+                          .pixel = {a->pixel[0], a->pixel[1]}};
+    const struct glint_replay_options wanted = pipeline_args_options(&a->pipeline);
+    struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    struct glint_replay *replay = capture ? glint_replay_create(device, err) : NULL;
+    const bool ok = replay && glint_replay_load(replay, capture, err) &&
+                    probe_run(&probe, &probe.own, replay, pipeline, &wanted, err) &&
+                    run_reference(a, &probe, replay, pipeline, &wanted, err);
+    const enum status status = ok ? report(a, &probe, err) : command_fail(&cmd_probe, err);
+    probe_side_finish(&probe.own);
+    probe_side_finish(&probe.reference);
+    glint_replay_destroy(&replay);
+    glint_capture_close(&capture);
+    return status;
+}
+
+static enum status run(int argc, char **argv) {
+    struct arguments a = {0};
+    struct glint_error err = {0};
+    struct pipe pipe;
+    command_parse(&cmd_probe, argc, argv, &a);
+    const struct glint_device_options select = {.select = a.device};
+    const char *path = pipe_input(&pipe, a.capture, &err);
+    struct glint_pipeline *pipeline = path ? pipeline_args_create(&a.pipeline, &err) : NULL;
+    struct glint_device *device = pipeline ? glint_device_create(&select, &err) : NULL;
+    const enum status status = device ? tell(&a, device, pipeline, path, &err) : command_fail(&cmd_probe, &err);
+    if (device) glint_device_destroy(&device);
+    if (pipeline) glint_pipeline_destroy(&pipeline);
+    pipe_finish(&pipe);
+    pipeline_args_finish(&a.pipeline);
+    return status;
+}
+
+const struct command cmd_probe = {
+    .name = "probe",
+    .arguments = "F X,Y [-o FILE.svg]",
+    .summary = "one pixel's ray, step by step",
+    .description = "Replays the capture and tells what every pass did for one pixel: what the G-buffer holds there, "
+                   "the ray that was "
+                   "drawn for it, every look at the depth buffer and at cube maps with what it was compared with and "
+                   "what followed, "
+                   "where the colour comes from, what blur, history and upscaling made of it. The steps are told by "
+                   "the shaders that "
+                   "computed the picture, switched to tell; the picture's bits stay what they are.\n"
+                   "X,Y counts pixels from the top left corner. Most passes work at half resolution: the story is that "
+                   "of the texel "
+                   "that the pixel lies in, whose ray may be another pixel's of the block. At the end stands what the "
+                   "tracers that "
+                   "step over nothing find for the same ray.",
+    .options = options,
+    .parse = parse,
+    .examples = examples,
+    .run = run,
+};

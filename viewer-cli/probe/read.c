@@ -1,0 +1,174 @@
+/* The story of a pixel out of a replay, and its values one by one. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "probe/probe.h"
+#include "table.h"
+
+static bool is_uint(const struct glint_image *image) {
+    return image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;
+}
+
+/* All of an image; uint ones become floats, which hold what they are asked for here. */
+static bool read_image(struct probe_image *out, struct glint_replay *replay, const char *name,
+                       struct glint_error *err) {
+    const struct glint_image *image = glint_replay_find_image(replay, name);
+    *out = (struct probe_image){0};
+    if (!image) return true;
+    *out = (struct probe_image){.width = image->width, .height = image->height, .components = image->components};
+    const size_t count = (size_t)image->width * image->height * image->components;
+    out->texels = malloc(count * sizeof *out->texels);
+    if (!out->texels) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    const bool uint = is_uint(image);
+    if (!glint_replay_read_image(replay, image, uint ? GLINT_U32 : GLINT_F32, out->texels, err)) return false;
+    for (size_t i = 0; uint && i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &out->texels[i], sizeof bits);
+        out->texels[i] = (float)bits;
+    }
+    return true;
+}
+
+/* Of images of the picture's size, or of the pipeline's. */
+static bool read_values(const struct probe *probe, struct probe_side *side, struct glint_replay *replay,
+                        const struct glint_pass *pass, struct glint_error *err) {
+    for (size_t i = 0; i < glint_replay_image_count(replay); i++) {
+        const struct glint_image *image = glint_replay_image(replay, i);
+        const bool full = image->row->size == GLINT_SIZE_FULL, half = image->row->size == GLINT_SIZE_HALF;
+        if (image->pass != pass || image->level > 0 || !(full || half) || image->components > 4) continue;
+        const uint32_t *at = full ? probe->pixel : probe->texel;
+        if (at[0] >= image->width || at[1] >= image->height) continue; /* a stand-in */
+        struct probe_image whole;
+        if (!read_image(&whole, replay, image->name, err)) {
+            free(whole.texels);
+            return false;
+        }
+        struct probe_value *value = &side->values[side->value_count++];
+        *value = (struct probe_value){.pass = pass, .row = image->row, .count = whole.components};
+        for (uint32_t c = 0; c < whole.components; c++)
+            value->values[c] = (double)whole.texels[((size_t)at[1] * whole.width + at[0]) * whole.components + c];
+        free(whole.texels);
+    }
+    return true;
+}
+
+static bool read_places(struct probe_side *side, struct glint_replay *replay, struct glint_error *err) {
+    struct probe_image index;
+    const bool ok = read_image(&index, replay, "active_index", err);
+    for (uint32_t i = 0; ok && index.texels && i < index.width && i < 16; i++)
+        side->cubemaps[side->cubemap_count++] = (uint32_t)index.texels[i];
+    free(index.texels);
+    return ok;
+}
+
+static bool read_side(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
+                      struct glint_error *err) {
+    const struct glint_pass_result *passes = glint_replay_results(replay, &side->pass_count);
+    side->passes = calloc(side->pass_count + 1, sizeof *side->passes);
+    side->values = calloc(glint_replay_image_count(replay) + 1, sizeof *side->values);
+    if (!side->values || !side->passes) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    memcpy(side->passes, passes, side->pass_count * sizeof *passes);
+    if (!glint_replay_probe(replay, 0, &side->story, err) || !read_values(probe, side, replay, NULL, err)) return false;
+    for (size_t p = 0; p < side->pass_count; p++)
+        if (side->passes[p].ran && !read_values(probe, side, replay, side->passes[p].pass, err)) return false;
+    return read_places(side, replay, err) && read_image(&side->depth_half, replay, "depth_half", err) &&
+           read_image(&side->cubemap_distance, replay, "cubemap_distance", err) &&
+           read_image(&side->active_center, replay, "active_center", err);
+}
+
+bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
+               const struct glint_pipeline *pipeline, const struct glint_replay_options *wanted,
+               struct glint_error *err) {
+    struct glint_replay_options options = *wanted;
+    const uint32_t pixels[1][2] = {{probe->pixel[0], probe->pixel[1]}};
+    options.captured = options.diagnostics = true;
+    options.probes = pixels;
+    options.probe_count = 1;
+    if (!glint_replay_run(replay, pipeline, &options, NULL, NULL, err)) return false;
+    const struct glint_image *full = glint_replay_find_image(replay, "depth_full");
+    const struct glint_image *half = glint_replay_find_image(replay, "depth_half");
+    memcpy(probe->full, full ? (uint32_t[]){full->width, full->height} : (uint32_t[]){0, 0}, sizeof probe->full);
+    memcpy(probe->half, half ? (uint32_t[]){half->width, half->height} : probe->full, sizeof probe->half);
+    const bool reduced = memcmp(probe->full, probe->half, sizeof probe->full) != 0;
+    for (int k = 0; k < 2; k++) probe->texel[k] = reduced ? probe->pixel[k] / 2 : probe->pixel[k];
+    return read_side(probe, side, replay, err);
+}
+
+void probe_side_finish(struct probe_side *side) {
+    free(side->passes);
+    free(side->story.records);
+    free(side->values);
+    free(side->depth_half.texels);
+    free(side->cubemap_distance.texels);
+    free(side->active_center.texels);
+    *side = (struct probe_side){0};
+}
+
+const struct glint_probe_record *probe_last(const struct probe_side *side, const char *kind) {
+    for (size_t i = side->story.count; i-- > 0;)
+        if (glint_probe_is(&side->story.records[i], kind)) return &side->story.records[i];
+    return NULL;
+}
+
+const char *probe_cubemap(const struct probe_side *side, double place) {
+    static char names[4][32];
+    static size_t turn;
+    if (!(place >= 0 && place < side->cubemap_count)) return "none";
+    char *name = names[turn++ % 4];
+    snprintf(name, sizeof names[0], "cubemap.%03u", side->cubemaps[(size_t)place]);
+    return name;
+}
+
+/* ---- Values ---- */
+
+/* The length of NAME in "NAME_x", of "" in "x"; SIZE_MAX when it does not end so. */
+static size_t base_length(const char *name, char axis) {
+    const size_t length = strlen(name);
+    if (length == 1 && name[0] == axis) return 0;
+    return length > 2 && name[length - 1] == axis && name[length - 2] == '_' ? length - 2 : SIZE_MAX;
+}
+
+size_t probe_groups(const struct glint_probe_row *kind, struct probe_group groups[GLINT_PROBE_VALUES]) {
+    size_t count = 0;
+    const size_t values = glint_probe_count(kind);
+    for (size_t i = 0; i < values;) {
+        const struct glint_probe_row *row = &kind[1 + i];
+        struct probe_group *group = &groups[count++];
+        *group = (struct probe_group){.unit = row->unit, .first = i, .count = 1};
+        const size_t base = base_length(row->name, 'x');
+        for (const char *axis = "yz"; base != SIZE_MAX && *axis && i + group->count < values; axis++) {
+            const char *next = kind[1 + i + group->count].name;
+            if (base_length(next, *axis) != base || strncmp(next, row->name, base) != 0) break;
+            group->count++;
+        }
+        const char *m = strstr(row->name, "_m");
+        const int length = group->count > 1 ? (int)base : m && !m[2] ? (int)(m - row->name) : (int)strlen(row->name);
+        snprintf(group->name, sizeof group->name, "%.*s", length, row->name);
+        if (length == 0)
+            snprintf(group->name, sizeof group->name, "%s", strcmp(row->unit, "px") == 0 ? "pixel" : "position");
+        for (char *c = group->name; *c; c++) *c = *c == '_' ? ' ' : *c;
+        i += group->count;
+    }
+    return count;
+}
+
+void probe_group_text(const struct probe_side *side, const struct glint_probe_record *record,
+                      const struct probe_group *group, char *text, size_t size) {
+    const double value = (double)record->values[group->first];
+    const struct glint_probe_word word = glint_probe_word(group->unit, record->values[group->first]);
+    if (word.text) snprintf(text, size, "%s", word.text);
+    else if (strcmp(group->unit, "place") == 0) snprintf(text, size, "%s", probe_cubemap(side, value));
+    else {
+        size_t used = 0;
+        for (size_t i = 0; i < group->count && used < size; i++) {
+            const double v = (double)record->values[group->first + i];
+            const bool pixels = strcmp(group->unit, "px") == 0, whole = strcmp(group->unit, "m") != 0 && v == floor(v);
+            used += (size_t)snprintf(text + used, size - used, i ? "," : "");
+            if (pixels) used += (size_t)snprintf(text + used, size - used, "%.1f", v);
+            else if (whole && fabs(v) < 1e9) used += (size_t)snprintf(text + used, size - used, "%.0f", v);
+            else used += (size_t)snprintf(text + used, size - used, "%s", number_text(v));
+        }
+    }
+}

@@ -1,0 +1,198 @@
+/* A pixel's story for a terminal: pass by pass what was done for it and what came of it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "probe/probe.h"
+#include "table.h"
+
+enum { TEXT = 160 };
+
+/* Steps come in tables, one kind after the other; what comes once, in a line. */
+static bool is_step(const struct glint_probe_row *kind) {
+    const size_t count = glint_probe_count(kind);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(kind[1 + i].unit, "decision") == 0 || strcmp(kind[1 + i].name, "weight") == 0) return true;
+    return false;
+}
+
+/* How far the ray is behind the surface that it was compared with, which no row says. */
+static bool has_gap(const struct glint_probe_row *kind) {
+    bool ray = false, surface = false;
+    for (size_t i = 0; i < glint_probe_count(kind); i++) {
+        ray |= strcmp(kind[1 + i].name, "ray_m") == 0;
+        surface |= strcmp(kind[1 + i].name, "surface_m") == 0;
+    }
+    return ray && surface;
+}
+
+/* `first`: how many steps of the pass came before. */
+static void print_steps(const struct probe_side *side, const struct glint_probe_record *records, size_t count,
+                        size_t first) {
+    struct probe_group groups[GLINT_PROBE_VALUES];
+    const size_t columns = probe_groups(records->kind, groups);
+    char titles[GLINT_PROBE_VALUES + 3][48];
+    const char *list[GLINT_PROBE_VALUES + 3] = {NULL};
+    size_t used = 0;
+    const bool gap = has_gap(records->kind);
+    snprintf(titles[used++], sizeof titles[0], ">   step");
+    for (size_t g = 0; g < columns; g++) {
+        const char *unit = groups[g].unit;
+        const bool metres = strcmp(unit, "m") == 0 || strcmp(unit, "1/m") == 0;
+        const bool word = strcmp(unit, "decision") == 0;
+        if (gap && word) snprintf(titles[used++], sizeof titles[0], ">behind m");
+        snprintf(titles[used++], sizeof titles[0], "%c%s%s%s", word ? '<' : '>', groups[g].name, metres ? " " : "",
+                 metres ? unit : "");
+    }
+    for (size_t i = 0; i < used; i++) list[i] = titles[i];
+    struct table *table = table_create(list);
+    for (size_t r = 0; r < count; r++) {
+        const struct glint_probe_record *record = &records[r];
+        table_cell(table, "%zu", first + r + 1);
+        for (size_t g = 0; g < columns; g++) {
+            char text[TEXT];
+            const double behind =
+                (double)glint_probe_value(record, "ray_m") - (double)glint_probe_value(record, "surface_m");
+            if (gap && strcmp(groups[g].unit, "decision") == 0) table_cell(table, "%s", number_text(behind));
+            probe_group_text(side, record, &groups[g], text, sizeof text);
+            table_cell(table, "%s", text);
+        }
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+/* The cube maps have nothing to do where the picture has ended the ray. */
+static bool is_not_asked(const struct probe_side *side, const struct glint_probe_record *record) {
+    const struct glint_probe_record *screen = probe_last(side, "screen_end");
+    return record && glint_probe_is(record, "cubemap_end") && screen && glint_probe_value(screen, "finished") > 0;
+}
+
+static void print_once(const struct probe_side *side, const struct glint_probe_record *record) {
+    struct probe_group groups[GLINT_PROBE_VALUES];
+    const size_t count = probe_groups(record->kind, groups);
+    for (size_t g = 0; g < count; g++) {
+        char text[TEXT];
+        const char *unit = groups[g].unit;
+        const bool shown = strcmp(unit, "m") == 0 || strcmp(unit, "px") == 0 || strcmp(unit, "radiance") == 0;
+        probe_group_text(side, record, &groups[g], text, sizeof text);
+        printf("%s%s %s%s%s", g ? ", " : "    ", groups[g].name, text, shown ? " " : "", shown ? unit : "");
+    }
+    putchar('\n');
+}
+
+static void print_records(const struct probe_side *side, const struct glint_pass *pass) {
+    const struct glint_probe_record *records = side->story.records;
+    size_t steps = 0;
+    for (size_t i = 0, end; i < side->story.count; i = end) {
+        end = i + 1;
+        if (records[i].pass != pass) continue;
+        const bool step = is_step(records[i].kind);
+        while (step && end < side->story.count && records[end].pass == pass && records[end].kind == records[i].kind)
+            end++;
+        printf("  %s%s\n", records[i].kind->text, step ? ":" : "");
+        if (is_not_asked(side, &records[i])) printf("    nothing to do: the ray ended on screen\n");
+        else if (step) print_steps(side, &records[i], end - i, steps);
+        else print_once(side, &records[i]);
+        steps = step ? steps + end - i : 0;
+    }
+}
+
+static void print_value(const struct probe_value *value) {
+    printf("  %-22s", value->row->name);
+    const struct glint_probe_word word = glint_probe_word(value->row->unit, (float)value->values[0]);
+    if (word.text) printf("  %s", word.text);
+    const char *channel = value->row->kind == GLINT_ROW_CAPTURE ? value->row->source : value->row->channels;
+    for (uint32_t c = 0; c < value->count && !word.text; c++) {
+        const size_t length = strcspn(channel, " "), part = strcspn(channel, ".") + 1;
+        const size_t from = part < length ? part : 0; /* "normal.X" is X */
+        if (length != 1 || channel[0] != '-')
+            printf("  %.*s%s%s", value->count > 1 ? (int)(length - from) : 0, channel + from,
+                   value->count > 1 ? " " : "", number_text(value->values[c]));
+        channel += length + (channel[length] == ' ');
+    }
+    const bool unit = !word.text && strcmp(value->row->unit, "1") != 0;
+    printf("%s%s\n", unit ? " " : "", unit ? value->row->unit : "");
+}
+
+static bool tells(const struct probe_side *side, const struct glint_pass *pass) {
+    for (size_t i = 0; i < side->story.count; i++)
+        if (side->story.records[i].pass == pass) return true;
+    for (size_t i = 0; i < side->value_count; i++)
+        if (side->values[i].pass == pass) return true;
+    return false;
+}
+
+static void print_side(const struct probe_side *side) {
+    printf("\ncapture  what the G-buffer holds at the pixel\n");
+    for (size_t i = 0; i < side->value_count; i++)
+        if (!side->values[i].pass) print_value(&side->values[i]);
+    for (size_t p = 0; p < side->pass_count; p++) {
+        const struct glint_pass *pass = side->passes[p].pass;
+        if (!side->passes[p].ran || !tells(side, pass)) continue;
+        printf("\n%s/%s  %s\n", pass->slot, pass->variant, pass->title);
+        print_records(side, pass);
+        for (size_t i = 0; i < side->value_count; i++)
+            if (side->values[i].pass == pass) print_value(&side->values[i]);
+    }
+}
+
+/* ---- Beside the reference ---- */
+
+static const char *ending(const struct probe_side *side, const char *kind, char *text, size_t size) {
+    const struct glint_probe_record *end = probe_last(side, kind);
+    if (!end || is_not_asked(side, end)) return "–";
+    const struct glint_probe_word why = glint_probe_word("end reason", glint_probe_value(end, "end"));
+    const double place = (double)glint_probe_value(end, "place");
+    const bool mapped = place >= 0 && place < side->cubemap_count;
+    snprintf(text, size, "%s m, %s%s%s", number_text((double)glint_probe_value(end, "travelled_m")),
+             why.text ? why.text : "?", mapped ? ", " : "", mapped ? probe_cubemap(side, place) : "");
+    return text;
+}
+
+static const char *color(const struct probe_side *side, const char *name, char *text, size_t size) {
+    const struct probe_value *value = NULL;
+    for (size_t i = 0; i < side->value_count; i++)
+        if (side->values[i].pass && strcmp(side->values[i].row->name, name) == 0) value = &side->values[i];
+    if (!value || value->count < 3) return "–";
+    snprintf(text, size, "%s %s %s", number_text(value->values[0]), number_text(value->values[1]),
+             number_text(value->values[2]));
+    return text;
+}
+
+static void print_beside(const struct probe *probe) {
+    static const char *const titles[] = {"<", "<this pipeline", "<reference: screen_trace/dda, cubemap_trace/exact",
+                                         NULL};
+    static const char *const colors[] = {"reflection_half", "reflection", "composed", NULL};
+    const struct probe_side *sides[] = {&probe->own, &probe->reference};
+    char text[2 * TEXT];
+    struct table *table = table_create(titles);
+    for (int row = 0; row < 2; row++) {
+        table_cell(table, row ? "in the cube maps" : "on screen");
+        for (int s = 0; s < 2; s++)
+            table_cell(table, "%s", ending(sides[s], row ? "cubemap_end" : "screen_end", text, sizeof text));
+    }
+    for (size_t i = 0; colors[i]; i++) {
+        table_cell(table, "%s", colors[i]);
+        for (int s = 0; s < 2; s++) table_cell(table, "%s", color(sides[s], colors[i], text, sizeof text));
+    }
+    putchar('\n');
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+void probe_print(const struct probe *probe) {
+    printf("%s, pixel %u,%u of %u x %u, texel %u,%u of %u x %u, preset %s on %s\n", probe->capture, probe->pixel[0],
+           probe->pixel[1], probe->full[0], probe->full[1], probe->texel[0], probe->texel[1], probe->half[0],
+           probe->half[1], probe->preset, probe->device);
+    const struct glint_probe_record *ray = probe_last(&probe->own, "screen_ray");
+    if (ray) {
+        const double x = floor((double)glint_probe_value(ray, "start_x")),
+                     y = floor((double)glint_probe_value(ray, "start_y"));
+        if (x != probe->pixel[0] || y != probe->pixel[1])
+            printf("The texel's ray is that of pixel %.0f,%.0f, which stands for its block.\n", x, y);
+    } else printf("The texel has no ray: it shows the sky, or a surface that reflects nothing.\n");
+    print_side(&probe->own);
+    if (probe->own.story.lost) printf("\n%zu more steps had no room.\n", probe->own.story.lost);
+    if (probe->has_reference) print_beside(probe);
+}
