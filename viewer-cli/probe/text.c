@@ -191,7 +191,8 @@ void probe_print(const struct probe *probe) {
                      y = floor((double)glint_probe_value(ray, "start_y"));
         if (x != probe->pixel[0] || y != probe->pixel[1])
             printf("The texel's ray is that of pixel %.0f,%.0f, which stands for its block.\n", x, y);
-    } else printf("The texel has no ray: it shows the sky, or a surface that reflects nothing.\n");
+    } else if (!probe_last(&probe->own, "cubemap_ray"))
+        printf("The texel has no ray: it shows the sky, or a surface that reflects nothing.\n");
     print_side(&probe->own);
     if (probe->own.story.lost) printf("\n%zu more steps had no room.\n", probe->own.story.lost);
     if (probe->has_reference) print_beside(probe);
