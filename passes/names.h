@@ -32,6 +32,7 @@
 #define NEEDS(fact)
 #define NEEDS_BY(fact, parameter)
 #define READS_LEVELS(image)
+#define PASSES_ON(image, from)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
 #define RESOLUTION(size)

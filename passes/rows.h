@@ -24,6 +24,7 @@
 #undef NEEDS
 #undef NEEDS_BY
 #undef READS_LEVELS
+#undef PASSES_ON
 #undef SHOWS_ALL
 #undef ASSUMED
 #undef RESOLUTION
@@ -86,6 +87,7 @@
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},
 #define NEEDS_BY(fact, parameter) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact, .image = #parameter},
 #define READS_LEVELS(image_) {.kind = GLINT_ROW_READS_LEVELS, .id = __LINE__, .name = #image_},
+#define PASSES_ON(image_, from) {.kind = GLINT_ROW_PASSES_ON, .id = __LINE__, .name = #from, .image = #image_},
 #define SHOWS_ALL(parameter) {.kind = GLINT_ROW_SHOWS_ALL, .id = __LINE__, .name = #parameter},
 #define ASSUMED(parameter) {.kind = GLINT_ROW_ASSUMED, .id = __LINE__, .name = #parameter},
 #define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},

@@ -48,6 +48,10 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
         if (row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS)
             dispatch = row->kind == GLINT_ROW_DISPATCH ? row : NULL;
         if (row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
+        if (row->kind == GLINT_ROW_PASSES_ON && (!own || !pass_row(pass, GLINT_ROW_READ, row->name)))
+            faults_add(faults, GLINT_ERROR_USAGE,
+                       "%s/%s: PASSES_ON %s: expected an image that the pass writes, made of one that it reads",
+                       pass->slot, pass->variant, row->image);
         if (row->kind == GLINT_ROW_SELF && !own)
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: SELF %s: expected an image that the pass writes", pass->slot,
                        pass->variant, row->image);

@@ -27,6 +27,7 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
         extent = (VkExtent3D){half[0], half[1], 1};
         group = (struct workgroup){LIST_BLOCK, LIST_BLOCK};
     }
+    step->texels += dispatch_texels(run, &image->desc, level);
     step->dispatches[step->dispatch_count++] =
         (struct dispatch){.phase = phase,
                           .level = level,
@@ -41,21 +42,20 @@ static double value_of(const struct graph_pass *pass, const char *parameter) {
 }
 
 /* The finest level that is no wider than a parameter says. */
-static int level_of_width(const struct step *step, const struct image *image, const char *parameter) {
-    const double width = value_of(step->pass, parameter);
+static int level_of_width(const struct graph_pass *pass, const struct image_desc *desc, const char *parameter) {
+    const double width = value_of(pass, parameter);
     int level = 0;
-    while (level < 31 && ldexp(width, level) < image->desc.width) level++;
+    while (level < 31 && ldexp(width, level) < desc->width) level++;
     return level;
 }
 
-/* From the finer to the coarser of the two levels that the row names, or back. An image may have fewer levels. */
-static void add_levels(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
-                       const struct image *image) {
-    const int count = (int)image->desc.levels;
+bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row, const struct image_desc *desc,
+                     uint32_t *first, uint32_t *last) {
+    const int count = (int)desc->levels;
     const bool swapped = (row->first < 0) == (row->last < 0) ? row->first > row->last : row->first < 0;
     int fine = swapped ? row->last : row->first, coarse = swapped ? row->first : row->last;
     if (row->assigned) {
-        const int from = level_of_width(step, image, row->assigned);
+        const int from = level_of_width(pass, desc, row->assigned);
         fine = from + row->first, coarse = from + row->last;
     } else {
         fine = fine < 0 ? fine + count : fine;
@@ -63,8 +63,17 @@ static void add_levels(const struct run *run, struct step *step, uint32_t phase,
     }
     if (fine < 0) fine = 0;
     if (coarse > count - 1) coarse = count - 1;
-    for (int i = 0; i <= coarse - fine; i++)
-        add(run, step, phase, image, (uint32_t)(row->order == GLINT_ORDER_up ? coarse - i : fine + i));
+    *first = (uint32_t)fine;
+    *last = coarse < 0 ? 0 : (uint32_t)coarse;
+    return coarse >= fine;
+}
+
+static void add_levels(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
+                       const struct image *image) {
+    uint32_t fine, coarse;
+    if (!dispatch_levels(step->pass, row, &image->desc, &fine, &coarse)) return;
+    for (uint32_t i = 0; i <= coarse - fine; i++)
+        add(run, step, phase, image, row->order == GLINT_ORDER_up ? coarse - i : fine + i);
 }
 
 /* The images of the rows DISPATCH_LIST that follow row `r`; 0 when there are none, or one of them was not made. */

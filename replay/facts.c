@@ -90,6 +90,19 @@ static bool planar(const struct question *q) {
     return there_is(q, q->survey->has_planar, "planar reflection map");
 }
 
+static bool history(const struct question *q) {
+    snprintf(q->reason, q->size, "%s",
+             q->survey->has_history ? "there is a frame before" : "no frame before, or a cut");
+    return q->survey->has_history;
+}
+/* Of a parameter that gives the pass something to do without one. */
+static bool history_or(const struct question *q) {
+    const bool holds = history(q);
+    const size_t end = strlen(q->reason);
+    if (!holds && q->value != 0) snprintf(q->reason + end, q->size - end, ", but it makes up for that");
+    return holds || q->value != 0;
+}
+
 static bool fresnel(const struct question *q) {
     snprintf(q->reason, q->size, "materials %s how they rise towards grazing angles",
              q->survey->has_fresnel ? "say" : "do not say");
@@ -113,11 +126,20 @@ static const struct {
     {"water", water, false, true},
     {"planar", planar, false, true},
     {"fresnel", fresnel, false, true},
+    {"history", history, false, true},
+    {"history", history_or, true, true},
 };
+
+/* "rough 0.1" is a fact about a value. */
+static bool fact_is(const char *fact, size_t i) {
+    const size_t length = strcspn(fact, " ");
+    return strlen(facts[i].name) == length && strncmp(facts[i].name, fact, length) == 0 &&
+           facts[i].has_value == (fact[length] != 0);
+}
 
 bool fact_is_of_parts(const char *fact) {
     for (size_t i = 0; i < sizeof facts / sizeof *facts; i++)
-        if (strcmp(facts[i].name, fact) == 0) return facts[i].of_parts;
+        if (fact_is(fact, i)) return facts[i].of_parts;
     return false;
 }
 
@@ -127,8 +149,7 @@ bool survey_fact(const struct glint_survey *survey, bool shows_all, const char *
     const struct question question = {survey, shows_all ? &survey->surfaces : &survey->reflecting,
                                       fact[length] ? strtod(fact + length, NULL) : 0, reason, size};
     for (size_t i = 0; i < sizeof facts / sizeof *facts; i++)
-        if (strlen(facts[i].name) == length && strncmp(facts[i].name, fact, length) == 0 &&
-            facts[i].has_value == (fact[length] != 0)) {
+        if (fact_is(fact, i)) {
             *known = true;
             return facts[i].holds(&question);
         }

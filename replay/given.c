@@ -11,7 +11,14 @@ static struct glint_run *run_folder(const struct run *run, const struct graph_im
 }
 
 const struct glint_run_image *run_given(const struct run *run, const struct graph_image *image, const char *name) {
-    return glint_run_find(run_folder(run, image), image->history ? name + strlen(HISTORY_PREFIX) : name);
+    const struct glint_run *folder = run_folder(run, image);
+    const struct glint_run_image *found = glint_run_find(folder, image->history ? name + strlen(HISTORY_PREFIX) : name);
+    for (size_t r = 0; !found && image->history && image->pass && r < image->pass->row_count; r++) {
+        const struct glint_row *row = &image->pass->rows[r]; /* the pass may have been dropped then */
+        if (row->kind == GLINT_ROW_PASSES_ON && strcmp(row->image, image->row->name) == 0)
+            found = glint_run_find(folder, row->name);
+    }
+    return found;
 }
 
 /* Reads all levels of an image from its run folder, one after the other. */

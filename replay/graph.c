@@ -31,8 +31,7 @@ static void complain_missing(const struct graph_pass *reader, const char *image,
                    reader->pass->variant, image);
 }
 
-/* The row that defines an image: of the pipeline's passes, of the capture, or of any pass there is. */
-static const struct glint_row *find_row(const struct graph *graph, const char *name, const struct glint_pass **pass) {
+const struct glint_row *graph_row(const struct graph *graph, const char *name, const struct glint_pass **pass) {
     const size_t maker = graph_maker(graph, name);
     size_t count;
     const struct glint_pass *all = glint_passes(&count);
@@ -60,7 +59,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     const bool dropped =
         maker < graph->pass_count &&
         (!inputs->options->passes || list_has(inputs->options->passes, graph->passes[maker].pass->slot));
-    if (!optional || maker < graph->pass_count) fresh.row = find_row(graph, name, &fresh.pass);
+    if (!optional || maker < graph->pass_count) fresh.row = graph_row(graph, name, &fresh.pass);
     char part[128];
     snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
     if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
@@ -108,7 +107,7 @@ static void link_history(struct graph *graph, size_t reader, const struct glint_
     }
     struct graph_image fresh = {.source = SOURCE_HISTORY, .history = true, .first_use = reader, .last_use = reader};
     struct graph_image *place = &graph->images[graph->image_count];
-    fresh.row = find_row(graph, row->image, &fresh.pass);
+    fresh.row = graph_row(graph, row->image, &fresh.pass);
     if (!fresh.row) {
         complain_missing(&graph->passes[reader], row->image, NULL, inputs->options, faults);
         return;
@@ -118,6 +117,18 @@ static void link_history(struct graph *graph, size_t reader, const struct glint_
     place->name = place->history_name;
     graph->image_count++;
     graph_check_kind(graph->passes[reader].pass, row, fresh.row, faults);
+}
+
+/* What a dropped pass would have passed on as it is stands for what it would have made, for the next frame. */
+static void link_passed_on(struct graph *graph, const struct glint_pass *dropped) {
+    for (size_t r = 0; r < dropped->row_count; r++) {
+        const struct glint_row *row = &dropped->rows[r];
+        struct graph_image *image = row->kind == GLINT_ROW_PASSES_ON ? graph_find(graph, row->name) : NULL;
+        if (!image || image->source != SOURCE_MADE || image->kept) continue;
+        image->kept = true;
+        image->kept_as = row->image;
+        return;
+    }
 }
 
 static void link_images(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults) {
@@ -155,6 +166,8 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
         for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++)
             if (graph->passes[i].pass->rows[r].kind == GLINT_ROW_HISTORY)
                 link_history(graph, i, &graph->passes[i].pass->rows[r], inputs, faults);
+    for (size_t i = 0; i < graph->pass_count; i++)
+        if (!graph->passes[i].runs) link_passed_on(graph, graph->passes[i].pass);
 }
 
 static bool allocate(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err) {

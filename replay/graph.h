@@ -23,6 +23,7 @@ struct graph_image {
     bool history;               /* of the frame before */
     bool blank;                 /* NOTHING, in all of its size */
     bool kept;                  /* the next frame's history: its memory is its own */
+    const char *kept_as;        /* what it stands for there, when the pass that would have passed it on was dropped; or NULL */
     size_t maker;               /* MADE: place of the pass in the graph */
     size_t first_use, last_use; /* places of the passes that touch it */
     char history_name[80];
@@ -71,6 +72,9 @@ struct graph_image *graph_find(const struct graph *graph, const char *name);
 /* Sets `runs` and `reason` of passes that are in order already. False only when the facts cannot be had. */
 bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
                   struct glint_error *err);
+/* The row that defines an image, of the pipeline's passes, of the capture, or of any pass there is; NULL: of none. *pass: its own,
+   NULL where that is the capture. */
+const struct glint_row *graph_row(const struct graph *graph, const char *name, const struct glint_pass **pass);
 /* The pass that writes the image; pass_count when none does. */
 size_t graph_maker(const struct graph *graph, const char *image);
 /* The row with which a pass writes the image, or NULL. */

@@ -18,12 +18,18 @@ void replay_age_images(struct glint_replay *replay, const struct glint_frame *ne
         const bool remembered = follows && image->kept && image->key;
         image->kept = image->listed = false;
         if (!remembered) continue;
-        snprintf(name, sizeof name, HISTORY_PREFIX "%.64s", image->name);
+        snprintf(name, sizeof name, HISTORY_PREFIX "%.64s", image->kept_as ? image->kept_as : image->name);
         image_rename(image, name);
     }
     replay->number = next->number;
     replay->loaded = true;
     replay->ran = false;
+}
+
+bool replay_has_history(const struct glint_replay *replay) {
+    for (const struct image *image = replay->images; image; image = image->next)
+        if (image_is_history(image)) return true;
+    return false;
 }
 
 static bool on_device(const struct run *run, const char *name, const struct image_desc *desc) {

@@ -58,6 +58,7 @@ struct image {
     bool used;               /* in this run */
     bool transient;          /* shares its memory */
     bool kept;               /* the next frame's history */
+    const char *kept_as;     /* under this name instead of its own, or NULL */
     uint32_t lineage, round; /* of the run that wrote it: see glint_replay_options */
     uint64_t used_at;        /* number of the last run that used it */
     char name[80];

@@ -62,6 +62,7 @@ void run_adopt(struct run *run, size_t i, struct image *image) {
     image->used = true;
     image->used_at = run->replay->runs;
     image->kept = wanted->kept;
+    image->kept_as = wanted->kept_as;
     image->lineage = run->options->lineage;
     image->listed = (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE ||
                     wanted->wanted || (wanted->source == SOURCE_CAPTURE && run->options->captured);

@@ -82,6 +82,7 @@ bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipe
                   const struct glint_replay_options *options, const struct glint_run *inputs, struct graph *graph,
                   struct glint_error *err) {
     if (!replay->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
+    if (options->history && !glint_capture_frame(replay->capture)->cut) replay->survey.has_history = true;
     struct fact_source source = {replay, pipeline, options};
     return graph_init(graph, &(struct graph_inputs){pipeline, options, replay->capture, inputs, {holds, &source}}, err);
 }
@@ -92,6 +93,7 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
     static const struct glint_replay_options defaults;
     struct graph graph = {0};
     struct glint_run *inputs = NULL;
+    uint64_t *texels = NULL;
     bool ok = false;
     if (!options) options = &defaults;
     if (options->inputs && !(inputs = glint_run_open(options->inputs, err))) return false;
@@ -102,14 +104,24 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
         glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         goto done;
     }
+    texels = calloc(graph.pass_count + 1, sizeof *texels);
+    if (!texels) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        goto done;
+    }
+    replay_whole_work(replay, pipeline, options, inputs, texels);
     for (size_t i = 0; i < graph.pass_count; i++) {
-        replay->plan[i] = (struct glint_plan_entry){.pass = graph.passes[i].pass, .runs = graph.passes[i].runs};
+        replay->plan[i] = (struct glint_plan_entry){.pass = graph.passes[i].pass,
+                                                    .runs = graph.passes[i].runs,
+                                                    .cached_work = graph.passes[i].cached_work,
+                                                    .texels = texels[i]};
         memcpy(replay->plan[i].reason, graph.passes[i].reason, sizeof replay->plan[i].reason);
     }
     *entries = replay->plan;
     *count = graph.pass_count;
     ok = true;
 done:
+    free(texels);
     channels_finish(&replay->gbuffer);
     graph_finish(&graph);
     glint_run_close(&inputs);

@@ -11,8 +11,18 @@ static json_t *parameter(const struct glint_row *row, double value) {
     return row->type == GLINT_VALUE_FLOAT ? json_real(value) : json_integer((json_int_t)value);
 }
 
-static size_t pass_rays(const struct run *run, size_t p) {
-    return run->graph.passes[p].rank == RANK_RAY ? glint_pipeline_rays(run->pipeline) : 1;
+/* Lists are counted when the record is written. */
+static json_t *work_record(const struct run *run, size_t p) {
+    const struct step *step = &run->steps[p];
+    const uint64_t rays = pass_rays(&run->graph.passes[p], run->pipeline);
+    json_t *work = json_pack("{sIsI}", "texels", (json_int_t)(step->texels * rays), "of",
+                             (json_int_t)run->replay->results[p].texels);
+    for (size_t d = 0; d < step->dispatch_count; d++) {
+        if (!step->dispatches[d].list) continue;
+        if (!json_object_get(work, "lists")) json_object_set_new(work, "lists", json_object());
+        json_object_set_new(json_object_get(work, "lists"), step->dispatches[d].list->name, json_null());
+    }
+    return work;
 }
 
 static json_t *pass_record(const struct run *run, size_t p) {
@@ -29,9 +39,11 @@ static json_t *pass_record(const struct run *run, size_t p) {
     json_object_set_new(object, "reason", json_string(result->reason));
     json_object_set_new(object, "cached", json_boolean(result->cached));
     if (pass->cached_work) json_object_set_new(object, "cached_work", json_true());
-    if (!pass->pass->host)
-        json_object_set_new(object, "dispatches",
-                            json_integer((json_int_t)(run->steps[p].dispatch_count * pass_rays(run, p))));
+    if (!pass->pass->host) {
+        const uint64_t rays = pass_rays(pass, run->pipeline);
+        json_object_set_new(object, "dispatches", json_integer((json_int_t)(run->steps[p].dispatch_count * rays)));
+        json_object_set_new(object, "work", work_record(run, p));
+    }
     if (pass->pass->host) json_object_set_new(object, "host", json_true());
     const char *shader = pass->entry->shader ? pass->entry->shader : run->steps[p].spirv.from;
     if (shader) json_object_set_new(object, "shader", json_string(shader));

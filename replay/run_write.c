@@ -253,8 +253,8 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
         host_buffer_finish(&jobs[j].buffer, replay->device);
     }
     for (size_t p = 0; ok && p < replay->result_count; p++) keep_pass(replay, p, folder);
-    ok = ok && record_bad_values(replay, root, err) && run_finish_record(replay, root, err) &&
-         run_write_json(folder, root, err);
+    ok = ok && record_bad_values(replay, root, err) && replay_count_work(replay, root, err) &&
+         run_finish_record(replay, root, err) && run_write_json(folder, root, err);
     free(jobs);
     json_decref(root);
     return ok;

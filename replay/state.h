@@ -69,6 +69,7 @@ struct step {
     struct constants constants;  /* but for the phase */
     struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
     size_t dispatch_count;
+    uint64_t texels; /* that they go over, lists apart */
     uint64_t key;
     char cache_key[CACHE_KEY_SIZE]; /* of its file in the cache folder; "": none */
     bool execute;
@@ -128,6 +129,7 @@ uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class
 
 /* history.c: what is left of the frame before. */
 bool image_is_history(const struct image *image);
+bool replay_has_history(const struct glint_replay *replay);
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next);
 bool run_history(struct run *run, struct glint_error *err);
 
@@ -165,6 +167,19 @@ struct image *run_image(const struct run *run, const char *name);
 bool step_plan(const struct run *run, struct step *step, struct glint_error *err);
 bool step_describe(const struct run *run, struct step *step, struct glint_error *err);
 void step_record(const struct run *run, struct step *step);
+
+/* The levels that a row DISPATCH_LEVELS names, from the finer to the coarser, of those that there are; false: none. */
+bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row, const struct image_desc *desc,
+                     uint32_t *first, uint32_t *last);
+
+/* work.c: how much a pass works on. Texels that a dispatch over an image goes over; how often a pass runs; texels of each pass
+   of the pipeline's graph when nothing is left out, rays included (0 where that is not known). */
+uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, uint32_t level);
+uint64_t pass_rays(const struct graph_pass *pass, const struct glint_pipeline *pipeline);
+void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                       const struct glint_replay_options *options, struct glint_run *inputs, uint64_t *texels);
+/* Adds to the passes of a record what lists and end reasons of the last run say. */
+bool replay_count_work(struct glint_replay *replay, json_t *root, struct glint_error *err);
 
 /* rays.c: sums and means over the rays of a frame. */
 bool rays_prepare(struct run *run, struct glint_error *err);

@@ -22,6 +22,8 @@
 // have at least as many workgroups as HALF has tiles. See work_list.glsl.
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 //
+// PASSES_ON(image, from) says that the pass, where its facts do not hold, would make the image of what it reads as it is: dropped,
+// it is remembered as that. Of several rows the first whose image is made counts.
 // FACT(name) gives a constant fact_NAME: false when the survey has found that the frame has nothing of the kind, so that the
 // code for it is left out (see replay/facts.c for the names).
 // OPTIONAL_READ gives a constant has_NAME: false when no pass makes the image and its "nothing" value is bound.
@@ -68,6 +70,7 @@ layout(constant_id = 4) const uint dispatch_phase = 0u;
 #define NEEDS(fact)
 #define NEEDS_BY(fact, parameter)
 #define READS_LEVELS(image)
+#define PASSES_ON(image, from)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
 #define RESOLUTION(size)

@@ -25,6 +25,8 @@ enum glint_row_kind {
     GLINT_ROW_NEEDS,        /* a fact the capture must show for the pass to be needed (replay/facts.c lists them);
                                   image: a parameter of the pass that the fact is about, or NULL */
     GLINT_ROW_READS_LEVELS, /* reads an image's levels though no ray has a cone: its maker then needs none */
+    GLINT_ROW_PASSES_ON, /* where its facts do not hold, the pass would make `image` of this one, as it is: so the next
+                                  frame finds it, though the pass is dropped */
     GLINT_ROW_SHOWS_ALL, /* while this parameter is off, every surface's reflection is shown, whatever its material */
     GLINT_ROW_SELF,      /* all levels of an image that this pass writes; `name` is the binding's */
     GLINT_ROW_HISTORY,   /* what an image held at the end of the previous frame; `name` is the binding's */

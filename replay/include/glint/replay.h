@@ -80,6 +80,7 @@ struct glint_survey {
     float depth_m[2];           /* lowest and highest without sky */
     uint32_t cubemaps, volumes; /* volumes: cube maps with an inner volume */
     bool has_sky, has_previous, has_planar, has_water, has_transparent, has_fresnel;
+    bool has_history; /* of a replay: what passes remember of the frame before is there, and this is no cut */
     /* What the device alone counts; `whole` says that it did. */
     bool whole;
     uint64_t metalness[GLINT_SURVEY_BINS]; /* surfaces, bins of 0.1 */
@@ -134,7 +135,9 @@ struct glint_replay_options {
 struct glint_plan_entry {
     const struct glint_pass *pass;
     bool runs;
+    bool cached_work; /* as in struct glint_pass_result */
     char reason[192]; /* why it runs or not, with the figure */
+    uint64_t texels;  /* that its dispatches go over when nothing is left out; 0: on the host, or not known */
 };
 struct glint_time {
     uint32_t n;
@@ -146,6 +149,7 @@ struct glint_pass_result {
     bool cached_work; /* it reads cube maps and nothing of the frame: paid when a cube map changes, not every frame */
     char reason[192];
     struct glint_time time; /* n = 0 when not timed */
+    uint64_t texels;        /* as in struct glint_plan_entry */
     uint64_t key; /* hash of all that its images depend on but diagnostics; 0 on the host and when it did not run */
 };
 struct glint_image {
@@ -227,8 +231,9 @@ void glint_run_close(struct glint_run **run);
 /* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
    driver, driver_version, times_are}, "frame", "preset", "rays", "first_ray", "resolution" {full, half}, "precision", "diagnostics", "inputs", "history",
    "all", "survey" (null when none was asked), "active_cubemaps", "bad_values": [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …], "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
-   cached, cached_work, dispatches, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
-   unit, meaning, width, height, format}}. */
+   cached, cached_work, dispatches, work {texels, of, lists {name: items}, rays}, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
+   unit, meaning, width, height, format}}. work: how many texels a pass was dispatched over (of a list its items), of how many when
+   nothing is left out; with diagnostics also how many rays a tracer followed. */
 const char *glint_run_json(const struct glint_run *run);
 size_t glint_run_image_count(const struct glint_run *run);
 const struct glint_run_image *glint_run_image(const struct glint_run *run, size_t i);

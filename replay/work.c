@@ -1,0 +1,108 @@
+/* How much a pass works on: texels that its dispatches go over, as run.json and plans say it. */
+#include "readback.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Of all dispatches when nothing is left out. */
+static uint64_t texels_of(const struct run *run, const struct graph_pass *entry, struct glint_error *err) {
+    const struct glint_pass *pass = entry->pass;
+    uint64_t texels = 0;
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (row->kind != GLINT_ROW_DISPATCH && row->kind != GLINT_ROW_DISPATCH_LEVELS) continue;
+        struct graph_image image = {.name = row->name, .source = SOURCE_MADE};
+        struct image_desc desc;
+        uint32_t first = 0, last = 0;
+        if (!(image.row = graph_row(&run->graph, row->name, &image.pass)) ||
+            !run_describe_image(run, &image, &desc, err))
+            return 0;
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(entry, row, &desc, &first, &last)) continue;
+        for (uint32_t level = first; level <= last; level++) texels += dispatch_texels(run, &desc, level);
+    }
+    return texels;
+}
+
+uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, uint32_t level) {
+    const VkExtent3D extent = image_extent(desc, level);
+    if (desc->buffer) return (uint64_t)run->sizes.half[0] * run->sizes.half[1];
+    return (uint64_t)extent.width * extent.height * image_layers(desc);
+}
+
+uint64_t pass_rays(const struct graph_pass *pass, const struct glint_pipeline *pipeline) {
+    return pass->rank == RANK_RAY ? glint_pipeline_rays(pipeline) : 1;
+}
+
+void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                       const struct glint_replay_options *options, struct glint_run *inputs, uint64_t *texels) {
+    struct glint_replay_options all = *options;
+    struct glint_error ignored = {0};
+    double seconds[256];
+    struct run run = {.replay = replay, .pipeline = pipeline, .options = &all, .inputs = inputs};
+    all.all = true;
+    all.outputs = NULL;
+    const bool ok = pipeline->count <= sizeof seconds / sizeof *seconds &&
+                    replay_graph(replay, pipeline, &all, inputs, &run.graph, &ignored) &&
+                    tables_init(&run.tables, &run.graph, replay->capture, seconds, &ignored) &&
+                    run_sizes(&run, &ignored);
+    for (size_t p = 0; ok && p < run.graph.pass_count; p++)
+        texels[p] = texels_of(&run, &run.graph.passes[p], &ignored) * pass_rays(&run.graph.passes[p], pipeline);
+    tables_finish(&run.tables);
+    graph_finish(&run.graph);
+    free(run.active);
+}
+
+/* Of a list: its items without what fills it up. */
+static uint64_t count_items(const uint32_t *words, uint32_t width, uint64_t count) {
+    uint64_t items = 0;
+    for (uint64_t i = 0; i < words[3] && width + i < count; i++) items += words[width + i] != UINT32_MAX;
+    return items;
+}
+
+static uint64_t count_rays(const uint8_t *reasons, uint64_t count) {
+    uint64_t rays = 0;
+    for (uint64_t i = 0; i < count; i++) rays += reasons[i] != 0;
+    return rays;
+}
+
+/* What an image of the last run counts; false when it is not there any more. */
+static bool count_image(struct glint_replay *replay, const char *name, uint64_t *found, struct glint_error *err) {
+    struct host_buffer buffer = {0};
+    VkDeviceSize offset;
+    struct image *image = replay->images;
+    while (image && !(image->used && strcmp(image->name, name) == 0)) image = image->next;
+    if (!image || !readback_images(replay, &(struct image_part){image, 0}, 1, &buffer, &offset, err)) return false;
+    const uint64_t texels = (uint64_t)image->desc.width * image->desc.height;
+    *found = image->desc.buffer ? count_items(buffer.map, image->desc.width, texels) : count_rays(buffer.map, texels);
+    host_buffer_finish(&buffer, replay->device);
+    return true;
+}
+
+static const char *end_reasons_of(const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_DIAGNOSTIC && strcmp(pass->rows[r].unit, "end reason") == 0)
+            return pass->rows[r].name;
+    return NULL;
+}
+
+bool replay_count_work(struct glint_replay *replay, json_t *root, struct glint_error *err) {
+    const bool diagnostics = json_is_true(json_object_get(root, "diagnostics"));
+    for (size_t p = 0; p < replay->result_count; p++) {
+        json_t *work = json_object_get(json_array_get(json_object_get(root, "passes"), p), "work"), *items;
+        json_t *lists = json_object_get(work, "lists");
+        json_int_t texels = json_integer_value(json_object_get(work, "texels"));
+        const char *name, *reasons = end_reasons_of(replay->results[p].pass);
+        uint64_t found;
+        struct glint_error own = {0};
+        json_object_foreach(lists, name, items) {
+            if (count_image(replay, name, &found, &own))
+                json_object_set_new(lists, name, json_integer((json_int_t)found));
+            if (own.code == GLINT_OK) texels += (json_int_t)found;
+        }
+        if (work && lists) json_object_set_new(work, "texels", json_integer(texels));
+        if (diagnostics && reasons && replay->results[p].ran && count_image(replay, reasons, &found, &own))
+            json_object_set_new(work, "rays", json_integer((json_int_t)found));
+        if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
+    }
+    return true;
+}
