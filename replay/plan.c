@@ -66,12 +66,12 @@ static bool holds(void *user, const char *fact, char *reason, size_t size, bool 
            survey_fact(&source->replay->survey, pipeline_shows_all(source->pipeline), fact, reason, size, known);
 }
 
-bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey **found, struct glint_time *time,
-                         struct glint_error *err) {
+bool glint_replay_survey(struct glint_replay *replay, uint32_t repeat, const struct glint_survey **found,
+                         struct glint_time *time, struct glint_error *err) {
     static const struct glint_pipeline nothing;
-    static const struct glint_replay_options defaults;
+    const struct glint_replay_options options = {.repeat = repeat};
     if (!replay->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
-    const bool ok = survey(replay, &nothing, &defaults, err);
+    const bool ok = survey(replay, &nothing, &options, err);
     channels_finish(&replay->gbuffer);
     *found = &replay->survey;
     if (time) *time = replay->survey_time;
@@ -93,7 +93,7 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
     static const struct glint_replay_options defaults;
     struct graph graph = {0};
     struct glint_run *inputs = NULL;
-    uint64_t *texels = NULL;
+    struct whole_work *work = NULL;
     bool ok = false;
     if (!options) options = &defaults;
     if (options->inputs && !(inputs = glint_run_open(options->inputs, err))) return false;
@@ -104,24 +104,24 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
         glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         goto done;
     }
-    texels = calloc(graph.pass_count + 1, sizeof *texels);
-    if (!texels) {
+    work = calloc(graph.pass_count + 1, sizeof *work);
+    if (!work) {
         glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         goto done;
     }
-    replay_whole_work(replay, pipeline, options, inputs, texels);
+    replay_whole_work(replay, pipeline, options, inputs, work);
     for (size_t i = 0; i < graph.pass_count; i++) {
         replay->plan[i] = (struct glint_plan_entry){.pass = graph.passes[i].pass,
                                                     .runs = graph.passes[i].runs,
-                                                    .cached_work = graph.passes[i].cached_work,
-                                                    .texels = texels[i]};
+                                                    .cached_work = work[i].cached_work,
+                                                    .texels = work[i].texels};
         memcpy(replay->plan[i].reason, graph.passes[i].reason, sizeof replay->plan[i].reason);
     }
     *entries = replay->plan;
     *count = graph.pass_count;
     ok = true;
 done:
-    free(texels);
+    free(work);
     channels_finish(&replay->gbuffer);
     graph_finish(&graph);
     glint_run_close(&inputs);

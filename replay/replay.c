@@ -104,18 +104,18 @@ static bool store_results(struct run *run, struct glint_error *err) {
     replay->results = calloc(count + 1, sizeof *replay->results);
     replay->cache_keys = calloc(count + 1, sizeof *replay->cache_keys);
     replay->cache = run->content[0] ? strdup(run->options->cache) : NULL;
-    uint64_t *texels = calloc(count + 1, sizeof *texels);
-    if (!replay->results || !replay->cache_keys || !texels || (run->content[0] && !replay->cache)) {
-        free(texels);
+    struct whole_work *work = calloc(count + 1, sizeof *work);
+    if (!replay->results || !replay->cache_keys || !work || (run->content[0] && !replay->cache)) {
+        free(work);
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     }
-    replay_whole_work(replay, run->pipeline, run->options, run->inputs, texels);
+    replay_whole_work(replay, run->pipeline, run->options, run->inputs, work);
     for (size_t p = 0; p < count; p++) {
         const struct graph_pass *pass = &run->graph.passes[p];
         struct glint_pass_result *result = &replay->results[p];
         *result = (struct glint_pass_result){.pass = pass->pass, .ran = pass->runs, .cached_work = pass->cached_work};
         memcpy(result->reason, pass->reason, sizeof result->reason);
-        result->texels = texels[p];
+        result->texels = work[p].texels;
         if (!pass->runs) continue;
         if (pass->pass->host) {
             uint64_t ns = (uint64_t)(run->host_seconds[p] * 1e9);
@@ -128,7 +128,7 @@ static bool store_results(struct run *run, struct glint_error *err) {
             result->time = time_statistics(run->steps[p].ns, run->steps[p].timed);
         }
     }
-    free(texels);
+    free(work);
     replay->result_count = count;
     replay->record = run_record(run);
     return replay->record ? bad_values_of_capture(run, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");

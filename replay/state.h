@@ -172,12 +172,16 @@ void step_record(const struct run *run, struct step *step);
 bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row, const struct image_desc *desc,
                      uint32_t *first, uint32_t *last);
 
-/* work.c: how much a pass works on. Texels that a dispatch over an image goes over; how often a pass runs; texels of each pass
-   of the pipeline's graph when nothing is left out, rays included (0 where that is not known). */
+/* work.c: how much a pass works on. Texels that a dispatch over an image goes over; how often a pass runs; what each pass
+   of the pipeline's graph works on when nothing is left out. */
+struct whole_work {
+    uint64_t texels; /* rays included; 0 where it is not known */
+    bool cached_work;
+};
 uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, uint32_t level);
 uint64_t pass_rays(const struct graph_pass *pass, const struct glint_pipeline *pipeline);
 void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline *pipeline,
-                       const struct glint_replay_options *options, struct glint_run *inputs, uint64_t *texels);
+                       const struct glint_replay_options *options, struct glint_run *inputs, struct whole_work *work);
 /* Adds to the passes of a record what lists and end reasons of the last run say. */
 bool replay_count_work(struct glint_replay *replay, json_t *root, struct glint_error *err);
 

@@ -72,7 +72,7 @@ json_t *survey_record(const struct glint_survey *survey, const struct glint_time
 char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err) {
     const struct glint_survey *survey;
     struct glint_time time;
-    if (!glint_replay_survey(replay, &survey, &time, err)) return NULL;
+    if (!glint_replay_survey(replay, 0, &survey, &time, err)) return NULL;
     json_t *json = survey_record(survey, &time, glint_capture_frame(replay->capture));
     char *text = json_dumps(json, JSON_INDENT(2));
     json_decref(json);

@@ -34,7 +34,7 @@ uint64_t pass_rays(const struct graph_pass *pass, const struct glint_pipeline *p
 }
 
 void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline *pipeline,
-                       const struct glint_replay_options *options, struct glint_run *inputs, uint64_t *texels) {
+                       const struct glint_replay_options *options, struct glint_run *inputs, struct whole_work *work) {
     struct glint_replay_options all = *options;
     struct glint_error ignored = {0};
     double seconds[256];
@@ -46,7 +46,9 @@ void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline 
                     tables_init(&run.tables, &run.graph, replay->capture, seconds, &ignored) &&
                     run_sizes(&run, &ignored);
     for (size_t p = 0; ok && p < run.graph.pass_count; p++)
-        texels[p] = texels_of(&run, &run.graph.passes[p], &ignored) * pass_rays(&run.graph.passes[p], pipeline);
+        work[p] = (struct whole_work){texels_of(&run, &run.graph.passes[p], &ignored) *
+                                          pass_rays(&run.graph.passes[p], pipeline),
+                                      run.graph.passes[p].cached_work};
     tables_finish(&run.tables);
     graph_finish(&run.graph);
     free(run.active);

@@ -2,28 +2,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/savings.h"
 #include "pass_names.h"
 #include "pipe.h"
 #include "pipeline_args.h"
+#include "progress.h"
 #include "table.h"
 
 struct arguments {
     struct pipeline_args pipeline;
-    const char *capture;
+    const char *capture, *device;
+    uint32_t rounds; /* 0: nothing is measured */
     bool json, dot;
 };
 
-enum { KEY_DOT = 256 };
+enum { KEY_DOT = 256, KEY_MEASURE };
 
+/* clang-format off */
 static const struct argp_option options[] = {
     PIPELINE_OPTIONS,
+    {"measure", KEY_MEASURE, "N", 0, "Time what the plan saves on the device: as planned and with --all, N rounds in turns", 0},
+    {"device", 'd', "INDEX|NAME", 0, "The Vulkan device of --measure; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
     {"json", 'j', NULL, 0, "Print JSON", 0},
     {"dot", KEY_DOT, NULL, 0, "Print the graph of passes and images for Graphviz", 0},
     {0},
 };
+/* clang-format on */
 static const struct example examples[] = {
     {"glint plan street.exr", "which passes would run, and why"},
+    {"glint plan street.exr --measure 10", "and how many milliseconds each of them saves"},
     {"glint plan street.exr --outputs travelled", "only what one image needs"},
+    {"glint plan street.exr --skip blur --force cocoon", "with one pass left out, and one that has nothing to do"},
     {"glint plan street.exr --dot | dot -Tsvg > plan.svg", "draw the graph"},
     {0},
 };
@@ -39,6 +48,12 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     case KEY_DOT:
         a->dot = true;
         return 0;
+    case KEY_MEASURE:
+        a->rounds = arg_uint("measure", arg, 1, 100000, state);
+        return 0;
+    case 'd':
+        a->device = arg;
+        return 0;
     case ARGP_KEY_ARG:
         if (a->capture) argp_error(state, "one capture at a time: %s and %s", a->capture, arg);
         a->capture = arg;
@@ -50,28 +65,88 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-static void print_plan(const struct glint_plan_entry *entries, size_t count) {
-    static const char *const titles[] = {"<slot", "<variant", "<runs", "<why", NULL};
+/* What a plan says, and what it takes on the device, if that was measured. */
+struct answer {
+    const struct glint_plan_entry *entries;
+    size_t count;
+    struct glint_savings savings;
+};
+
+static double milliseconds(uint64_t ns) {
+    return (double)ns * 1e-6;
+}
+
+static double saved_ms(const struct glint_saving *saving) {
+    return milliseconds(saving->whole_ns) - milliseconds(saving->planned_ns);
+}
+
+/* Time where it was measured; else what a pass that does not run would have gone over. */
+static void print_saved(struct table *table, const struct answer *answer, size_t i) {
+    const struct glint_plan_entry *entry = &answer->entries[i];
+    if (answer->savings.passes && answer->savings.passes[i].whole_ns)
+        table_cell(table, "%.3f of %.3f ms", saved_ms(&answer->savings.passes[i]),
+                   milliseconds(answer->savings.passes[i].whole_ns));
+    else if (!entry->runs && entry->texels)
+        table_cell(table, "%llu %s", (unsigned long long)entry->texels, entry->cached_work ? "texels" : "pixels");
+    else table_cell(table, "%s", "");
+}
+
+static void print_times(const char *what, const struct glint_savings_time *time) {
+    printf("%s: planned %.3f ms, --all %.3f ms: %.1f %% (half of the rounds between %.1f and %.1f %%)\n", what,
+           milliseconds(time->planned.median_ns), milliseconds(time->whole.median_ns), 100 * time->ratio[1],
+           100 * time->ratio[0], 100 * time->ratio[2]);
+}
+
+static void print_plan(const struct answer *answer) {
+    static const char *const titles[] = {"<slot", "<variant", "<runs", ">saves", "<why", NULL};
+    const struct glint_savings *savings = &answer->savings;
     struct table *table = table_create(titles);
-    for (size_t i = 0; i < count; i++) {
-        table_cell(table, "%s", entries[i].pass->slot);
-        table_cell(table, "%s", entries[i].pass->variant);
-        table_cell(table, "%s", entries[i].runs ? "yes" : "no");
-        table_cell(table, "%s", entries[i].reason);
+    for (size_t i = 0; i < answer->count; i++) {
+        const struct glint_plan_entry *entry = &answer->entries[i];
+        table_cell(table, "%s", entry->pass->slot);
+        table_cell(table, "%s", entry->pass->variant);
+        table_cell(table, "%s", entry->runs ? "yes" : "no");
+        print_saved(table, answer, i);
+        table_cell(table, "%s", entry->reason);
     }
     table_print(table, stdout);
     table_destroy(&table);
+    if (!savings->passes) return;
+    putchar('\n');
+    print_times("all passes", &savings->all);
+    print_times("without work on cube maps, which is done when one changes", &savings->frame);
+    printf("the survey takes %.3f ms of what is planned; %u rounds in turns\n", milliseconds(savings->survey.median_ns),
+           savings->rounds);
+}
+
+static json_t *times_json(const struct glint_savings_time *time) {
+    return json_pack("{s:f, s:f, s:[f, f, f]}", "planned_ms", milliseconds(time->planned.median_ns), "all_ms",
+                     milliseconds(time->whole.median_ns), "ratio", time->ratio[0], time->ratio[1], time->ratio[2]);
 }
 
 static enum status print_plan_json(const char *capture, const struct glint_pipeline *pipeline,
-                                   const struct glint_plan_entry *entries, size_t count) {
+                                   const struct answer *answer) {
+    const struct glint_savings *savings = &answer->savings;
     json_t *list = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:s}", "slot", entries[i].pass->slot, "variant",
-                                              entries[i].pass->variant, "runs", entries[i].runs, "reason",
-                                              entries[i].reason));
-    return print_json(
-        json_pack("{s:s, s:s, s:o}", "capture", capture, "preset", glint_pipeline_name(pipeline), "passes", list));
+    for (size_t i = 0; i < answer->count; i++) {
+        const struct glint_plan_entry *entry = &answer->entries[i];
+        json_t *row = json_pack("{s:s, s:s, s:b, s:s, s:b, s:I}", "slot", entry->pass->slot, "variant",
+                                entry->pass->variant, "runs", entry->runs, "reason", entry->reason, "cached_work",
+                                entry->cached_work, "texels", (json_int_t)entry->texels);
+        if (savings->passes)
+            json_object_set_new(row, "saves",
+                                json_pack("{s:f, s:f}", "planned_ms", milliseconds(savings->passes[i].planned_ns),
+                                          "all_ms", milliseconds(savings->passes[i].whole_ns)));
+        json_array_append_new(list, row);
+    }
+    json_t *root =
+        json_pack("{s:s, s:s, s:o}", "capture", capture, "preset", glint_pipeline_name(pipeline), "passes", list);
+    if (savings->passes)
+        json_object_set_new(root, "measured",
+                            json_pack("{s:i, s:f, s:o, s:o}", "rounds", (int)savings->rounds, "survey_ms",
+                                      milliseconds(savings->survey.median_ns), "all", times_json(&savings->all),
+                                      "frame", times_json(&savings->frame)));
+    return print_json(root);
 }
 
 /* Passes are boxes, images ellipses; what does not run is dashed. Names are C identifiers, so nothing needs a quote. */
@@ -94,16 +169,30 @@ static void print_dot(const struct glint_plan_entry *entries, size_t count) {
     puts("}");
 }
 
+static bool measure(const struct arguments *a, struct glint_pipeline *pipeline, struct glint_replay *replay,
+                    struct answer *answer, struct glint_error *err) {
+    const struct glint_replay_options options = pipeline_args_options(&a->pipeline);
+    struct progress progress;
+    progress_begin(&progress);
+    const bool ok =
+        glint_study_savings(replay, pipeline, &options, a->rounds, &answer->savings, progress_report, &progress, err);
+    progress_end(&progress);
+    return ok;
+}
+
 static enum status plan(const struct arguments *a, struct glint_pipeline *pipeline, struct glint_replay *replay) {
-    struct glint_replay_options options = pipeline_args_options(&a->pipeline);
+    const struct glint_replay_options options = pipeline_args_options(&a->pipeline);
     struct glint_error err = {0};
-    const struct glint_plan_entry *entries = NULL;
-    size_t count = 0;
-    if (!glint_replay_plan(replay, pipeline, &options, &entries, &count, &err)) return command_fail(&cmd_plan, &err);
-    if (a->json) return print_plan_json(a->capture, pipeline, entries, count);
-    if (a->dot) print_dot(entries, count);
-    else print_plan(entries, count);
-    return STATUS_DONE;
+    struct answer answer = {0};
+    enum status status = STATUS_DONE;
+    if ((a->rounds && !measure(a, pipeline, replay, &answer, &err)) ||
+        !glint_replay_plan(replay, pipeline, &options, &answer.entries, &answer.count, &err))
+        status = command_fail(&cmd_plan, &err);
+    else if (a->json) status = print_plan_json(a->capture, pipeline, &answer);
+    else if (a->dot) print_dot(answer.entries, answer.count);
+    else print_plan(&answer);
+    glint_savings_finish(&answer.savings);
+    return status;
 }
 
 static enum status run(int argc, char **argv) {
@@ -111,15 +200,18 @@ static enum status run(int argc, char **argv) {
     command_parse(&cmd_plan, argc, argv, &a);
     struct glint_error err = {0};
     struct glint_replay *replay = NULL;
+    struct glint_device *device = NULL;
     struct pipe pipe = {0};
     enum status status;
     struct glint_pipeline *pipeline = pipeline_args_create(&a.pipeline, &err);
     const char *path = pipeline ? pipe_input(&pipe, a.capture, &err) : NULL;
     struct glint_capture *capture = path ? glint_capture_open(path, NULL, &err) : NULL;
-    if (capture) replay = glint_replay_create(NULL, &err);
+    if (capture && a.rounds) device = glint_device_create(&(struct glint_device_options){.select = a.device}, &err);
+    if (capture && (device || !a.rounds)) replay = glint_replay_create(device, &err);
     if (replay && glint_replay_load(replay, capture, &err)) status = plan(&a, pipeline, replay);
     else status = command_fail(&cmd_plan, &err);
     glint_replay_destroy(&replay);
+    glint_device_destroy(&device);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
     glint_pipeline_destroy(&pipeline);
@@ -132,8 +224,10 @@ const struct command cmd_plan = {
     .arguments = "F",
     .summary = "what would run, what not, and why",
     .description =
-        "Shows what replay would do with a capture: one line for each pass, whether it runs, and the rule or "
-        "the figure that decides it. Needs no Vulkan device.",
+        "Shows what replay would do with a capture: one line for each pass, whether it runs, the rule and the "
+        "figure that decide it, and what leaving it out saves: pixels, texels of cube maps, or with --measure time. "
+        "What a plan leaves out changes no bit of the picture; --all leaves out nothing, --skip and --force "
+        "overrule it for single passes. Needs a Vulkan device for --measure alone.",
     .options = options,
     .parse = parse,
     .examples = examples,

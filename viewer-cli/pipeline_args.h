@@ -35,9 +35,9 @@ enum {
     {"inputs",  KEY_INPUTS,  "RUN",            0, "A run to read missing images from", 0}, \
     {"history", KEY_HISTORY, "RUN",            0, "The run of the frame before, for passes that remember it", 0}, \
     {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, and what they need (default: all)", 0}, \
-    {"all",     KEY_ALL,     NULL,             0, "Run every pass, even one that has nothing to do", 0}, \
-    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these", 0}, \
-    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when they have nothing to do", 0}
+    {"all",     KEY_ALL,     NULL,             0, "Run every pass over every pixel: no survey, no list, nothing left out. The picture is the same, bit for bit", 0}, \
+    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these; what reads them finds nothing there, and the picture changes", 0}, \
+    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when the plan finds nothing for them to do", 0}
 /* clang-format on */
 
 /* Reads one of PIPELINE_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */

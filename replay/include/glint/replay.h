@@ -170,9 +170,9 @@ void glint_replay_destroy(struct glint_replay **replay);
    that was run last, and no cut, passes that remember find that frame's images. */
 bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err);
 /* The survey of the loaded capture: on the replay's device, when it has one, else what the host counts. *time (NULL: not
-   wanted) receives what it took there. */
-bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey **survey, struct glint_time *time,
-                         struct glint_error *err);
+   wanted) receives what it took there, in `repeat` rounds (0: one, not warmed up) unless it was known already. */
+bool glint_replay_survey(struct glint_replay *replay, uint32_t repeat, const struct glint_survey **survey,
+                         struct glint_time *time, struct glint_error *err);
 /* The same as run.json has it; the caller frees it. NULL on failure. */
 char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err);
 /* Pixels of a stencil class. False: the class is not one bit of the id, and by bits alone its pixels are not known. */
