@@ -19,12 +19,12 @@ struct graph_image {
     const struct glint_row *row;   /* the WRITE, DIAGNOSTIC or CAPTURE row that defines it */
     const struct glint_pass *pass; /* whose row it is; NULL for a capture image */
     enum source source;
-    bool wanted;                /* written out: its memory is its own */
-    bool history;               /* of the frame before */
-    bool blank;                 /* NOTHING, in all of its size */
-    bool kept;                  /* the next frame's history: its memory is its own */
-    const char *kept_as;        /* what it stands for there, when the pass that would have passed it on was dropped; or NULL */
-    size_t maker;               /* MADE: place of the pass in the graph */
+    bool wanted;         /* written out: its memory is its own */
+    bool history;        /* of the frame before */
+    bool blank;          /* NOTHING, in all of its size */
+    bool kept;           /* the next frame's history: its memory is its own */
+    const char *kept_as; /* what it stands for there, when the pass that would have passed it on was dropped; or NULL */
+    size_t maker;        /* MADE: place of the pass in the graph */
     size_t first_use, last_use; /* places of the passes that touch it */
     char history_name[80];
 };

@@ -12,6 +12,7 @@
 #include "probes.h"
 #include "scenes.h"
 #include "settings.h"
+#include "share.h"
 
 static const struct glint_sample samples[] = {
 #define ROW(name, summary) {#name, summary},
@@ -308,6 +309,7 @@ static bool write_frame(struct session *s, const char *path, uint32_t number, bo
     struct dump dump = {
         .encodings = o->encodings, .pre_exposure = frame.pre_exposure, .view = &views[0], .settings = s->settings};
     if (!make_worlds(s, (double)number - 1, err) || !render_views(s, views, rendered, err)) return false;
+    share_reflections(o, s->pixels);
     dump.writer = glint_writer_create(
         path, &(struct glint_writer_options){.compression = o->compression, .threads = o->threads}, err);
     if (!dump.writer) return false;

@@ -60,6 +60,10 @@ static void take_options(XXH3_state_t *state, const struct scene *scene, const s
     take(state, &o->finished_samples, sizeof o->finished_samples);
     take(state, &o->foreground, sizeof o->foreground);
     take(state, &o->truth_of_pixels, sizeof o->truth_of_pixels);
+    if (o->reflecting_given) {
+        take(state, &o->reflecting, sizeof o->reflecting);
+        take(state, &o->scattered, sizeof o->scattered);
+    }
     if (o->travel_given) take(state, o->travel, sizeof o->travel);
     if (o->camera_given) {
         take(state, o->eye, sizeof o->eye);

@@ -34,6 +34,8 @@ enum {
     KEY_CAMERA,
     KEY_TRAVEL,
     KEY_UNJITTERED,
+    KEY_REFLECTING,
+    KEY_SCATTERED,
     KEY_FOV,
     KEY_OFFSET,
     KEY_COMPRESSION,
@@ -66,6 +68,8 @@ static const struct argp_option options[] = {
     {"camera",      KEY_CAMERA,      "ex,ey,ez,tx,ty,tz", 0, "Where the camera stands, and a point that it looks at (default: the scene's, which moves in a shot)", 0},
     {"travel",      KEY_TRAVEL,      "x,y,z", 0, "How far the camera moves each frame, in metres", 0},
     {"unjittered",  KEY_UNJITTERED,  NULL,    0, "Look through the centres of the pixels in every frame", 0},
+    {"reflecting",  KEY_REFLECTING,  "PERCENT", 0, "So much of the picture reflects, a block in its middle, whatever the materials: squares of 2x2 pixels of roughness 0.05 and 0.4", 0},
+    {"scattered",   KEY_SCATTERED,   NULL,    0, "With --reflecting: squares scattered over the picture instead of one block", 0},
     {"fov",         KEY_FOV,         "DEG",   0, "Vertical field of view in degrees (default: the scene's)", 0},
     {"offset",      KEY_OFFSET,      "x,y,z", 0, "Move every stored position, in double; the scene is not rendered again", 0},
     {"encoding",    KEY_ENCODING,    "WHAT=NAME,...", 0, "Several encodings at once: depth, normal, vertex_normal, normal_space, roughness, motion, motion_depth, color", 0},
@@ -244,6 +248,15 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_UNJITTERED:
         s->unjittered = true;
+        return 0;
+    case KEY_REFLECTING:
+        arg_numbers("reflecting", arg, numbers, 1, state);
+        if (!(numbers[0] >= 0 && numbers[0] <= 100)) argp_error(state, "--reflecting=%s: expected 0 to 100", arg);
+        s->reflecting_given = true;
+        s->reflecting = numbers[0] / 100;
+        return 0;
+    case KEY_SCATTERED:
+        s->scattered = true;
         return 0;
     case KEY_FOV:
         arg_numbers("fov", arg, numbers, 1, state);

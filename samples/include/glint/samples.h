@@ -39,6 +39,10 @@ struct glint_sample_options {
     uint32_t finished_samples;
     bool foreground;  /* a gun and hands before the camera, of the stencil class foreground, reflected by nothing */
     bool unjittered;  /* rays through the centres of the pixels in every frame */
+    /* The part of the picture that reflects, 0 to 1, whatever the scene's materials: in one block, or in squares of 2 x 2 pixels
+       that lie scattered; half of the squares are smooth (0.05), half rough (0.4). */
+    bool reflecting_given, scattered;
+    double reflecting;
     double offset[3]; /* added to every position in double before it is stored (the scene is not rendered again) */
     enum glint_compression compression;
     uint32_t threads;
