@@ -98,6 +98,15 @@ def table(titles, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
+def draw(glint, charts, docs):
+    """Charts as SVG files of these names."""
+    with tempfile.TemporaryDirectory() as folder:
+        page = {"format": 1, "title": "", "facts": [], "sections": [{"title": "", "blocks": [{"chart": c} for c in charts.values()]}]}
+        (pathlib.Path(folder) / "page.json").write_text(json.dumps(page))
+        for i, name in enumerate(charts):
+            run(glint, "report", folder, "-o", docs / name, "--chart", i + 1)
+
+
 class Times:
     """A page's columns of milliseconds, one for each device that there is a record of."""
 

@@ -1,93 +1,229 @@
-"""What plans leave out, scene by scene: writes docs/plans.md from records that it makes on any device.
+#!/usr/bin/env python3
+"""What plans leave out, scene by scene, and whether cost follows need:
 
-plans.py record GLINT --as NAME -o RECORD.json [--size WxH] [--cube N] [--rounds N]
-plans.py page
-"""
+plans.py record GLINT --as NAME -o RECORD.json [--size WxH] [--cube N] [--rounds N] [--no-counts]
+plans.py page GLINT [-o DOCS]                                 DOCS/plans.md and its charts, from all records
+
+The first needs nothing but the program, so that a record can be made wherever a bundle runs. Planned and whole runs take turns
+(`glint plan --measure`). What passes worked on is the same on every device: --no-counts leaves it to another record."""
 import argparse
+import concurrent.futures
 import json
+import os
 import pathlib
-import subprocess
+import statistics
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-RECORDS = ROOT / 'tests' / 'records' / 'plans'
-SCENES = {'matte': 'nothing reflects', 'desert_night': 'one mirror, no sky', 'rain_street': 'wet and rough, no mirror',
-          'lake': 'water, little else', 'glasshouse': 'panes', 'still_life': 'nothing moves', 'room': 'polished tiles',
-          'street': 'almost everything reflects'}
+import pages
+
+RECORDS = pages.HERE / "records/plans"
+SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "rain_street": "wet and rough, no mirror", "lake": "water, little else",
+          "glasshouse": "panes", "still_life": "nothing moves", "room": "polished tiles", "street": "almost everything reflects"}
+SHARES, KINDS = (0, 1, 5, 25, 100), {"block": "one block", "scattered": "scattered"}
+READ = pages.HERE / "read.comp"
 
 
-def glint(program, *arguments):
-    return subprocess.run([program, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+# ---- recording ----
+
+def time_of(told):
+    return {"planned": told["planned_ms"], "whole": told["all_ms"], "ratio": told["ratio"]}
 
 
-def times(run):
-    """Milliseconds of all passes that ran, of those that a cube map's change alone calls for, and of the survey."""
-    device = [p for p in run['passes'] if p['ran'] and not p.get('host')]
-    cached = sum(p['time_ns']['median'] for p in device if p.get('cached_work'))
-    survey = ((run['survey'] or {}).get('time_ns') or {'median': 0})['median']
-    return {'all': (sum(p['time_ns']['median'] for p in device) + survey) / 1e6, 'cubes': cached / 1e6, 'survey': survey / 1e6}
+def planned(given, capture):
+    told = json.loads(pages.run(given.glint, "plan", capture, "--measure", given.rounds, "--json"))
+    measured = told["measured"]
+    return {"passes": {p["slot"]: {"runs": p["runs"], "why": p["reason"], "planned": p["saves"]["planned_ms"], "whole": p["saves"]["all_ms"]}
+                       for p in told["passes"]},
+            "survey": measured["survey_ms"], "all": time_of(measured["all"]), "frame": time_of(measured["frame"])}
 
 
-def measure(program, capture, folder, rounds, *options):
-    glint(program, 'replay', capture, '-o', folder, '--outputs', 'composed', '--cache=none', '--no-cache', '--repeat', rounds, *options)
-    return json.loads((pathlib.Path(folder) / 'run.json').read_text(encoding='utf-8'))
+def counts(given, capture, folder, *options):
+    """Texels of cube maps that were filtered, pixels that a ray was traced for, on screen or in cube maps, and surfaces that reflect."""
+    run = pathlib.Path(folder) / "run"
+    pages.run(given.glint, "replay", capture, "-o", run, "--outputs", "composed,screen_end,cubemap_end", "--diagnostics", "--no-cache", *options)
+    told = json.loads((run / "run.json").read_text())
+    work = [(p, p["work"]) for p in told["passes"] if "work" in p]
+    survey = told["survey"]
+    return {"cubes": sum(w["texels"] for p, w in work if p.get("cached_work")),
+            "rays": max((w.get("rays", 0) for _, w in work), default=0),
+            "texels": {p["slot"]: [w["texels"], w["of"]] for p, w in work},
+            **({"reflecting": survey["reflecting"]["count"] / survey["pixels"]} if survey else {})}
 
 
-def record(a):
-    rows = {}
-    with tempfile.TemporaryDirectory() as folder:
-        for scene in SCENES:
-            capture = f'{folder}/{scene}.exr'
-            glint(a.glint, 'sample', scene, '-o', capture, '--size', a.size, '--cube-size', a.cube)
-            planned, whole = (measure(a.glint, capture, f'{folder}/run', a.rounds, *o) for o in ([], ['--all']))
-            survey = planned['survey']
-            rows[scene] = {'planned': times(planned), 'whole': times(whole), 'passes': len(planned['passes']),
-                           'ran': sum(p['ran'] for p in planned['passes']),
-                           'left_out': [p['slot'] for p in planned['passes'] if not p['ran']],
-                           'reflecting': survey['reflecting']['count'] / survey['pixels']}
-            device = planned['device']
-    pathlib.Path(a.output).write_text(json.dumps({'as': a.name, 'device': device['name'], 'size': a.size, 'cube': a.cube,
-                                                  'rounds': a.rounds, 'scenes': rows}, indent=1) + '\n', encoding='utf-8')
+def reading(given, capture):
+    """Milliseconds in which all pixels' inputs are read once."""
+    told = json.loads(pages.run(given.glint, "replay", capture, "--shader", f"compose={READ}", "--repeat", max(given.rounds, 10), "--json"))
+    return next(p["time_ns"]["median"] for p in told["runs"][0]["passes"] if p["slot"] == "compose") / 1e6
 
 
-def table(r):
-    lines = ['| scene | pixels that reflect | passes run | planned, ms | survey, ms | `--all`, ms | planned of `--all` | every frame alone |',
-             '| --- | --- | --- | --- | --- | --- | --- | --- |']
-    for scene, row in r['scenes'].items():
-        p, w = row['planned'], row['whole']
-        lines.append(f'| `{scene}`: {SCENES[scene]} | {100 * row["reflecting"]:.1f} % | {row["ran"]} of {row["passes"]} | {p["all"]:.1f} | '
-                     f'{p["survey"]:.2f} | {w["all"]:.1f} | {100 * p["all"] / w["all"]:.1f} % | '
-                     f'{100 * (p["all"] - p["cubes"]) / (w["all"] - w["cubes"]):.1f} % |')
-    return lines
+def make(given, folder, names):
+    """Captures of scenes and of the series, as many at once as there are four cores for."""
+    def one(name):
+        scene, *rest = name.split("-")
+        path = pathlib.Path(folder) / f"{name}.exr"
+        more = ["--reflecting", rest[1], "--light", "1"] + (["--scattered"] if rest[0] == "scattered" else []) if rest else []
+        pages.run(given.glint, "sample", scene, "-o", path, "--size", given.size, "--cube-size", given.cube, "--compression", "none", *more)
+        return name, path
+    with concurrent.futures.ThreadPoolExecutor(max(1, (os.cpu_count() or 1) // 4)) as pool:
+        yield from pool.map(one, names)
 
 
-def page(_):
-    records = [json.loads(f.read_text(encoding='utf-8')) for f in sorted(RECORDS.glob('*.json'))]
-    text = ['# What plans leave out', '', 'Written by `tests/plans.py`. Preset `mafia3`; times are medians of the device\'s own timestamps, planned with the survey',
-            'included, against `--all`, which uses neither survey nor lists and traces every surface. *Every frame alone* leaves out what is made of',
-            'cube maps once (MIP chains, cocoon). Planned and whole pictures are the same, bit for bit (`gpu_planned`).']
-    for r in records:
-        text += ['', f'## {r["as"]}', '', f'{r["device"]}, {r["size"].replace("x", "×")}, cube maps of {r["cube"]}², {r["rounds"]} rounds.', ''] + table(r)
-    text += ['', '## Passes that do not run', '', '| scene | left out |', '| --- | --- |']
-    for scene, row in records[0]['scenes'].items():
-        text.append(f'| `{scene}` | {", ".join(f"`{s}`" for s in row["left_out"]) or "none"} |')
-    (ROOT / 'docs' / 'plans.md').write_text('\n'.join(text) + '\n', encoding='utf-8')
+def record(given):
+    device = json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]
+    told = {"as": given.name, "device": device["name"], "size": given.size, "cube": given.cube, "rounds": given.rounds, "scenes": {}, "series": {}}
+    series = [f"room-{kind}-{share}" for kind in KINDS for share in SHARES]
+    with tempfile.TemporaryDirectory(dir=given.work) as folder:
+        for name, capture in make(given, folder, [*SCENES, *series]):
+            row = planned(given, capture)
+            if name in SCENES:
+                if not given.no_counts:
+                    row["counts"] = {"planned": counts(given, capture, folder), "whole": counts(given, capture, folder, "--all")}
+                if name == "matte":
+                    row["read"] = reading(given, capture)
+            told["scenes" if name in SCENES else "series"][name] = row
+            capture.unlink()
+    path = pathlib.Path(given.output)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+
+
+# ---- the page ----
+
+def percent(part, of=1):
+    return f"{100 * part / of:.3g} %" if of else "–"
+
+
+def ran(row):
+    return [slot for slot, p in row["passes"].items() if p["runs"]]
+
+
+def ratio(time):
+    low, middle, high = time["ratio"]
+    return f"{100 * middle:.1f} % ({100 * low:.1f} to {100 * high:.1f})"
+
+
+def times(r):
+    titles = ["scene", "passes run", "planned, ms", "survey in it, ms", "`--all`, ms", "planned of `--all`", "every frame alone"]
+    return pages.table(titles, [[f"`{scene}`: {SCENES[scene]}", f"{len(ran(row))} of {len(row['passes'])}", f"{row['all']['planned']:.3f}",
+                                 f"{row['survey']:.3f}", f"{row['all']['whole']:.3f}", ratio(row["all"]), ratio(row["frame"])]
+                                for scene, row in r["scenes"].items()])
+
+
+def worked(r):
+    """What does not depend on the device; of the record that counted."""
+    rows = []
+    for scene, row in r["scenes"].items():
+        p, w = (row["counts"][side] for side in ("planned", "whole"))
+        left = [f"`{slot}`" for slot in row["passes"] if slot not in ran(row)]
+        part = [f"`{slot}` {percent(done, of)}" for slot, (done, of) in p["texels"].items() if 0 < done < of]
+        rows.append([f"`{scene}`", percent(p["reflecting"]), f"{p['rays']} of {w['rays']} ({percent(p['rays'], w['rays'])})",
+                     f"{percent(p['cubes'], w['cubes'])}", ", ".join(left) or "none", ", ".join(part) or "none"])
+    return pages.table(["scene", "pixels that reflect", "rays traced of `--all`", "cube texels filtered of `--all`", "passes left out", "passes in part"], rows)
+
+
+def everything_ran(r):
+    """With --all: passes that were not dispatched over all of their texels."""
+    return [f"`{scene}`: `{slot}`" for scene, row in r["scenes"].items()
+            for slot, (done, of) in row["counts"]["whole"]["texels"].items() if done < of]
+
+
+def verdict(met):
+    return "met" if met else "**missed**"
+
+
+def bounds(r, cpu):
+    scenes = r["scenes"]
+    matte, desert, street = (scenes[s] for s in ("matte", "desert_night", "street"))
+    lines = []
+    if cpu:
+        lines.append(f"`matte` under 5 % of `--all`: {percent(matte['all']['ratio'][1])}, {verdict(matte['all']['ratio'][1] < 0.05)}.")
+        lines.append(f"`desert_night` under 15 %: {percent(desert['all']['ratio'][1])}, {verdict(desert['all']['ratio'][1] < 0.15)}.")
+    times_read = matte["all"]["planned"] / matte["read"]
+    told = f"`matte` takes {matte['all']['planned']:.3f} ms, {times_read:.2f} times what reading its inputs once takes ({matte['read']:.3f} ms)"
+    lines.append(told + ("." if cpu else f"; at most twice: {verdict(times_read <= 2)}."))
+    late = street["all"]["planned"] - street["all"]["whole"]
+    lines.append(f"`street` later than `--all` by at most 2 % or 0.03 ms, survey included: by {late:.3f} ms, {percent(street['all']['ratio'][1] - 1)} in the "
+                 f"median of the rounds; {verdict(late <= 0.03 or street['all']['ratio'][1] <= 1.02)}.")
+    if "counts" in desert:
+        part = desert["counts"]["planned"]["cubes"] / desert["counts"]["whole"]["cubes"]
+        lines.append(f"`desert_night` filters {percent(part)} of the cube maps' texels; at most half: {verdict(part <= 0.5)}.")
+    return "\n".join(f"- {line}" for line in lines)
+
+
+def points(r, kind):
+    return [(share, r["series"][f"room-{kind}-{share}"]["frame"]["planned"]) for share in SHARES]
+
+
+def fit(pairs):
+    """Constant and slope of a line through what reflects at all, relative errors counting alike, and the largest of them."""
+    some = [(x, y, 1 / y ** 2) for x, y in pairs if x > 0]
+    weight = sum(w for _, _, w in some)
+    mx, my = (sum(v[i] * v[2] for v in some) / weight for i in (0, 1))
+    slope = sum(w * (x - mx) * (y - my) for x, y, w in some) / sum(w * (x - mx) ** 2 for x, _, w in some)
+    constant = my - slope * mx
+    return constant, slope, max(abs(constant + slope * x - y) / y for x, y, _ in some)
+
+
+def chart(r):
+    series = [{"name": KINDS[kind], "kind": "scatter", "points": [{"x": x, "y": y, "name": f"{x} %"} for x, y in points(r, kind)]} for kind in KINDS]
+    for kind in KINDS:
+        constant, slope, _ = fit(points(r, kind))
+        series.append({"name": f"{KINDS[kind]}, fit", "kind": "line", "muted": True, "points": [[x, constant + slope * x] for x in (0, 100)]})
+    whole = statistics.median(r["series"][f"room-{kind}-{share}"]["frame"]["whole"] for kind in KINDS for share in SHARES)
+    return {"title": f"{r['as']}: a frame's time by the share of pixels that reflect", "series": series,
+            "marks": [{"y": whole, "label": "--all"}], "x": {"name": "pixels that reflect", "unit": "%", "min": 0, "max": 100},
+            "y": {"name": "planned, survey included", "unit": "ms", "min": 0}}
+
+
+def follows(r):
+    titles = ["pixels that reflect", *(f"{s} %" for s in SHARES), "constant, ms", "ms for each percent", "largest error of the fit"]
+    rows = []
+    for kind in KINDS:
+        found = points(r, kind)
+        constant, slope, off = fit(found)
+        rows.append([KINDS[kind], *(f"{y:.3f}" for _, y in found), f"{constant:.3f}", f"{slope:.4f}", percent(off)])
+    whole = [[statistics.median(r["series"][f"room-{kind}-{share}"]["frame"]["whole"] for kind in KINDS) for share in SHARES]]
+    rows.append(["`--all`", *(f"{y:.3f}" for y in whole[0]), "", "", ""])
+    return pages.table(titles, rows)
+
+
+def page(given):
+    records = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(RECORDS.glob("*.json"))]
+    counted = next(r for r in records if "counts" in r["scenes"]["matte"])
+    charts = {f"plans-{i}.svg": chart(r) for i, r in enumerate(records, 1)}
+    pages.draw(given.glint, charts, given.output)
+    parts = []
+    for r, name in zip(records, charts):
+        cpu = "llvmpipe" in r["device"]
+        parts.append(f"## {r['as']}\n\n{r['device']}, {r['size'].replace('x', '×')}, cube maps of {r['cube']}², medians of {r['rounds']} rounds in turns "
+                     f"(in brackets: between which half of them lie).\n\n{times(r)}\n{bounds(r, cpu)}\n\n![{r['as']}: time by share]({name})\n\n{follows(r)}")
+    left = everything_ran(counted)
+    every = "With `--all` every pass was dispatched over all of its texels, in every scene." if not left else f"**With `--all` left out**: {', '.join(left)}."
+    text = pathlib.Path(__file__).with_name("plans.md.in").read_text(encoding="utf-8")
+    for key, value in {"WORKED": worked(counted), "EVERY": every, "DEVICES": "\n".join(parts)}.items():
+        text = text.replace(f"@{key}@", value)
+    (given.output / "plans.md").write_text(text, encoding="utf-8")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
-    r = commands.add_parser('record')
-    r.add_argument('glint')
-    r.add_argument('--as', dest='name', required=True)
-    r.add_argument('-o', '--output', required=True)
-    r.add_argument('--size', default='480x270')
-    r.add_argument('--cube', type=int, default=128)
-    r.add_argument('--rounds', type=int, default=3)
+    r = commands.add_parser("record")
+    r.add_argument("glint")
+    r.add_argument("--as", dest="name", required=True, help="what the page calls this device")
+    r.add_argument("-o", "--output", required=True)
+    r.add_argument("--size", default="480x270")
+    r.add_argument("--cube", default="128")
+    r.add_argument("--rounds", type=int, default=5)
+    r.add_argument("--no-counts", action="store_true")
+    r.add_argument("--work", help="folder for temporary files")
     r.set_defaults(run=record)
-    commands.add_parser('page').set_defaults(run=page)
-    a = parser.parse_args()
-    a.run(a)
+    p = commands.add_parser("page")
+    p.add_argument("glint")
+    p.add_argument("-o", "--output", type=pathlib.Path, default=pages.HERE.parent / "docs")
+    p.set_defaults(run=page)
+    given = parser.parse_args()
+    given.run(given)
 
 
 main()

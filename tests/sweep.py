@@ -163,14 +163,6 @@ def chart(scene, found, kind):
             "y": {"name": "RMSE", "min": 0}}
 
 
-def draw(glint, charts, docs):
-    with tempfile.TemporaryDirectory() as folder:
-        page = {"format": 1, "title": "", "facts": [], "sections": [{"title": "", "blocks": [{"chart": c} for c in charts.values()]}]}
-        (pathlib.Path(folder) / "page.json").write_text(json.dumps(page))
-        for i, name in enumerate(charts):
-            pages.run(glint, "report", folder, "-o", docs / name, "--chart", i + 1)
-
-
 def told(value, noise):
     return f"{value:.4f} ± {noise:.4f}"
 
@@ -215,7 +207,7 @@ def page(given):
     record = json.loads(given.record.read_text())
     charts = {f"sweep-{scene}-{answer}.svg": chart(scene, found, answer) for scene, found in record["scenes"].items()
               for answer in DRAWN}
-    draw(given.glint, charts, given.docs)
+    pages.draw(given.glint, charts, given.docs)
     text = pathlib.Path(__file__).with_name("sweep.md.in").read_text()
     parts = []
     for scene, found in record["scenes"].items():
