@@ -37,8 +37,8 @@ struct glint_sample_options {
     /* Rays a pixel of what opaque surfaces reflect in `scene`, the finished picture; 0: no such part. The truth then holds
        what reflected surfaces themselves reflect. Scenes with water or panes have their own, and refuse. */
     uint32_t finished_samples;
-    bool foreground;  /* a gun and hands before the camera, of the stencil class foreground, reflected by nothing */
-    bool unjittered;  /* rays through the centres of the pixels in every frame */
+    bool foreground; /* a gun and hands before the camera, of the stencil class foreground, reflected by nothing */
+    bool unjittered; /* rays through the centres of the pixels in every frame */
     /* The part of the picture that reflects, 0 to 1, whatever the scene's materials: in one block, or in squares of 2 x 2 pixels
        that lie scattered; half of the squares are smooth (0.05), half rough (0.4). */
     bool reflecting_given, scattered;
