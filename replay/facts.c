@@ -95,14 +95,6 @@ static bool history(const struct question *q) {
              q->survey->has_history ? "there is a frame before" : "no frame before, or a cut");
     return q->survey->has_history;
 }
-/* Of a parameter that gives the pass something to do without one. */
-static bool history_or(const struct question *q) {
-    const bool holds = history(q);
-    const size_t end = strlen(q->reason);
-    if (!holds && q->value != 0) snprintf(q->reason + end, q->size - end, ", but it makes up for that");
-    return holds || q->value != 0;
-}
-
 static bool fresnel(const struct question *q) {
     snprintf(q->reason, q->size, "materials %s how they rise towards grazing angles",
              q->survey->has_fresnel ? "say" : "do not say");
@@ -127,7 +119,6 @@ static const struct {
     {"planar", planar, false, true},
     {"fresnel", fresnel, false, true},
     {"history", history, false, true},
-    {"history", history_or, true, true},
 };
 
 /* "rough 0.1" is a fact about a value. */

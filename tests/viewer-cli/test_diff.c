@@ -159,7 +159,7 @@ static void runs_name_what_differs_first(void **state) {
     free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("one"), "--diagnostics"));
     free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("same"), "--diagnostics"));
     free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("other"), "--diagnostics",
-                  "--set=cubemap_trace.steps_hq=5", "--use=temporal_sharp=none"));
+                  "--set=cubemap_trace.steps_hq=5", "--use=resolve_sharp=none"));
     json_t *json = diff_of(0, "one", "same");
     assert_int_equal(json_array_size(json_object_get(json, "settings")), 0);
     assert_true(json_array_size(json_object_get(json, "images")) > 20);
@@ -168,7 +168,7 @@ static void runs_name_what_differs_first(void **state) {
     const json_t *setting = named(json_object_get(json, "settings"), "what", "cubemap_trace.steps_hq");
     assert_true(number(setting, "a") == 24 && number(setting, "b") == 5);
     assert_string_equal(json_string_value(json_object_get(json_object_get(json, "first"), "slot")), "cubemap_trace");
-    const json_t *images = json_object_get(json, "images"), *lost = named(images, "name", "reflection_stable");
+    const json_t *images = json_object_get(json, "images"), *lost = named(images, "name", "reflection_sharp");
     assert_contains(json_string_value(json_object_get(lost, "note")), "the second has no such image");
     assert_true(number(named(images, "name", "screen_travelled"), "differing") == 0);
     assert_true(number(named(images, "name", "cubemap_end"), "differing") > 0);
