@@ -21,7 +21,7 @@ RAYS, SETS, OTHER_SETS = 8, 4, 2
 STEPS = "4,6,8,11,16,23,32,45,64,91,128,256,512,1024"
 # What a surface is, its thickness and the cube maps as the reference has them: all that differs is how a ray is followed.
 SCREEN = "screen_trace=linear_facets screen_trace.thickness=0.01 screen_trace.solid=32 screen_trace.first_step=0.001"
-CUBES = ("cubemap_trace=march cubemap_trace.surfaces=exact cubemap_trace.bias=0 cubemap_trace.hq_roughness=1 "
+CUBES = ("cubemap_trace=march cubemap_trace.count=strides cubemap_trace.surfaces=exact cubemap_trace.bias=0 cubemap_trace.hq_roughness=1 "
          "cubemap_trace.first_step_m=0.01 cubemap_trace.length_m=300 cubemap_active.chain=8 cubemap_trace.chain=8 "
          "cubemap_trace.fallback=lookup cubemap_trace.exhausted=fallback")
 THICK = CUBES.replace("surfaces=exact cubemap_trace.bias=0", "surfaces=thick")
@@ -35,6 +35,7 @@ CURVES = {
     "hiz": ("`screen_trace/hiz`, cells looked at", "screen_trace=hiz hiz=nearest screen_trace.thickness=0.01 screen_trace.solid=32",
             "screen_trace.cells+screen_trace.cells_lq"),
     "linear": ("`screen_trace/linear`", "screen_trace=linear screen_trace.thickness=0.01 screen_trace.first_step=0.001", "screen_trace.steps"),
+    "samples": ("`march`, refinements and switches counted as steps", CUBES.replace("strides", "samples"), "cubemap_trace.steps_hq"),
     "thick": ("`march`, surfaces with a thickness", THICK, "cubemap_trace.steps_hq"),
     "stopped": ("`march`, the same, out of steps: where it stopped", THICK.replace("exhausted=fallback", "exhausted=stopped"),
                 "cubemap_trace.steps_hq"),
@@ -74,7 +75,7 @@ def measure_set(given, found, capture, folder, n):
         if key not in SHOWN and n >= given.other_sets:
             continue
         rows = against(words, f"{vary}={given.steps}", full, key)
-        limits = dict(against(words, f"{vary}={given.steps}", own, f"{key}-own")) if key in ("cubes", "both") else {}
+        limits = dict(against(words, f"{vary}={given.steps}", own, f"{key}-own")) if key in ("cubes", "both", "samples") else {}
         for steps, row in rows:
             if steps in limits:
                 row["own"] = limits[steps]["reference"]
@@ -199,7 +200,8 @@ def fall(found, key, answer):
 
 
 def falls(found):
-    others = [(key, answer) for key in CURVES if key not in SHOWN for answer in ("reference", "truth")]
+    others = [(key, answer) for key in CURVES if key not in SHOWN for answer in ("own", "reference", "truth")
+              if all(answer in s for sets in found["curves"][key].values() for s in sets)]
     return [fall(found, key, answer) for key, answer in COLUMNS + others]
 
 
