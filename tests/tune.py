@@ -4,7 +4,7 @@ that it has not seen.
 
 tune.py measure GLINT --as NAME -o RECORD.json [--cost ms]    needs nothing but the program
 tune.py page [RECORD.json …] [-o DOCS]                        DOCS/tune.md of these and of tests/records/tune
-tune.py docs GLINT [-o DOCS]                                  both, by fetches: no times of this machine"""
+tune.py docs GLINT [-o DOCS]                                  both, by fetches, tests/records/tune/fetches.json: no times of this machine"""
 import argparse
 import json
 import pathlib
@@ -47,9 +47,12 @@ def tuned(given, folder, captures, unseen, budget):
 
 
 def measure(given):
+    """Adds its budgets to those of the same measurement that the record holds."""
     record = {"as": given.name, "cost": given.cost, "slots": given.slots, "size": given.size, "cube": given.cube, "rays": given.rays, "tries": given.tries,
-              "repeat": given.repeat, "budgets": {}}
-    record["device"] = json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]
+              "repeat": given.repeat, "device": json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]}
+    before = json.loads(given.output.read_text()) if given.output.exists() else {}
+    record["budgets"] = before.get("budgets", {}) if {**before, "budgets": 0} == {**record, "budgets": 0} else {}
+    given.output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=given.work) as folder:
         folder = pathlib.Path(folder)
         captures = [pages.sample(given.glint, scene, folder, given.size, given.cube) for scene in (*SEEN, UNSEEN)]
@@ -60,11 +63,8 @@ def measure(given):
                 one["capture"] = pathlib.Path(one["capture"]).stem
             if "provenance" in found:
                 found["provenance"] = {key: found["provenance"][key] for key in ("limit", "points", "moved", "error", "cost")}
+            given.output.write_text(json.dumps(record, indent=1) + "\n")
             print(f"{budget} %: {time.monotonic() - start:.1f} s", flush=True)
-        if given.folder:
-            record["evaluated"] = sum("values" in json.loads(line) for line in (given.folder / "log.jsonl").read_text().splitlines())
-    given.output.parent.mkdir(parents=True, exist_ok=True)
-    given.output.write_text(json.dumps(record, indent=1) + "\n")
 
 
 def interval(figure, key="value", digits=4):
@@ -95,11 +95,11 @@ def chapter(record):
         part = "of " + " and ".join(f"`{slot}`" for slot in record["slots"].split(",")) if record.get("slots") else "of a whole frame"
         units, cost = ("GPU time, ms", "tuned takes"), f"GPU time {part}, medians of {record['repeat']} rounds in turns with their 95 % intervals"
     lines = [f"## {record['as']}, {record['size'].replace('x', '×')}", "",
-             f"Cost: {cost}; errors against a reference of {record['rays']} rays a pixel; at most {record['tries']} points"
-             + (f", of {record['evaluated']} pipelines that were evaluated for both budgets by runs that went on from one another."
-                if "evaluated" in record else "."), ""]
-    for budget, found in record["budgets"].items():
+             f"Cost: {cost}; errors against a reference of {record['rays']} rays a pixel; a search of {record['tries']} points.", ""]
+    for budget, found in sorted(record["budgets"].items(), key=lambda b: -int(b[0])):
         lines += [f"### At {budget} % of `mafia3`'s cost", ""]
+        if "note" in found:
+            lines += [found["note"], ""]
         if "none" in found:
             lines += [f"{found['none'].capitalize()}.", ""]
             continue
@@ -108,7 +108,8 @@ def chapter(record):
             lines += [pages.table(("", "RMSE", *pages.KINDS, "tuned errs more than this by", *units), scene(record, one)), ""]
         if not found["scaled"]["within"]:
             lines += [f"All steps scaled do not get there: with one of each they cost {found['scaled']['cost']:.4g}.", ""]
-        lines += ["What moved: " + "; ".join(f"`{m['name']}` {m['from']} → {m['to']}" for m in found["provenance"]["moved"]) + ".", ""]
+        moved = "; ".join(f"`{m['name']}` {m['from']} → {m['to']}" for m in found["provenance"]["moved"])
+        lines += [f"What moved: {moved}.", ""]
     return lines
 
 
@@ -120,9 +121,11 @@ def page(records, docs):
              "the traces of `mafia3` cost, tuned on `street` and `room` together and then measured on `hotel`, too, which it has not seen. Beside it "
              "stands what one does without a search: all counts of steps and cells times one factor. The largest factor within the budget is found "
              "first; what that costs on each scene is then all that the search may use there, and its error on each scene is what the search has to "
-             "beat. In the end all is measured anew, in turns. Where the tuned one is found to cost more after all, as it may on `hotel`, the factor is "
-             "raised until it does not. *Tuned errs more than this by* is the difference of both errors with its 95 % interval, paired over tiles; "
-             "*tuned takes* is the part of the other's time, round by round, with its 95 % interval: *less* and *more* where the interval lies on one "
+             "beat. Times of a few rounds are off by some per cent: what was found is measured again in turns with the scaled one, and where it takes more, or "
+             "leaves time unused, the search's times are corrected by that, and it goes on for a fourth of its points. Of all points then the one is taken "
+             "that errs least and, measured, keeps the time. In the end all is measured anew, in turns, and at equal cost: the factor that stands beside a scene "
+             "is the least with which all steps scaled cost no less than the tuned one does there. *Tuned errs more than this by* is the difference of both "
+             "errors with its 95 % interval, paired over tiles; *tuned takes* is the part of the other's time, round by round, with its 95 % interval: *less* and *more* where the interval lies on one "
              "side of zero or of one, else *equal*. Errors are of the reflection before it is composed.", ""]
     for record in told:
         lines += chapter(record)
@@ -154,10 +157,9 @@ def main():
     given.glint = given.files[0]
     if given.what == "measure":
         return measure(given)
-    with tempfile.TemporaryDirectory() as folder:
-        docs, given.output = given.output or docs, pathlib.Path(folder) / "fetches.json"
-        measure(given)
-        page([given.output], docs)
+    docs, given.output = given.output or docs, RECORDS / "fetches.json"
+    measure(given)
+    page([], docs)
 
 
 if __name__ == "__main__":

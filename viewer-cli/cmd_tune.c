@@ -49,10 +49,12 @@ static const struct argp_option options[] = {
     {"unseen",    KEY_UNSEEN,    "F",            0, "A capture to measure what was found on, and not to tune on; may be repeated", 0},
     {"baseline",  KEY_BASELINE,  "scale",        0, "Measure beside it what is found without a search: all counts of steps, cells, samples, taps and rays "
                                                     "that may move and cost something, times the largest factor that keeps the limit. A budget becomes what that "
-                                                    "costs, on each capture, and the search knows it from the start", 0},
+                                                    "costs, on each capture, and the search knows it from the start; in the end its factor on each capture is the least "
+                                                    "that costs no less than what was found", 0},
     {"over",      KEY_OVER,      "mean|worst",   0, "Of several captures: the means count, or the one that errs most, and the one that costs most, in parts "
                                                     "of what the baseline does there, without one of what the start does (default mean)", 0},
-    {"tries",     KEY_TRIES,     "N",            0, "Points to try at most (default 150, and 3 for each parameter)", 0},
+    {"tries",     KEY_TRIES,     "N",            0, "Points to try at most, and a fourth of that again each time, three at most, that measured times correct the search's "
+                                                    "(default 150, and 3 for each parameter)", 0},
     {"seed",      KEY_SEED,      "N",            0, "Of the search's new starts (default 1)", 0},
     {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of a point, each in turn with the start (default 3)", 0},
     {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds in the end, of all that is compared (default 15; 0: no times)", 0},
@@ -337,8 +339,10 @@ const struct command cmd_tune = {
         "doubling where it spans decades. "
         "With --budget-fetches the same seed gives the same preset on every run. Times are medians of rounds in turns "
         "with the "
-        "start; in the end start and preset are measured again in turns, and a preset that only luck brought below the "
-        "budget is passed over for the next. Every evaluation is kept as it is found: the same command goes on after "
+        "start, and off by some per cent: what is found is measured again in turns, and where it takes more than the "
+        "budget, or leaves some of it, the search goes on with its times corrected; of all points the preset is the "
+        "one that errs least "
+        "and, measured, keeps the budget. Every evaluation is kept as it is found: the same command goes on after "
         "an interruption, "
         "and what was the best by then is in the preset's file.",
     .options = options,

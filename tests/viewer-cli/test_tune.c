@@ -32,11 +32,23 @@ static double value_of(const json_t *object, const char *key) {
     return number(json_object_get(object, key), "value");
 }
 
-/* Of the start with these set, measured by a search that may not search. */
-static double fetches_of(const char *steps, const char *steps_hq) {
-    char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("one.json"), "--folder", in_folder("one"),
-                          PLAIN, steps, steps_hq, "--budget-fetches=100%", "--reference=truth", "--tries=1",
-                          "--repeat=0", "--vary=cubemap_trace.secant", "--json");
+/* What AXES allow of the start's counts times a factor. */
+struct counts {
+    double screen, cubes;
+};
+static struct counts scaled_counts(double factor) {
+    return (struct counts){fmax(2, round(32 * factor)), fmax(4, round(24 * factor))};
+}
+
+/* Of the start with these counts, measured by a search that may not search. */
+static double fetches_of(struct counts counts) {
+    char folder[64], screen[64], cubes[64];
+    snprintf(folder, sizeof folder, "%.0f-%.0f", counts.screen, counts.cubes);
+    snprintf(screen, sizeof screen, "--set=screen_trace.steps=%.0f", counts.screen);
+    snprintf(cubes, sizeof cubes, "--set=cubemap_trace.steps_hq=%.0f", counts.cubes);
+    char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("one.json"), "--folder", in_folder(folder),
+                          PLAIN, screen, cubes, "--budget-fetches=100%", "--reference=truth", "--tries=1", "--repeat=0",
+                          "--vary=cubemap_trace.secant", "--json");
     json_t *told = parse_json(text);
     const double fetches = number(contender(told, 0, "start"), "fetches_px");
     free(text);
@@ -58,17 +70,19 @@ static void the_preset_is_what_was_found(void **state) {
     assert_true(number(found, "fetches_px") <= budget &&
                 fabs(number(found, "fetches_px") - number(from, "cost")) < 1e-7);
     const json_t *errors = json_object_get(found, "errors");
-    /* the baseline keeps the budget, a larger one would not; what was tuned costs no more and errs no more */
+    /* the baseline keeps the budget, a larger one would not; what was tuned costs no more and errs no more than one of its cost */
+    const double factor = number(scaled, "factor");
+    const struct counts own = scaled_counts(factor);
+    struct counts under = own;
+    for (double f = factor; under.screen == own.screen && under.cubes == own.cubes; f /= 1.02) under = scaled_counts(f);
     assert_true(json_is_true(json_object_get(json_object_get(tuned, "scaled"), "within")));
-    assert_true(number(scaled, "factor") == scale && number(scaled, "fetches_px") <= budget);
+    assert_true(factor <= scale && number(scaled, "fetches_px") <= budget);
+    assert_true(fetches_of(own) == number(scaled, "fetches_px") && fetches_of(scaled_counts(1.25 * scale)) > budget);
+    assert_true(fetches_of(under) < number(found, "fetches_px"));
     assert_true(fabs(number(json_object_get(from, "limit"), "within") -
                      number(json_object_get(tuned, "scaled"), "cost")) < 1e-7);
     assert_true(number(scaled, "fetches_px") >= number(found, "fetches_px"));
     assert_true(value_of(json_object_get(scaled, "errors"), "all") >= value_of(errors, "all"));
-    char steps[2][64];
-    snprintf(steps[0], sizeof steps[0], "--set=screen_trace.steps=%.0f", fmax(2, round(32 * 1.25 * scale)));
-    snprintf(steps[1], sizeof steps[1], "--set=cubemap_trace.steps_hq=%.0f", fmax(4, round(24 * 1.25 * scale)));
-    assert_true(fetches_of(steps[0], steps[1]) > budget);
     assert_true(fabs(value_of(errors, "all") - number(from, "error")) < 1e-7);
     assert_true(number(json_object_get(found, "ms"), "median") > 0);
     const json_t *less = json_object_get(json_array_get(json_object_get(tuned, "confirmed"), 0), "tuned_less_scaled");
@@ -158,6 +172,31 @@ static void an_interrupted_search_goes_on(void **state) {
     json_decref(went_on);
     json_decref(whole);
     json_decref(same);
+}
+
+/* Time enough for all: whatever the search's noisy times were, what errs least of all that was tried is taken, and what is left of the time
+   was searched for more. */
+static void time_that_is_left_is_used(void **state) {
+    (void)state;
+    char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("e.json"), PLAIN, "--budget-ms=3000%",
+                          "--reference=truth", "--tries=8", "--rounds=1", "--repeat=3", AXES, "--json"),
+         line[4096];
+    json_t *tuned = parse_json(text);
+    free(text);
+    double least = INFINITY;
+    size_t points = 0;
+    FILE *log = fopen(in_folder("e.tune/log.jsonl"), "rb");
+    assert_non_null(log);
+    while (fgets(line, sizeof line, log)) {
+        json_t *kept = parse_json(line);
+        const json_t *first = json_array_get(json_object_get(kept, "captures"), 0);
+        if (first) least = fmin(least, number(first, "error")), points++;
+        json_decref(kept);
+    }
+    fclose(log);
+    assert_true(points > 8);
+    assert_true(fabs(value_of(json_object_get(contender(tuned, 0, "tuned"), "errors"), "all") - least) < 1e-7);
+    json_decref(tuned);
 }
 
 static bool says(const json_t *left, const char *name, const char *why) {
@@ -251,9 +290,9 @@ static void what_is_wrong_is_named(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_preset_is_what_was_found),  cmocka_unit_test(a_seed_gives_the_same_preset_again),
-        cmocka_unit_test(an_interrupted_search_goes_on), cmocka_unit_test(what_cannot_matter_is_left_alone),
-        cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(the_preset_is_what_was_found),     cmocka_unit_test(a_seed_gives_the_same_preset_again),
+        cmocka_unit_test(an_interrupted_search_goes_on),    cmocka_unit_test(time_that_is_left_is_used),
+        cmocka_unit_test(what_cannot_matter_is_left_alone), cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, make_captures, remove_folder);
 }

@@ -62,21 +62,24 @@ static bool is_dearer(struct tune *tune, size_t s, struct glint_pipeline *scaled
     return true;
 }
 
-/* On a capture that was not tuned on, or measured anew, what was tuned may cost more than the baseline. */
+/* At equal cost on this capture: upwards where what was tuned costs more, else downwards. */
 bool tune_match_scale(struct tune *tune, size_t s, struct glint_error *err) {
     static const double step = 1.0442737824274138; /* a sixteenth of a doubling */
     const size_t bytes = tune->axis_count * sizeof(double);
-    double *values = calloc(2 * tune->axis_count + 1, sizeof *values), *last = values + tune->axis_count;
-    bool ok = values || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory"), dearer = true;
     tune->subjects[s].factor = tune->factor;
-    for (double factor = tune->factor; ok && dearer && factor < 8 && !tune->by_error; factor *= step) {
+    if (tune->by_error || !(tune->fetches || tune->repeat)) return true;
+    double *values = calloc(2 * tune->axis_count + 1, sizeof *values), *last = values + tune->axis_count;
+    bool ok = values || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory"), up = false, dearer = false;
+    for (double factor = tune->factor; ok && dearer == up && factor < 8 && factor > 1e-3;
+         factor *= up ? step : 1 / step) {
         tune_scale(tune, factor, values);
         if (!memcmp(values, last, bytes)) continue; /* the same whole numbers */
         memcpy(last, values, bytes);
-        tune->subjects[s].factor = factor;
         struct glint_pipeline *scaled = tune_pipeline(tune, values, err);
         ok = scaled && is_dearer(tune, s, scaled, &dearer, err);
         if (scaled) glint_pipeline_destroy(&scaled);
+        if (factor == tune->factor) up = dearer;
+        if (up || !dearer) tune->subjects[s].factor = factor;
     }
     free(values);
     return ok;

@@ -83,48 +83,55 @@ static bool is_baseline(const struct tune *tune, size_t point) {
            !memcmp(tune->found.points[point].values, tune->scaling, tune->axis_count * sizeof *tune->scaling);
 }
 
-/* The best that has not been passed over; of none the least, or the baseline, which keeps its own time. */
-static bool next_best(struct tune *tune, const bool *passed, double limit) {
+/* What errs least and was not measured yet, of what errs less than the one that is held (NULL: none is) and would keep the limit. */
+static bool next_candidate(const struct tune *tune, const bool *measured, double limit,
+                           const struct glint_search_point *held, size_t *next) {
     bool some = false;
     for (size_t p = 0; p < tune->found.count; p++) {
-        const struct glint_search_figures *figures = &tune->found.points[p].figures;
-        if (passed[p] || !(figures->limited <= limit)) continue;
-        if (!some || glint_search_better(figures, &tune->found.points[tune->chosen].figures, limit)) tune->chosen = p;
+        const struct glint_search_point *points = tune->found.points, *point = &points[p];
+        if (measured[p] || !(point->figures.limited <= limit) ||
+            (held && !(point->figures.wanted < held->figures.wanted)))
+            continue;
+        if (!some || glint_search_better(&point->figures, &points[*next].figures, limit)) *next = p;
         some = true;
     }
-    if (!some) tune->chosen = tune->found.least;
-    for (size_t p = 0; !some && p < tune->found.count; p++)
-        if (is_baseline(tune, p)) tune->chosen = p;
     return some;
 }
 
-/* Passes over what luck alone brought below the limit. Where one was over it others may be: half of that is taken off. */
-static bool choose(struct tune *tune, struct glint_pipeline *scaled, bool *passed, struct glint_error *err) {
-    enum { TRIES = 20 };
-    double limit = tune->within;
+/* Errors are exact, the search's times are not: what errs less than the best that was measured to keep the limit, in the beginning the
+   baseline, is measured as long as the times of those that were measured, beside the search's, say that it may keep it, too. */
+static bool choose(struct tune *tune, struct glint_pipeline *scaled, bool *measured, struct glint_error *err) {
+    enum { TRIES = 24 };
+    const struct glint_search_point *points = tune->found.points, *held = NULL;
+    double limit = tune->within, off = 0;
+    for (size_t p = 0; p < tune->found.count && !held; p++)
+        if (is_baseline(tune, p)) held = &points[p];
     for (int i = 0; i < TRIES; i++) {
-        double part = 1;
-        const bool some = next_best(tune, passed, limit);
-        if (!is_baseline(tune, tune->chosen) && !time_point(tune, scaled, tune->chosen, &part, NULL, err)) return false;
-        if ((tune->confirmed_within = part <= 1) || !some) return true;
-        limit /= (1 + part) / 2;
-        passed[tune->chosen] = true;
+        size_t next = tune->found.least;
+        double part;
+        if (!next_candidate(tune, measured, limit, held, &next) && (held || measured[next])) break;
+        if (!time_point(tune, scaled, next, &part, NULL, err)) return false;
+        measured[next] = true;
+        if (part <= 1) held = &points[next];
+        off += part * tune->within / points[next].figures.limited;
+        limit = tune->within * (i + 1) / off;
     }
-    next_best(tune, passed, 0);
-    tune->confirmed_within = is_baseline(tune, tune->chosen);
+    tune->confirmed_within = held != NULL;
+    tune->chosen = held ? (size_t)(held - points) : tune->found.least;
     return true;
 }
 
 /* Times of a few rounds, and of a baseline that was measured once, are off by some per cent: what that is on each capture shows
-   where the best point is measured beside the baseline. */
+   where the best point is measured again. It may take too much, or leave some of it unused. */
 static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct glint_error *err) {
-    enum { TIMES = 2 };
+    enum { TIMES = 3 };
+    static const double used = 0.98; /* of what it may take */
     double *parts = calloc(tune->captures.count, sizeof *parts), part = 0;
     bool ok = parts || no_memory(err);
     for (int i = 0; ok && i < TIMES && !is_baseline(tune, tune->chosen); i++) {
         ok = time_point(tune, scaled, tune->chosen, &part, parts, err);
-        if (!ok || part <= 1) break;
-        ok = tune_search_again(tune, parts, err);
+        if (!ok || (part <= 1 && part >= used)) break;
+        ok = tune_search_again(tune, part, parts, err);
     }
     free(parts);
     return ok;
@@ -133,14 +140,15 @@ static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct gli
 /* A search that tries many noisy times ends at one that was lucky. */
 bool tune_choose(struct tune *tune, struct glint_error *err) {
     struct glint_pipeline *scaled = NULL;
-    bool *passed = NULL, ok = true;
+    bool *measured = NULL, ok = true;
     tune->confirmed_within = tune->found.within;
     if (tune->fetches || tune->by_error || !tune->repeat || !tune->found.within) return true;
-    if (tune->scaled_within) ok = (scaled = tune_pipeline(tune, tune->scaling, err)) && correct(tune, scaled, err);
-    ok = ok && ((passed = calloc(tune->found.count, sizeof *passed)) != NULL || no_memory(err));
-    ok = ok && choose(tune, scaled, passed, err);
+    if (tune->scaled_within) ok = (scaled = tune_pipeline(tune, tune->scaling, err)) != NULL;
+    ok = ok && correct(tune, scaled, err) &&
+         ((measured = calloc(tune->found.count, sizeof *measured)) != NULL || no_memory(err));
+    ok = ok && choose(tune, scaled, measured, err);
     if (scaled) glint_pipeline_destroy(&scaled);
-    free(passed);
+    free(measured);
     return ok;
 }
 

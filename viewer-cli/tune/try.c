@@ -327,42 +327,29 @@ bool tune_search(struct tune *tune, struct glint_error *err) {
     return ok;
 }
 
-/* The best of all that is kept, whichever search found it. */
-static void best_kept(const struct tune *tune, double *values) {
-    struct glint_search_figures best = {NAN, NAN};
-    const json_t *line, *found = NULL;
-    size_t i;
-    json_array_foreach(tune->lines, i, line) {
-        const struct glint_search_figures here = as_searched(tune, sum_up(tune, line));
-        if (found && !glint_search_better(&here, &best, tune->within)) continue;
-        best = here;
-        found = json_object_get(line, "values");
-    }
+/* Of a line that is kept. */
+static void values_of(const struct tune *tune, const json_t *line, double *values) {
     for (size_t a = 0; a < tune->axis_count; a++) {
         const struct tune_axis *axis = &tune->axes[a];
-        const char *text = json_string_value(json_array_get(found, a));
+        const char *text = json_string_value(json_array_get(json_object_get(line, "values"), a));
         values[a] = axis->texts ? axis->axis.start : strtod(text, NULL);
         for (uint32_t c = 0; c < axis->axis.choices; c++)
             if (!strcmp(axis->texts[c], text)) values[a] = c;
     }
 }
 
-bool tune_search_again(struct tune *tune, const double *parts, struct glint_error *err) {
-    const size_t n = tune->axis_count;
-    double *known = calloc(2 * n + 1, sizeof *known);
+bool tune_search_again(struct tune *tune, double part, const double *parts, struct glint_error *err) {
+    const size_t n = tune->axis_count, count = json_array_size(tune->lines);
+    double *known = calloc(n * count + 1, sizeof *known);
     json_t *list = values_json(tune, tune->found.points[tune->chosen].values);
     const json_t *line = find_line(tune, list);
-    bool ok = known || no_memory(err);
-    tune->within = 0;
-    for (size_t s = 0; s < tune->captures.count; s++) {
+    tune->within = tune->scaled_within ? 0 : sum_up(tune, line).cost / part;
+    for (size_t s = 0; s < tune->captures.count && tune->scaled_within; s++) {
         tune->subjects[s].yard.cost = figures_on(line, s).cost / parts[s];
         tune->within += tune->subjects[s].yard.cost / (double)tune->captures.count;
     }
-    if (ok) {
-        best_kept(tune, known);
-        memcpy(known + n, tune->scaling, n * sizeof *known);
-        ok = search(tune, tune->tries / 4 + 3, known, 2, err);
-    }
+    for (size_t i = 0; known && i < count; i++) values_of(tune, json_array_get(tune->lines, i), known + n * i);
+    const bool ok = known ? search(tune, (uint32_t)count + tune->tries / 4, known, count, err) : no_memory(err);
     json_decref(list);
     free(known);
     return ok;

@@ -114,9 +114,9 @@ void tune_unload_subject(struct tune *tune, size_t subject);
 bool tune_open(struct tune *tune, struct glint_error *err);
 /* Finds tune->found. What was found until an error stays. */
 bool tune_search(struct tune *tune, struct glint_error *err);
-/* Goes on from the best that is kept when the chosen one was measured to take these parts of the baseline's time on the captures: the
-   search's times are corrected by that. A fourth of the tries. */
-bool tune_search_again(struct tune *tune, const double *parts, struct glint_error *err);
+/* Goes on from all that is kept when the chosen one was measured to take this part of what it may, and these of the baseline's
+   time on the captures: the search's times are corrected by that. A fourth of the tries. */
+bool tune_search_again(struct tune *tune, double part, const double *parts, struct glint_error *err);
 /* Of these values, tried now or found in the journal. */
 bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err);
 /* Others are measured by these values' figures from now on. They must have been evaluated. */
@@ -132,7 +132,7 @@ bool tune_report(void *user, const char *what, double done); /* a glint_progress
 /* Finds the largest factor that keeps the budget, or the smallest that keeps the error, and makes its figures the yard. A
    budget becomes what it costs, so that both take the same. */
 bool tune_find_scale(struct tune *tune, struct glint_error *err);
-/* Sets a subject's factor, from the baseline's own upwards. */
+/* Sets a subject's factor, from the baseline's own upwards or downwards. */
 bool tune_match_scale(struct tune *tune, size_t subject, struct glint_error *err);
 
 /* tune_confirm.c */
@@ -144,7 +144,7 @@ struct tune_times {
 /* Rounds of all pipelines that are not NULL, in turns, each in one piece. */
 bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
                         struct tune_times times[TUNE_CONTENDERS], struct glint_error *err);
-/* Chooses the point that keeps the limit when it is measured again. */
+/* Chooses the best point that keeps the limit when it is measured again. */
 bool tune_choose(struct tune *tune, struct glint_error *err);
 /* Measures start, tuned and scaled on all captures, in turns. */
 bool tune_confirm(struct tune *tune, struct glint_error *err);
