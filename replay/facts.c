@@ -75,6 +75,36 @@ static bool sky(const struct question *q) {
     return q->survey->sky > 0;
 }
 
+/* Faces with texels that have no distance, or let the sky through, of all that were looked at. */
+static uint32_t count_faces(const struct glint_survey *survey, bool alpha) {
+    uint32_t faces = 0;
+    for (uint32_t i = 0; i < survey->looked_at; i++) {
+        uint32_t bits = survey->active[i].open | (alpha ? survey->active[i].sky : 0u);
+        for (; bits; bits &= bits - 1) faces++;
+    }
+    return faces;
+}
+
+/* Whether a distance cube map has texels without a surface. */
+static bool cube_sky(const struct question *q) {
+    const uint32_t open = count_faces(q->survey, false);
+    if (q->survey->looked_at == 0) snprintf(q->reason, q->size, "the cube maps may show the sky");
+    else snprintf(q->reason, q->size, "%u of %u cube faces show the sky", open, 6 * q->survey->looked_at);
+    return open > 0 || q->survey->looked_at == 0;
+}
+
+/* Whether some ray may end in the sky, or is seen through fog that takes its colour. */
+static bool sky_seen(const struct question *q) {
+    const uint32_t open = count_faces(q->survey, true);
+    const bool unknown = q->survey->looked_at == 0, seen = q->survey->sky > 0 || unknown || open > 0;
+    if (q->survey->has_fog) snprintf(q->reason, q->size, "fog takes the colour of the sky");
+    else if (unknown) snprintf(q->reason, q->size, "the cube maps may show the sky");
+    else
+        snprintf(q->reason, q->size, "%" PRIu64 " pixels and %u of %u cube faces show the sky", q->survey->sky, open,
+                 6 * q->survey->looked_at);
+    return seen || q->survey->has_fog;
+}
+
 static bool there_is(const struct question *q, bool is, const char *what) {
     snprintf(q->reason, q->size, "%s %s", is ? "a" : "no", what);
     return is;
@@ -112,6 +142,8 @@ static const struct {
     {"rough", rough, true, false},
     {"cones", cones, false, false},
     {"sky", sky, false, false},
+    {"cube_sky", cube_sky, false, true},
+    {"sky_seen", sky_seen, false, false},
     {"cubemaps", cubemaps, false, true},
     {"volumes", volumes, false, true},
     {"transparent", transparent, false, true},
@@ -132,6 +164,10 @@ bool fact_is_of_parts(const char *fact) {
     for (size_t i = 0; i < sizeof facts / sizeof *facts; i++)
         if (fact_is(fact, i)) return facts[i].of_parts;
     return false;
+}
+
+bool fact_is_of_cubemaps(const char *fact) {
+    return strcmp(fact, "cube_sky") == 0 || strcmp(fact, "sky_seen") == 0;
 }
 
 bool survey_fact(const struct glint_survey *survey, bool shows_all, const char *fact, char *reason, size_t size,

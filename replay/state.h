@@ -23,6 +23,12 @@ enum {
 
 enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE, PHASES };
 
+struct cube_survey {
+    uint64_t key; /* of what the cube maps hold; 0: there was none */
+    struct glint_survey_cubemap active[GLINT_SURVEY_CUBEMAPS];
+    struct glint_time time;
+};
+
 struct glint_replay {
     struct glint_device *device;
     struct glint_capture *capture;
@@ -32,6 +38,7 @@ struct glint_replay {
     uint64_t serial;  /* of the load: contents of another capture never pass for this one's */
     struct glint_survey survey;
     struct glint_time survey_time; /* n = 0: it was not the device that counted */
+    struct cube_survey cubes;      /* the last one of cube maps, which later frames may share */
     bool surveyed;
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
     struct channels sky;     /* read for its key, likewise */

@@ -111,6 +111,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     survey->has_water = glint_capture_find(capture, "water") != NULL;
     survey->has_transparent = glint_capture_find(capture, "transparent") != NULL;
     survey->has_previous = glint_capture_frame(capture)->has_previous;
+    survey->has_fog = glint_capture_frame(capture)->has_fog;
 }
 
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err) {

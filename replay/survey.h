@@ -20,13 +20,24 @@ bool channels_read(struct channels *channels, struct glint_capture *capture, str
 void channels_finish(struct channels *channels);
 bool channels_add_survey(struct channels *channels, struct glint_error *err);
 
-/* Whether a fact is known without a look at any pixel. */
+/* Whether a fact is known without a look at any pixel; whether it is about what cube maps show. */
 bool fact_is_of_parts(const char *fact);
+bool fact_is_of_cubemaps(const char *fact);
 
 /* survey_device.c. The pass that counts. */
 const struct glint_pass *survey_pass(void);
+/* Runs passes of the survey, and returns the pixels of what the last of them makes; the caller frees them. */
+struct pipeline_pass;
+uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, size_t count, const char *output,
+                     const struct glint_replay_options *wanted, struct glint_time *time, struct glint_error *err);
 /* The figures that only a device counts and those that it counts as the host does. */
 bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, struct glint_error *err);
+
+/* survey_cubemaps.c: looks at the active cube maps when a pass of the graph asks what they show; the graph has then to be made
+   anew. `before`: how many the survey knows of from the last graph. */
+struct graph;
+bool survey_cubemaps(struct glint_replay *replay, const struct graph *graph, const struct glint_replay_options *options,
+                     uint32_t before, struct glint_error *err);
 
 /* Over channels that hold at least the survey's. */
 void survey_channels(const struct channels *channels, struct glint_survey *survey);

@@ -2,6 +2,7 @@
 #include "state.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "timing.h"
@@ -59,24 +60,41 @@ const struct glint_pass *survey_pass(void) {
     return glint_pass_find("survey", "gbuffer");
 }
 
-bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, struct glint_error *err) {
-    static const char *const outputs[] = {"survey_figures", NULL};
-    double values[64] = {0};
-    struct pipeline_pass entry = {.pass = survey_pass(), .values = values};
+uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, size_t count, const char *output,
+                     const struct glint_replay_options *wanted, struct glint_time *time, struct glint_error *err) {
+    static double no_values[64];
     char name[] = "survey";
-    const struct glint_pipeline pipeline = {.name = name, .passes = &entry, .count = 1};
+    const char *force[8] = {NULL}, *outputs[] = {output, NULL};
+    for (size_t i = 0; i < count && i + 1 < sizeof force / sizeof *force; i++) {
+        force[i] = passes[i].pass->slot;
+        if (!passes[i].values) passes[i].values = no_values;
+    }
+    const struct glint_pipeline pipeline = {.name = name, .passes = passes, .count = count};
     const struct glint_replay_options options = {.outputs = outputs,
+                                                 .force = force,
                                                  .repeat = wanted->repeat,
                                                  .warmup = wanted->warmup,
                                                  .no_cache = true,
                                                  .lineage = UINT32_MAX};
     struct run run = {.replay = replay, .pipeline = &pipeline, .options = &options, .survey = true};
-    uint32_t figures[FIGURES];
-    bool ok = run_work(&run, err);
-    const struct glint_image *image = ok ? glint_replay_find_image(replay, outputs[0]) : NULL;
-    ok = image && glint_replay_read_image(replay, image, GLINT_U32, figures, err);
-    if (ok) read_figures(&replay->survey, figures);
-    if (ok) replay->survey_time = time_statistics(run.steps[0].ns, run.steps[0].timed);
+    uint32_t *values = NULL;
+    const struct glint_image *image = run_work(&run, err) ? glint_replay_find_image(replay, output) : NULL;
+    if (image && !(values = calloc((size_t)image->width * image->height, sizeof *values)))
+        glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", output);
+    if (values && !glint_replay_read_image(replay, image, GLINT_U32, values, err)) {
+        free(values);
+        values = NULL;
+    }
+    for (size_t p = 0; values && p < run.graph.pass_count; p++)
+        if (run.steps[p].execute) *time = time_statistics(run.steps[p].ns, run.steps[p].timed);
     run_release(&run);
-    return ok;
+    return values;
+}
+
+bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, struct glint_error *err) {
+    struct pipeline_pass pass = {.pass = survey_pass()};
+    uint32_t *figures = survey_run(replay, &pass, 1, "survey_figures", wanted, &replay->survey_time, err);
+    if (figures) read_figures(&replay->survey, figures);
+    free(figures);
+    return figures != NULL;
 }

@@ -77,7 +77,7 @@ int cocoon_level() { return int(ceil(log2(max(float(face_size(faces, 0)) / float
 void fill_level(ivec3 at, int width, int level) {
     int coarsest = textureQueryLevels(samplerCubeArray(chain, nearest_clamp)) - 1;
     float distance_m = texel_of(at, level);
-    bool is_sky = !(distance_m < LARGEST);
+    bool is_sky = fact_cube_sky && !(distance_m < LARGEST);
     if (!is_sky && level != cocoon_level()) return;
     if (level < coarsest) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
     else if (is_sky) distance_m = farthest_of_map(at.z, level);
@@ -87,7 +87,7 @@ void fill_level(ivec3 at, int width, int level) {
 // Levels finer than the cocoon's take it where they see sky.
 void cap_level(ivec3 at, int width, int level) {
     float distance_m = texel_of(at, level);
-    if (cap_sky && !(distance_m < LARGEST)) {
+    if (fact_cube_sky && cap_sky && !(distance_m < LARGEST)) {
         float cap_m = seen(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_level());
         distance_m = cap_m < LARGEST ? -cap_m : INFINITE;
     } else if (level > 0) {

@@ -5,6 +5,7 @@ WORKGROUP(8, 16)
 #line 202
 SELF(textureCubeArray, chain, cocoon_distance)
 SELF(texture2DArray, faces, cocoon_distance)
+FACT(cube_sky)
 SPEC(int,   size,       32,  1,     4096,  "texels", "000, Cocoon cube-map depth MIP", "width of the level that becomes the cocoon: the widest that is no wider")
 SPEC(int,   reach,      3,   0,     16,    "taps", "000, Weighted MAX (samples not printed)", "taps are the lattice points up to this far: 3: 29 taps")
 CHOICE2(maximum, pairs, pairs, samples, "000, Weighted MAX; pairs: glint, chosen by measuring", "of the means of two samples on either side, which leaves planes where they are; or of each, as in the slides")

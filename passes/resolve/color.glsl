@@ -25,6 +25,7 @@ Ray ended_ray(vec3 position, vec3 normal, float travelled_m, float cone) {
 }
 
 vec3 sky_color(Ray ray) {
+    if (!fact_sky_seen) return vec3(0.0);
     if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
         float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
         return textureLod(samplerCube(sky_mips, linear_clamp), ray.direction, level).rgb;
@@ -80,6 +81,7 @@ vec4 cubemap_texel(Ray ray, vec4 at) {
 vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = active_centers[place].xyz;
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
+    if (!fact_sky_seen) return vec4(color.rgb, 1.0);
     if (color.a > 0.0 && color.a < 1.0 && ray.cone > 0.0 && !ray.endless) {
         // Whether it is the sky that is seen is the ray's to say, not the cone's: rays that end in the sky know nothing of the
         // surfaces beside it, and would not give back what the others took of it.

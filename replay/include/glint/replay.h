@@ -72,6 +72,13 @@ struct glint_survey_pixels {
     float roughness[2];                       /* lowest and highest; of none: +inf and -inf */
     uint64_t by_roughness[GLINT_SURVEY_BINS]; /* bins of 0.1 */
 };
+/* An active cube map. Faces are bits, +X the lowest. */
+struct glint_survey_cubemap {
+    uint32_t number; /* of the capture's cube maps */
+    uint8_t open;    /* faces with a texel that has no distance */
+    uint8_t sky;     /* faces with a texel that lets the sky through */
+};
+enum { GLINT_SURVEY_CUBEMAPS = 16 };
 struct glint_survey {
     uint64_t pixels, sky;
     struct glint_survey_pixels surfaces; /* not sky */
@@ -79,7 +86,7 @@ struct glint_survey {
         reflecting;             /* surfaces with specular or metalness: those that compose shows a reflection of */
     float depth_m[2];           /* lowest and highest without sky */
     uint32_t cubemaps, volumes; /* volumes: cube maps with an inner volume */
-    bool has_sky, has_previous, has_planar, has_water, has_transparent, has_fresnel;
+    bool has_sky, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
     bool has_history; /* of a replay: what passes remember of the frame before is there, and this is no cut */
     /* What the device alone counts; `whole` says that it did. */
     bool whole;
@@ -90,6 +97,8 @@ struct glint_survey {
     uint64_t moved, moving;                /* surfaces: since the frame before, other than by the camera */
     uint64_t stencil_bits[8];              /* pixels by the bits of their id */
     float light[2], transparent_roughness; /* luminance of the lit picture; largest roughness */
+    uint32_t looked_at;                    /* active cube maps, by the device; 0: none, so that anything is possible */
+    struct glint_survey_cubemap active[GLINT_SURVEY_CUBEMAPS]; /* in their order */
 };
 /* Reads the G-buffer. */
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err);
