@@ -8,6 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#include "probe/tell.glsl"
 
 // How much of the reflection the surface sends to the viewer.
 vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
@@ -39,6 +40,8 @@ void main() {
     vec4 surface = texelFetch(normal_full, pixel, 0);
     if (fact_reflecting && reflects(depth_m, surface.xyz)) {
         vec3 weight = intensity * weight_of(pixel, depth_m, surface);
+        probe_pixel(pixel);
+        probe(PROBE_reflectance, vec4(weight, 0.0));
         if (any(greaterThan(weight, vec3(0.0)))) color += weight * reflected_color(pixel);
     }
     imageStore(composed, pixel, vec4(storable(color, frame.up.w), 1.0));

@@ -1,4 +1,13 @@
-/* Images of distances that a probed ray looks at, read by C and GLSL. The place in the list is the value. */
+/* Images that are looked at for a probed pixel, read by C and GLSL. The place in the list is the value. */
 PROBE_IMAGE(cubemap_distance)
 PROBE_IMAGE(cubemap_distance_mips)
 PROBE_IMAGE(cocoon_distance)
+PROBE_IMAGE(lit)
+PROBE_IMAGE(lit_mips)
+PROBE_IMAGE(previous_lit)
+PROBE_IMAGE(previous_scene)
+PROBE_IMAGE(cubemap_color)
+PROBE_IMAGE(cubemap_color_mips)
+PROBE_IMAGE(paraboloids)
+PROBE_IMAGE(sky)
+PROBE_IMAGE(sky_mips)

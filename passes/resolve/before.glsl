@@ -32,9 +32,9 @@ bool shows(vec2 uv, float depth_m) {
 }
 
 vec3 picture_before(vec2 uv) {
-    return picture_of == picture_of_scene && of_frame(previous_scene)
-               ? textureLod(sampler2D(previous_scene, linear_clamp), uv, 0.0).rgb
-               : textureLod(sampler2D(previous_lit, linear_clamp), uv, 0.0).rgb;
+    if (picture_of == picture_of_scene && of_frame(previous_scene))
+        return told_picture(IMAGE_previous_scene, uv, 0.0, textureLod(sampler2D(previous_scene, linear_clamp), uv, 0.0).rgb);
+    return told_picture(IMAGE_previous_lit, uv, 0.0, textureLod(sampler2D(previous_lit, linear_clamp), uv, 0.0).rgb);
 }
 
 uint source_of(vec3 place) {

@@ -5,6 +5,7 @@
 #include "shared/cone.glsl"
 #include "shared/fog.glsl"
 #include "shared/paraboloid.glsl"
+#include "probe/tell.glsl"
 
 // A ray that has ended. `end`: camera-relative world, a unit direction when the ray went on for ever.
 struct Ray {
@@ -24,13 +25,29 @@ Ray ended_ray(vec3 position, vec3 normal, float travelled_m, float cone) {
     return ray;
 }
 
+void probe_color(uint image, uint place, vec2 uv, float level, vec4 color) {
+    probe(PROBE_color, vec4(image, place, uv * vec2(frame.size.xy)), vec4(level, color.rgb), vec4(color.a));
+}
+vec3 told_sky(uint image, float level, vec3 color) {
+    probe_color(image, ACTIVE_MOST, vec2(0.0), level, vec4(color, 1.0));
+    return color;
+}
+vec3 told_picture(uint image, vec2 uv, float level, vec3 color) {
+    probe_color(image, ACTIVE_MOST, uv, level, vec4(color, 1.0));
+    return color;
+}
+vec4 told_cubemap(uint image, vec4 at, float level, vec4 color) {
+    probe_color(image, uint(at.w), vec2(0.0), level, color);
+    return color;
+}
+
 vec3 sky_color(Ray ray) {
     if (!fact_sky_seen) return vec3(0.0);
     if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
         float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
-        return textureLod(samplerCube(sky_mips, linear_clamp), ray.direction, level).rgb;
+        return told_sky(IMAGE_sky_mips, level, textureLod(samplerCube(sky_mips, linear_clamp), ray.direction, level).rgb);
     }
-    return textureLod(samplerCube(sky, linear_clamp), ray.direction, 0.0).rgb;
+    return told_sky(IMAGE_sky, 0.0, textureLod(samplerCube(sky, linear_clamp), ray.direction, 0.0).rgb);
 }
 
 vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
@@ -38,9 +55,11 @@ vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
                                         float(findMSB(max(frame.size.x, frame.size.y))));
-        if (level > 0.0) return textureLod(sampler2D(lit_mips, linear_clamp), uv, level).rgb;
+        if (level > 0.0)
+            return told_picture(IMAGE_lit_mips, uv, level, textureLod(sampler2D(lit_mips, linear_clamp), uv, level).rgb);
     }
-    return filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb : texelFetch(lit, pixel, 0).rgb;
+    vec3 color = filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb : texelFetch(lit, pixel, 0).rgb;
+    return told_picture(IMAGE_lit, uv, 0.0, color);
 }
 
 vec4 screen_color(Ray ray) {
@@ -65,17 +84,20 @@ vec4 paraboloid_texel(Ray ray, vec4 at) {
         level = paraboloid_level(cone_tangent(ray.cone) * spread, d.z, float(frame.counts.z), texel_scale);
     }
     uv.z += 2.0 * at.w;
-    return textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level);
+    return told_cubemap(IMAGE_paraboloids, at, level, textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level));
 }
 
 vec4 cubemap_texel(Ray ray, vec4 at) {
     if (has_paraboloids) return paraboloid_texel(ray, at);
     if (ray.cone > 0.0 && cone_cubemap && has_cubemap_color_mips) {
         float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
-        if (level > 0.0) return textureLod(samplerCubeArray(cubemap_color_mips, linear_clamp), at, level);
+        if (level > 0.0)
+            return told_cubemap(IMAGE_cubemap_color_mips, at, level,
+                                textureLod(samplerCubeArray(cubemap_color_mips, linear_clamp), at, level));
     }
-    return filter_color ? textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0)
-                        : textureLod(samplerCubeArray(cubemap_color, nearest_clamp), at, 0.0);
+    vec4 color = filter_color ? textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0)
+                              : textureLod(samplerCubeArray(cubemap_color, nearest_clamp), at, 0.0);
+    return told_cubemap(IMAGE_cubemap_color, at, 0.0, color);
 }
 
 vec4 cubemap_lookup(Ray ray, uint place) {

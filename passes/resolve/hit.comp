@@ -22,6 +22,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
+    probe_texel(pixel);
     vec4 color = reflects(depth_m, normal) ? reflected_color(pixel, depth_m, normal) : vec4(0.0);
     imageStore(reflection_half, pixel, color);
 }

@@ -31,6 +31,7 @@ void main() {
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     ivec2 texel = ray_texel(pixel);
+    probe_pixel(pixel);
     bool sharpened = roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);
     if (sharpened && has_ray(texel)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);

@@ -1,6 +1,7 @@
 // The history of a pixel, and the mean with it. Next include of a pass with the rows of history_rows.h, after
 // shared/neighbour.glsl.
 #include "shared/reproject.glsl"
+#include "probe/tell.glsl"
 
 struct Past {
     vec4 color;
@@ -52,6 +53,7 @@ Past past_of(ivec2 pixel, Surface center) {
     if (all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))
         past = past_at(place, center, where);
     float allowed = history_limit(history, center.normal.w, where.turned);
+    probe(PROBE_history, vec4(where.uv * vec2(frame.size.xy), past.age, allowed), vec4(past.color.rgb, 0.0));
     past.age = allowed < 1.0 ? 0.0 : min(past.age, allowed);
     return past;
 }

@@ -41,6 +41,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(reflection_temporal)))) return;
     vec4 color = current_color(pixel);
     Surface center = surface_at(pixel);
+    probe_texel(pixel);
     float age = finite(color) ? 1.0 : 0.0;
     if (age == 0.0) color = vec4(0.0);
     if (reflects(center.depth_m, center.normal.xyz)) {

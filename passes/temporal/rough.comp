@@ -17,12 +17,14 @@ vec4 current_color(ivec2 texel) {
 // The mean with the samples at the centres of the pluses around, and how many samples that are.
 vec4 with_extra(ivec2 pixel, Surface center, vec4 color, inout float samples) {
     vec4 sum = samples * color;
+    probe(PROBE_neighbour, vec4(pixel, samples, color.r), vec4(color.gb, 0.0, 0.0));
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = pixel + PLUS_CENTRES[i];
         float weight = neighbour_weight(center, texel);
         if (weight == 0.0) continue;
         vec4 other = current_color(texel);
         if (!finite(other)) continue;
+        probe(PROBE_neighbour, vec4(texel, weight, other.r), vec4(other.gb, 0.0, 0.0));
         sum += weight * other;
         samples += weight;
     }
@@ -34,6 +36,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(reflection_temporal)))) return;
     vec4 color = current_color(pixel);
     Surface center = surface_at(pixel);
+    probe_texel(pixel);
     float age = 0.0;
     if (!(center.normal.w < least_roughness)) { // a smoother surface keeps what it has, as if this pass were not there
         age = finite(color) ? 1.0 : 0.0;

@@ -9,6 +9,7 @@
 #include "shared/reproject.glsl"
 #include "shared/reuse.glsl"
 #include "shared/shown.glsl"
+#include "probe/tell.glsl"
 
 vec4 current_color(ivec2 pixel) {
     return has_reflection_sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
@@ -61,6 +62,8 @@ void main() {
         vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(0.0);
         if (longest >= 1.0 && finite(past) && past.a > 0.0) {
             if (clamp_history) past = clamped(past, pixel, roughness);
+            probe_pixel(pixel);
+            probe(PROBE_history, vec4(where.uv * vec2(frame.size.xy), longest, longest), vec4(past.rgb, 0.0));
             color = finite(color) ? mix(past, color, 1.0 / (longest + 1.0)) : past;
         }
     }

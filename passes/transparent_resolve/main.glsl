@@ -14,5 +14,6 @@ void main() {
     if (any(greaterThanEqual(texel, imageSize(transparent_reflection)))) return;
     float depth_m = texelFetch(transparent_depth_half, texel, 0).x;
     vec3 normal = texelFetch(transparent_normal_jittered, texel, 0).xyz;
+    probe_texel(texel);
     imageStore(transparent_reflection, texel, reflects(depth_m, normal) ? resolved(texel, depth_m, normal) : vec4(0.0));
 }

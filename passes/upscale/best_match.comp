@@ -63,7 +63,8 @@ float cost(Pixel p, vec4 surface, vec3 place) {
 
 void store(ivec2 pixel, Pixel p, bool found, ivec2 own, ivec2 best) {
     bool sharp = p.reflects && p.surface.w <= sharp_roughness;
-    imageStore(reflection, pixel, p.reflects && found ? half_color(own + best) : vec4(0.0));
+    probe_pixel(pixel);
+    imageStore(reflection, pixel, p.reflects && found ? taken_color(own + best, 1.0) : vec4(0.0));
     imageStore(sharp_source, pixel, uvec4(sharp ? uint(5 + best.x + 3 * best.y) : 0u));
 }
 

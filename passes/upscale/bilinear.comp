@@ -13,6 +13,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;
     vec4 sum = vec4(0.0);
+    probe_pixel(pixel);
     if (reflects(texelFetch(depth_full, pixel, 0).x, texelFetch(normal_full, pixel, 0).xyz)) {
         vec2 place = (vec2(pixel) + 0.5) / reduction(frame.size) - 0.5;
         ivec2 corner = ivec2(floor(place)), last = ivec2(frame.size.zw) - 1;
@@ -24,7 +25,7 @@ void main() {
             float weight = side.x * side.y;
             if (weight == 0.0 || !is_pick_shown(texelFetch(pick, texel, 0).x)) continue;
             if (skip_empty && !(texelFetch(depth_half, texel, 0).x < LARGEST)) continue;
-            sum += weight * half_color(texel);
+            sum += taken_color(texel, weight);
             total += weight;
         }
         sum = total > 0.0 ? sum / total : vec4(0.0);

@@ -50,7 +50,7 @@ vec4 mixture(ivec2 pixel, float depth_m, vec4 surface) {
     for (int i = 0; i < 4; ++i) {
         float weight = near[i] * max(same[i], ELSEWHERE);
         if (weight == 0.0) continue;
-        sum += weight * half_color(corner + ivec2(i & 1, i >> 1));
+        sum += taken_color(corner + ivec2(i & 1, i >> 1), weight);
         total += weight;
     }
     return total > 0.0 ? sum / total : vec4(0.0);
@@ -61,6 +61,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0), color = vec4(0.0);
+    probe_pixel(pixel);
     if (reflects(depth_m, surface.xyz)) {
         float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
         color = mixture(pixel, depth_m, vec4(normalize(surface.xyz), roughness));

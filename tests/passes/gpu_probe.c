@@ -241,6 +241,101 @@ static void test_stories(void **state) {
     }
 }
 
+/* ---- What later passes tell adds up to what they made ---- */
+
+/* Images are floats here: a sum of six products is off by no more than so many roundings of its largest part. */
+enum { ROUNDINGS = 16 };
+static void near(double told, double found, double largest) {
+    if (!(fabs(told - found) <= ROUNDINGS * 0x1p-24 * largest)) fail_msg("told %.9g, found %.9g", told, found);
+}
+
+static const struct glint_probe_record *of_slot(const struct glint_probe_story *story, const char *slot,
+                                                const char *kind, size_t *at) {
+    for (; *at < story->count; ++*at)
+        if (glint_probe_is(&story->records[*at], kind) && strcmp(story->records[*at].pass->slot, slot) == 0)
+            return &story->records[(*at)++];
+    return NULL;
+}
+
+static double held(const struct kept *image, const uint32_t at[2], uint32_t component) {
+    const uint32_t bits = bits_at(image, at[0], at[1], component);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return (double)value;
+}
+
+/* The weighted mean of what was mixed in is the image, where anything was. */
+static size_t check_mixture(const struct glint_probe_story *story, const char *slot, const struct kept *image,
+                            const uint32_t at[2]) {
+    static const char *const channels[] = {"r", "g", "b"};
+    double sum[3] = {0}, total = 0, largest = 0;
+    size_t count = 0, i = 0;
+    for (const struct glint_probe_record *record; (record = of_slot(story, slot, "neighbour", &i)); count++) {
+        const double weight = (double)glint_probe_value(record, "weight");
+        total += weight;
+        for (int c = 0; c < 3; c++) {
+            const double part = weight * (double)glint_probe_value(record, channels[c]);
+            sum[c] += part;
+            largest = fmax(largest, fabs(part));
+        }
+    }
+    for (uint32_t c = 0; c < 3 && total > 0; c++)
+        near(sum[c] / total, held(image, at, c), largest * (double)count / total);
+    return count;
+}
+
+/* A single colour is what the ray found; where a cube map shows some sky, both are told. */
+static size_t check_color(const struct glint_probe_story *story, const struct kept *image, const uint32_t at[2]) {
+    static const char *const channels[] = {"r", "g", "b"};
+    size_t i = 0;
+    const struct glint_probe_record *first = of_slot(story, "resolve", "color", &i);
+    if (!first || of_slot(story, "resolve", "color", &i)) return 0;
+    for (uint32_t c = 0; c < 3; c++) same(first, channels[c], image, at[0], at[1], c);
+    return 1;
+}
+
+static size_t check_composed(const struct glint_probe_story *story, const struct images *images, const uint32_t at[2]) {
+    static const char *const channels[] = {"r", "g", "b"};
+    size_t i = 0;
+    const struct glint_probe_record *weight = of_slot(story, "compose", "reflectance", &i);
+    for (uint32_t c = 0; c < 3 && weight; c++) {
+        const double lit = held(find(images, "lit"), at, c), w = (double)glint_probe_value(weight, channels[c]);
+        const double sum = lit + w * held(find(images, "reflection"), at, c);
+        near(sum, held(find(images, "composed"), at, c), sum);
+    }
+    return weight != NULL;
+}
+
+static void test_sums(void **state) {
+    struct gpu *gpu = *state;
+    struct glint_error err = {0};
+    static uint32_t pixels[PIXELS][2];
+    static struct images images;
+    size_t blurred = 0, upscaled = 0, colored = 0, composed = 0;
+    street(gpu);
+    draw_pixels(pixels);
+    static const char *const words[WORDS] = {"screen_trace=dda", "blur=plus", "upscale=best_match",
+                                             "resolve.fog=false"};
+    arrange(gpu, words);
+    const struct glint_replay_options options = {
+        .captured = true, .float_precision = true, .probes = (const uint32_t(*)[2])pixels, .probe_count = PIXELS};
+    check(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
+    keep_images(gpu, &images);
+    for (size_t i = 0; i < PIXELS; i++) {
+        struct glint_probe_story story;
+        const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
+        check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
+        blurred += check_mixture(&story, "blur", find(&images, "reflection_blurred"), texel) > 1;
+        upscaled += check_mixture(&story, "upscale", find(&images, "reflection"), pixels[i]) == 1;
+        colored += check_color(&story, find(&images, "reflection_half"), texel);
+        composed += check_composed(&story, &images, pixels[i]);
+        free(story.records);
+    }
+    free_images(&images);
+    print_message("# %zu blurred, %zu upscaled, %zu colours, %zu composed\n", blurred, upscaled, colored, composed);
+    assert_true(blurred > 100 && upscaled > 100 && colored > 100 && composed > 100);
+}
+
 static void test_errors(void **state) {
     struct gpu *gpu = *state;
     struct glint_error err = {0};
@@ -261,6 +356,7 @@ static void test_errors(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stories), cmocka_unit_test(test_errors)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stories), cmocka_unit_test(test_sums),
+                                       cmocka_unit_test(test_errors)};
     return cmocka_run_group_tests_name("gpu_probe", tests, gpu_set_up, gpu_tear_down);
 }

@@ -130,26 +130,38 @@ static size_t base_length(const char *name, char axis) {
     return length > 2 && name[length - 1] == axis && name[length - 2] == '_' ? length - 2 : SIZE_MAX;
 }
 
+/* How many of the rows from this one on are the parts of one thing: NAME_x, NAME_y …, or r, g, b. */
+static size_t parts_of(const struct glint_probe_row *row, size_t *base) {
+    static const char *const axes[] = {"xyz", "rgb"};
+    for (size_t a = 0; a < 2; a++) {
+        size_t count = 0;
+        *base = base_length(row->name, axes[a][0]);
+        if (*base == SIZE_MAX) continue;
+        while (count < 3 && row[count].unit && strcmp(row[count].unit, row->unit) == 0 &&
+               base_length(row[count].name, axes[a][count]) == *base && strncmp(row[count].name, row->name, *base) == 0)
+            count++;
+        if (count > 1) return count;
+    }
+    return 1;
+}
+
+static void name_group(struct probe_group *group, const struct glint_probe_row *row, size_t base) {
+    const char *m = strstr(row->name, "_m");
+    const int length = group->count > 1 ? (int)base : m && !m[2] ? (int)(m - row->name) : (int)strlen(row->name);
+    const char *bare = row->name[0] == 'r' ? "rgb" : strcmp(row->unit, "px") == 0 ? "pixel" : "position";
+    if (length == 0) snprintf(group->name, sizeof group->name, "%s", bare);
+    else snprintf(group->name, sizeof group->name, "%.*s", length, row->name);
+    for (char *c = group->name; *c; c++) *c = *c == '_' ? ' ' : *c;
+}
+
 size_t probe_groups(const struct glint_probe_row *kind, struct probe_group groups[GLINT_PROBE_VALUES]) {
-    size_t count = 0;
+    size_t count = 0, base;
     const size_t values = glint_probe_count(kind);
-    for (size_t i = 0; i < values;) {
+    for (size_t i = 0; i < values; i += groups[count++].count) {
         const struct glint_probe_row *row = &kind[1 + i];
-        struct probe_group *group = &groups[count++];
-        *group = (struct probe_group){.unit = row->unit, .first = i, .count = 1};
-        const size_t base = base_length(row->name, 'x');
-        for (const char *axis = "yz"; base != SIZE_MAX && *axis && i + group->count < values; axis++) {
-            const char *next = kind[1 + i + group->count].name;
-            if (base_length(next, *axis) != base || strncmp(next, row->name, base) != 0) break;
-            group->count++;
-        }
-        const char *m = strstr(row->name, "_m");
-        const int length = group->count > 1 ? (int)base : m && !m[2] ? (int)(m - row->name) : (int)strlen(row->name);
-        snprintf(group->name, sizeof group->name, "%.*s", length, row->name);
-        if (length == 0)
-            snprintf(group->name, sizeof group->name, "%s", strcmp(row->unit, "px") == 0 ? "pixel" : "position");
-        for (char *c = group->name; *c; c++) *c = *c == '_' ? ' ' : *c;
-        i += group->count;
+        const size_t parts = parts_of(row, &base);
+        groups[count] = (struct probe_group){.unit = row->unit, .first = i, .count = parts};
+        name_group(&groups[count], row, base);
     }
     return count;
 }

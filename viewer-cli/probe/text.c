@@ -68,6 +68,13 @@ static bool is_not_asked(const struct probe_side *side, const struct glint_probe
     return record && glint_probe_is(record, "cubemap_end") && screen && glint_probe_value(screen, "finished") > 0;
 }
 
+/* An image of cube maps has no place in the picture, and the others no cube map. */
+static bool is_void(const struct glint_probe_record *record, const struct probe_group *group, const char *text) {
+    if (!glint_probe_is(record, "color")) return false;
+    return strcmp(group->unit, "px") == 0 ? strcmp(text, "0.0,0.0") == 0
+                                          : strcmp(group->unit, "place") == 0 && strcmp(text, "none") == 0;
+}
+
 static void print_once(const struct probe_side *side, const struct glint_probe_record *record) {
     struct probe_group groups[GLINT_PROBE_VALUES];
     const size_t count = probe_groups(record->kind, groups);
@@ -76,7 +83,8 @@ static void print_once(const struct probe_side *side, const struct glint_probe_r
         const char *unit = groups[g].unit;
         const bool shown = strcmp(unit, "m") == 0 || strcmp(unit, "px") == 0 || strcmp(unit, "radiance") == 0;
         probe_group_text(side, record, &groups[g], text, sizeof text);
-        printf("%s%s %s%s%s", g ? ", " : "    ", groups[g].name, text, shown ? " " : "", shown ? unit : "");
+        if (!is_void(record, &groups[g], text))
+            printf("%s%s %s%s%s", g ? ", " : "    ", groups[g].name, text, shown ? " " : "", shown ? unit : "");
     }
     putchar('\n');
 }
