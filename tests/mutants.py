@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """docs/mutants.md: whether the self-test and the device tests notice when passes/ is wrong.
 
-mutants.py run BUILD -o RECORD [--jobs N] [--again survived|all]   tries each mutant; goes on where a record ends
-mutants.py check BUILD -o RECORD                                   the same, all anew if anything changed, and speaks TAP (./dev test --all)
-mutants.py page RECORD... -o PAGE                                  the page of those records
+mutants.py run BUILD -o RECORD [--jobs N]      tries each mutant; goes on where a record of the same sources and programs ends
+mutants.py check BUILD -o RECORD               the same, and speaks TAP (./dev test --all)
+mutants.py page RECORD... -o PAGE              the page of those records
 
 A mutant's file lies alone in a folder; programs take passes from there ($GLINT_PASSES). Each is tried by the programs that have the
-file in what they run, quickest first, until one fails. A control run of unchanged sources on the same way, which must pass, tells
-which those are: those that open the file."""
+file in what they run until one fails: what noticed it in the record before first, then the likeliest by the time that they take. A control
+run of unchanged sources on the same way, which must pass, tells which those are: those that open the file. Time is the processor's, so
+that it does not matter what else the machine does. What a record says of other sources or other programs is the order of trying,
+and nothing else."""
 import argparse
 import collections
 import concurrent.futures
@@ -27,7 +29,7 @@ import time
 
 import mutate
 import mutants_page
-from mutant_rows import AT_LEAST_S, SLOWER
+from mutant_rows import ARGUED_S, AT_LEAST_S, HANGS, SLOWER
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ENVIRONMENT = {"GLINT_CACHE": "none", "CMOCKA_MESSAGE_OUTPUT": "TAP", "GLINT_REQUIRE_DEVICE": "1", "GLINT_TEST_UNCHECKED": "1"}
@@ -42,31 +44,41 @@ class Program:
     def __init__(self, name, command, selftest=False):
         self.name, self.command, self.selftest = name, [str(c) for c in command], selftest
         self.failing = []  # cases that do not count
-        self.version = hashlib.sha256(pathlib.Path(self.command[0]).read_bytes() + name.encode()).hexdigest()[:8]
 
-    def run(self, passes, timeout_s):
-        """None when all passes, else what failed; and how many cases there were."""
+    def only(self, case):
+        """Of the self-test: just what has the case's name."""
+        program = Program(self.name, [*self.command[:4], "--only", case], True)
+        program.failing = self.failing
+        return program
+
+    def run(self, passes, limit_s):
+        """What failed, a list; how many cases there were; seconds of processor time."""
         with tempfile.TemporaryDirectory(prefix="gm") as folder:
             environment = {**os.environ, **ENVIRONMENT, "GLINT_PASSES": str(passes), "TMPDIR": folder}
-            process = subprocess.Popen(["stdbuf", "-oL", *self.command], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+            limits = ["prlimit", f"--cpu={math.ceil(limit_s)}", "stdbuf", "-oL"]
+            process = subprocess.Popen([*limits, *self.command], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                        env=environment, start_new_session=True, errors="replace")
-            late = threading.Timer(timeout_s, self.stop, [process])
+            late = threading.Timer(HANGS * limit_s, self.stop, [process])  # a device that hangs takes no processor time
             late.start()
-            start = time.monotonic()
-            try:
-                failed, cases = (self.read_json if self.selftest else self.read_tap)(process)
-            finally:
-                over = time.monotonic() - start >= timeout_s
-                late.cancel()
+            failed, cases = (self.read_json if self.selftest else self.read_tap)(process)
+            if failed:
                 self.stop(process)
-                process.stdout.close()
-                status = process.wait()
-        return (f"no end in {timeout_s:.0f} s" if over else failed or (f"died of signal {-status}" if status < 0 and not failed else None)), cases
+            _, status, used = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            over = not late.is_alive()
+            late.cancel()
+            process.stdout.close()
+        if over or process.returncode == -signal.SIGXCPU:
+            failed = [f"no end in {limit_s:.0f} s"]
+        elif not failed and process.returncode not in ((0, 1) if self.selftest else (0,)):
+            failed = [f"exit status {process.returncode}"]
+        return failed, cases, used.ru_utime + used.ru_stime
 
     @staticmethod
     def stop(process):
+        """Its group is gone when it is."""
         try:
-            os.killpg(process.pid, signal.SIGKILL) if process.poll() is None else None
+            os.killpg(process.pid, signal.SIGKILL)
         except ProcessLookupError:
             pass
 
@@ -75,21 +87,16 @@ class Program:
         cases, planned = 0, None
         for line in process.stdout:
             if line.startswith("not ok"):
-                return re.sub(r"^not ok \d+ - ", "", line).strip().replace("_", " "), cases
+                return [re.sub(r"^not ok \d+ - ", "", line).strip().replace("_", " ")], cases
             if re.match(r"ok \d+", line) and "# SKIP" not in line:
                 cases += 1
             planned = int(line[3:]) if re.fullmatch(r"1\.\.\d+\n", line) else planned
-        process.wait()
-        return (None if process.returncode == 0 and cases == planned else f"exit status {process.returncode}, {cases} of {planned} cases"), cases
+        return ([] if cases == planned else [f"{cases} of {planned} cases"]), cases
 
     def read_json(self, process):
         text = process.stdout.read()
-        process.wait()
         cases = json.loads(text)["cases"] if text.startswith("{") else []
-        failed = [c["name"] for c in cases if not c["pass"] and c["name"] not in self.failing]
-        if failed:
-            return ", ".join(failed), len(cases)
-        return (None if process.returncode in (0, 1) and cases else f"exit status {process.returncode}"), len(cases)
+        return ([c["name"] for c in cases if not c["pass"] and c["name"] not in self.failing] if cases else ["no answer"]), len(cases)
 
 
 def programs_of(build):
@@ -106,33 +113,35 @@ def programs_of(build):
             yield Program(path.name, [path])
 
 
+def version_of(build, programs):
+    """Of all that runs."""
+    files = {p.command[0] for p in programs} | {str(p) for folder in ("capture-format", "replay") for p in (build / folder).glob("*.so")}
+    return hashlib.sha256(b"".join(pathlib.Path(f).read_bytes() for f in sorted(files))).hexdigest()[:16]
+
+
 # ---- Control ----
 
 def opened(folder):
     return [p.relative_to(folder).as_posix() for p in folder.rglob("*.*") if p.is_file() and p.stat().st_atime > 1]
 
 
-def control_of(program, known):
+def control_of(program):
     """How long unchanged sources take, and which of them are opened: told by the time of access, which a file system keeps when
     it lies before that of the last change."""
-    if known.get(program.name, {}).get("version") == program.version:
-        return known[program.name]
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
         passes = pathlib.Path(folder) / "passes"
         shutil.copytree(ROOT / "passes", passes)
         for path in passes.rglob("*.*"):
             os.utime(path, (1, time.time()))
-        start = time.monotonic()
-        failed, cases = program.run(passes, 600)
-        seconds = time.monotonic() - start
+        failed, cases, seconds = program.run(passes, 600)
         files = opened(passes)
-    failing = (failed.split(", ") if failed else []) if program.selftest and cases else [failed or "no cases"] if failed or not cases else []
-    return {"version": program.version, "seconds": round(seconds, 2), "cases": cases, "failing": failing, "files": sorted(f for f in files if f.endswith((".glsl", ".comp")))}
+    return {"seconds": round(seconds, 2), "cases": cases, "failing": failed or ([] if cases else ["no cases"]),
+            "files": sorted(f for f in files if f.endswith((".glsl", ".comp")))}
 
 
-def control(programs, known, jobs):
+def control(programs, jobs):
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        told = dict(zip([p.name for p in programs], pool.map(lambda p: control_of(p, known), programs)))
+        told = dict(zip([p.name for p in programs], pool.map(control_of, programs)))
     if not any(t["files"] for t in told.values()):
         sys.exit("mutants: the file system does not tell which files were opened; set TMPDIR to one that does (relatime)")
     return told
@@ -177,13 +186,13 @@ def try_host(row, folder, build):
     subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I",
                     ROOT / "capture-format/include", "-o", program, ROOT / f"tests/passes/{HOST_TEST}.c", write_mutant(row, folder), *archives,
                     f"-Wl,-rpath,{build / 'capture-format'}", "-lcmocka", "-lm"], check=True)
-    return Program(HOST_TEST, [program]).run(folder, AT_LEAST_S)[0]
+    return Program(HOST_TEST, [program]).run(folder, AT_LEAST_S)
 
 
 LOCK, OUTCOMES = threading.Lock(), collections.defaultdict(list)  # of programs, by the slot of what they were tried on
 
 
-OUTCOME = ("verdict", "by", "failed", "seconds", "passed", "untried")
+OUTCOME = ("verdict", "by", "failed", "seconds", "untried")
 
 
 def slot_of(file):
@@ -206,28 +215,42 @@ def likeliest(programs, file, told):
     return sorted((p for p in programs if file in told[p.name]["files"]), key=lambda p: (is_own(p), chance(p)), reverse=True)
 
 
-def attempt(row, build, programs, told, budget_s=math.inf):
-    """The row with what became of it. No program is begun once those before it take budget_s with unchanged sources."""
-    start, passed = time.monotonic(), dict(row.get("passed", {}))
+def in_order(row, programs, told):
+    """What noticed it before, of the self-test only the case that did; then the others that may. Where a reason is known why nothing
+    does, only so many of these as take a minute."""
+    others, spent_s = likeliest(programs, row["file"], told), 0
+    by, failed = row.get("before_by"), row.get("before_failed", [""])
+    for program in (p for p in others if p.name == by):
+        yield program.only(failed[0]) if program.selftest and failed[0] in program.command else program
+    for program in others:
+        if mutants_page.reason_of(row) and spent_s >= ARGUED_S:
+            return
+        spent_s += told[program.name]["seconds"]
+        if program.name != by or program.selftest:
+            yield program
+
+
+def attempt(row, build, programs, told):
+    """The row with what became of it."""
+    failed, by, spent_s, tried = [], None, 0, set()
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
         if row["file"].endswith(".c"):
-            failed, by = try_host(row, folder, build), HOST_TEST
+            (failed, _, spent_s), by = try_host(row, folder, build), HOST_TEST
         else:
             write_mutant(row, folder)
-            failed = by = None
-            spent_s = 0
-            for program in likeliest(programs, row["file"], told):
-                if failed is None and passed.get(program.name) != program.version and spent_s < budget_s:
-                    spent_s += told[program.name]["seconds"]
-                    failed, _ = program.run(folder, max(AT_LEAST_S, SLOWER * told[program.name]["seconds"]))
-                    by = program.name
-                    passed.update({} if failed else {by: program.version})
-                    with LOCK:
-                        OUTCOMES[slot_of(row["file"]), by] += [failed is not None]
+            for program in in_order(row, programs, told):
+                failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * told[program.name]["seconds"]))
+                spent_s += seconds
+                by = program.name
+                tried.add(by)
+                with LOCK:
+                    OUTCOMES[slot_of(row["file"]), by] += [bool(failed)]
+                if failed:
+                    break
     made = {k: v for k, v in row.items() if k not in OUTCOME}
-    return {**made, "verdict": "killed" if failed else "survived", **({"by": by, "failed": failed} if failed else {}),
-            "seconds": round(row.get("seconds", 0) + time.monotonic() - start, 1),
-            **({} if failed else {"passed": passed, "untried": [p.name for p in programs if row["file"] in told.get(p.name, {}).get("files", ()) and p.name not in passed]})}
+    untried = sum(row["file"] in told[p.name]["files"] and p.name not in tried for p in programs)
+    return {**made, "verdict": "killed" if failed else "survived", **({"by": by, "failed": failed} if failed else {"untried": untried}),
+            "seconds": round(spent_s, 1)}
 
 
 class Bar:
@@ -256,44 +279,40 @@ def device_of(build):
     return next(d["name"] for n, d in enumerate(devices) if not wanted or wanted == str(n) or wanted.lower() in d["name"].lower())
 
 
-def run(build, path, jobs, again, budget_s, checks=False):
-    """checks: what was found with other programs or other sources counts for nothing."""
-    build, path = pathlib.Path(build).resolve(), pathlib.Path(path)
+def begun(build, path, programs, jobs):
+    """The record to go on with: the one that is there when nothing has changed since, else a new one."""
     record = json.loads(path.read_text()) if path.exists() else {}
-    tree = mutate.Tree(ROOT / "passes")
-    moved = record.get("sources") != tree.digest()
-    if moved:
-        known = {identity(m): m for m in record.get("mutants", [])}
-        record = {**drawn(Bar("making mutants"), known), "control": record.get("control")}
-        record["mutants"] = [{**m, **{k: v for k, v in known.get(identity(m), {}).items() if k in OUTCOME and not checks}}
-                             for m in record["mutants"]]
-        save(record, path)
+    version, sources = version_of(build, programs), mutate.Tree(ROOT / "passes").digest()
+    if (record.get("sources"), record.get("programs"), record.get("device")) == (sources, version, device_of(build)):
+        return record
+    known = {identity(m): m for m in record.get("mutants", [])}
+    record = {**drawn(Bar("making mutants"), known), "programs": version, "device": device_of(build), "control": control(programs, jobs)}
+    for m in record["mutants"]:
+        before = known.get(identity(m), {})
+        if before.get("verdict") == "killed":
+            m.update(before_by=before["by"], before_failed=before["failed"])
+    save(record, path)
+    return record
+
+
+def run(build, path, jobs):
+    build, path = pathlib.Path(build).resolve(), pathlib.Path(path)
     programs = list(programs_of(build))
-    record["device"] = device_of(build)
-    others = [p for p in programs if record["control"] and record["control"].get(p.name, {}).get("version") != p.version]
-    again = "all" if checks and (moved or others) else again
-    fresh = again == "all" or moved or not record.get("control")
-    record["control"] = control(programs, {} if fresh else record["control"], jobs)
+    record = begun(build, path, programs, jobs)
     # What unchanged sources fail on this device tells nothing: cases of the self-test, and whole test programs.
     programs = [p for p in programs if p.selftest or not record["control"][p.name]["failing"]]
     for program in programs:
         program.failing = record["control"][program.name]["failing"]
     for m in record["mutants"]:
-        if "by" in m:
-            OUTCOMES[slot_of(m["file"]), m["by"]].append(True)
+        OUTCOMES[slot_of(m["file"]), m.get("by", m.get("before_by"))].append(True)
     bar = Bar("mutants")
-    if again == "all":
-        record["mutants"] = [{k: v for k, v in m.items() if k not in OUTCOME} for m in record["mutants"]]
-    save(record, path)
-    left = [n for n, m in enumerate(record["mutants"]) if "verdict" not in m or again == m["verdict"] and not mutants_page.reason_of(m)]
-    done = [len(record["mutants"]) - len(left)]
+    left = [n for n, m in enumerate(record["mutants"]) if "verdict" not in m]
 
     def one(n):
-        found = attempt(record["mutants"][n], build, programs, record["control"], budget_s)
+        found = attempt(record["mutants"][n], build, programs, record["control"])
         with LOCK:
             record["mutants"][n] = found
-            done[0] += 1
-            bar(done[0], len(record["mutants"]))
+            bar(sum("verdict" in m for m in record["mutants"]), len(record["mutants"]))
             save(record, path)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
@@ -309,8 +328,6 @@ def main():
         command.add_argument("build")
         command.add_argument("-o", "--record", required=True)
         command.add_argument("--jobs", type=int, default=os.cpu_count())
-        command.add_argument("--again", choices=("survived", "all"))
-        command.add_argument("--budget", type=float, default=math.inf, help="seconds of programs for a mutant; --again survived goes on with the others, for what no reason is known of")
     page = commands.add_parser("page")
     page.add_argument("records", nargs="+")
     page.add_argument("-o", "--page", required=True)
@@ -318,7 +335,7 @@ def main():
     if arguments.command == "page":
         mutants_page.write(arguments.records, arguments.page)
         return
-    record = run(arguments.build, arguments.record, arguments.jobs, arguments.again, arguments.budget, arguments.command == "check")
+    record = run(arguments.build, arguments.record, arguments.jobs)
     killed = sum(m["verdict"] == "killed" for m in record["mutants"])
     print(f"{killed} of {len(record['mutants'])} mutants noticed", file=sys.stderr)
     if arguments.command == "check":

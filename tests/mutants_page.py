@@ -73,17 +73,16 @@ def parted(before, after):
 def of_record(record):
     mutants = record["mutants"]
     survivors = [m for m in mutants if m.get("verdict") != "killed"]
-    late = sum(m.get("failed", "").startswith("no end") for m in mutants)
+    late = sum(m.get("failed", [""])[0].startswith("no end") for m in mutants)
     rejected = ", ".join(f"{n} {what}" for what, n in sorted(record["rejected"].items()))
     harmless, killed = sum(reason_of(m) is not None for m in survivors), len(mutants) - len(survivors)
-    part = sum(bool(m.get("untried")) for m in survivors if not reason_of(m))
-    untried = f" {part} of those that a case is missing for were not tried by every program that has the file in what it runs." if part else ""
     without = "; ".join(f"`{name}`: {', '.join(c['failing'])}" for name, c in record["control"].items() if c["failing"])
     lines = [f"## {record['device']}\n", *([f"Left out, because unchanged sources fail there: {without}.\n"] if without else []),
              f"{len(mutants)} mutants, {share(mutants)[1]} noticed ({share(mutants)[2]}), {len(survivors)} not, of which {harmless} change "
              f"nothing that counts: of the others {100 * killed / (len(mutants) - harmless):.0f} % are noticed. Seed {record['seed']}; replaced: {rejected}. "
-             f"{late} were noticed by taking {mutant_rows.SLOWER} times as long as unchanged sources and half a minute at least."
-             f"{untried}\n",
+             f"{late} were noticed by taking {mutant_rows.SLOWER} times as long as unchanged sources and half a minute at least. In all "
+             f"{sum(m.get('seconds', 0) for m in mutants) / 60:.0f} minutes of processor time, after {sum(c['seconds'] for c in record['control'].values()) / 60:.0f} "
+             f"for unchanged sources; sources {record['sources']}.\n",
              table(["slot", "mutants", "noticed", ""], grouped(mutants, lambda m: {p.split("/")[0] for p in m["passes"]} if not m["file"].startswith("shared/")
                                                               else {"shared"})),
              table(["what was changed", "mutants", "noticed", ""], grouped(mutants, lambda m: [m["operator"]])),

@@ -119,6 +119,25 @@ static void without_history_the_centres_around_are_shared_too(void **state) {
     expect_mean(gpu, "reflection_blurred", "reflection_temporal", centres);
 }
 
+/* Whatever it is, not a number too: as if the pass were not there. Roughness is 0.05 where sharing begins, and above. */
+static void what_shares_nothing_keeps_what_it_has(struct gpu *gpu) {
+    float *before = gpu_floats(gpu, "reflection_half", NULL, NULL),
+          *after = gpu_floats(gpu, "reflection_blurred", NULL, NULL),
+          *surface = gpu_floats(gpu, "normal_half", NULL, NULL);
+    int bad = 0, kept = 0;
+    for (int i = 0; i < HALF * HALF; ++i) {
+        if (surface[4 * i + 3] != 0.05f) continue;
+        ++kept;
+        bad += !isfinite(before[4 * i]);
+        for (int k = 0; k < 3; ++k) {
+            const float a = before[4 * i + k], b = after[4 * i + k];
+            assert_true(a == b || (isnan(a) && isnan(b)));
+        }
+    }
+    assert_true(kept > 100 && bad > 0);
+    free(before), free(after), free(surface);
+}
+
 static void bad_colours_are_left_out(void **state) {
     struct gpu *gpu = *state;
     for (int mips = 0; mips < 2; ++mips) {
@@ -127,6 +146,7 @@ static void bad_colours_are_left_out(void **state) {
         gpu_use(gpu, mips ? "blur=mips" : "blur=plus");
         if (!mips) gpu_use(gpu, "temporal=rough");
         gpu_run(gpu);
+        if (!mips) what_shares_nothing_keeps_what_it_has(gpu);
         float *before = gpu_floats(gpu, "reflection_half", NULL, NULL),
               *after = gpu_floats(gpu, mips ? "reflection_blurred" : "reflection_temporal", NULL, NULL);
         int bad = 0;
@@ -139,11 +159,57 @@ static void bad_colours_are_left_out(void **state) {
     }
 }
 
+/* Where each block's picked pixel comes from, two texels to the right; with `user`, the others say they are still. */
+static void moves(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height, *pick = plain->user;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        const uint32_t x = i % SIZE, y = i / SIZE, chosen = pick ? pick[y / 2 * HALF + x / 2] : 0;
+        if (!pick || chosen == 2 * (y & 1) + (x & 1)) values[PLAIN_MOTION_X * pixels + i] = 4.0f / SIZE;
+    }
+}
+
+/* The last of two frames: history and picks. */
+static float *second_frame(struct gpu *gpu, const uint32_t *pick) {
+    for (uint32_t frame = 1; frame <= 2; ++frame) {
+        char path[256], name[16];
+        snprintf(name, sizeof name, "%s%u", pick ? "picked" : "all", frame);
+        plain_capture(gpu_path(gpu, name, path), &(struct plain){.width = SIZE,
+                                                                 .height = SIZE,
+                                                                 .roughness = 0.5f,
+                                                                 .fov_y_degrees = 60,
+                                                                 .frame = frame,
+                                                                 .spoil = frame == 2 ? moves : NULL,
+                                                                 .user = pick});
+        gpu_load(gpu, name);
+        gpu_run(gpu);
+    }
+    return gpu_floats(gpu, "reflection_temporal", NULL, NULL);
+}
+
+/* A block's history lies where its picked pixel was, whatever its other pixels say. */
+static void the_picked_pixel_moves_its_block(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu);
+    gpu_use(gpu, "temporal=rough");
+    float *all = second_frame(gpu, NULL);
+    uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), others = 0;
+    float *picked = second_frame(gpu, pick), *still = gpu_floats(gpu, "reflection_half", NULL, NULL);
+    size_t remember = 0;
+    for (int i = 0; i < HALF * HALF; ++i) {
+        others += pick[i] != 0;
+        for (int k = 0; k < 3; ++k) remember += all[4 * i + k] != still[4 * i + k];
+    }
+    assert_true(others > 100 && remember > 3 * HALF * HALF / 2);
+    assert_memory_equal(all, picked, 4 * HALF * HALF * sizeof *all);
+    free(all), free(picked), free(pick), free(still);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plus_is_weighted_by_the_lobe),
         cmocka_unit_test(without_history_the_centres_around_are_shared_too),
         cmocka_unit_test(bad_colours_are_left_out),
+        cmocka_unit_test(the_picked_pixel_moves_its_block),
     };
     return cmocka_run_group_tests_name("gpu_blur_plus", tests, gpu_set_up, gpu_tear_down);
 }

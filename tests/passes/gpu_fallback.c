@@ -42,7 +42,7 @@ struct ends {
 /* Mirror rays off the wall z = -5 m, from the camera at the origin. No crossing counts as a hit, so that every ray that
    ends falls back. */
 static void start_to_fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, const double *, float *),
-                               double center_z) {
+                               double center_z, float roughness) {
     char path[256];
     struct plain plain = {.width = 96,
                           .height = 54,
@@ -50,7 +50,7 @@ static void start_to_fall_back(struct gpu *gpu, const char *name, void (*cube)(u
                           .cube_size = 64,
                           .cube_count = 1,
                           .cube = cube,
-                          .roughness = 0.2F};
+                          .roughness = roughness};
     plain.cubes[0].center[2] = center_z;
     plain_capture(gpu_path(gpu, name, path), &plain);
     gpu_load(gpu, name);
@@ -78,7 +78,7 @@ static void ray_of(uint32_t i, uint32_t width, uint32_t pick, double center_z, d
 /* Rays are also followed through the same cocoon by small steps. */
 static void fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, const double *, float *),
                       double center_z, double (*closed_form)(const double *, const double *), struct ends *ends) {
-    start_to_fall_back(gpu, name, cube, center_z);
+    start_to_fall_back(gpu, name, cube, center_z, 0.2F);
     gpu_set(gpu, "cubemap_trace.cocoon_start=surface");
     gpu_run(gpu);
     uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
@@ -198,7 +198,7 @@ static int in_something(const double v[3], double inverse_hull, double solid) {
 static void a_ray_that_stopped_inside_of_something_ends_there(void **state) {
     struct gpu *gpu = *state;
     static const char *const solids[] = {"cubemap_trace.solid=0", "cubemap_trace.solid=0.5", "cubemap_trace.solid=1"};
-    start_to_fall_back(gpu, "screens", screens, -2);
+    start_to_fall_back(gpu, "screens", screens, -2, 0.2F);
     gpu_set(gpu, "cubemap_trace.fallback=lookup");
     gpu_set(gpu, "cubemap_trace.lookup=stopped");
     gpu_set(gpu, "cubemap_trace.length_lq_m=24"); /* short steps, so that rays stop inside of the box too */
@@ -247,10 +247,58 @@ static void a_ray_that_stopped_inside_of_something_ends_there(void **state) {
     free(pick);
 }
 
+/* The box where all that is higher than it is far is open. */
+static void open_box(uint32_t number, const double d[3], float out[5]) {
+    box(number, d, out);
+    if (d[1] > 0.25) out[0] = out[1] = out[2] = out[3] = 0, out[4] = INFINITY;
+}
+
+/* How many of 27 directions, a texel and less apart, see the sky. */
+static int sky_around(const double v[3]) {
+    const double width = 2 / 64.0 * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    int count = 0;
+    for (int i = 0; i < 27; ++i) {
+        double d[3], length2 = 0;
+        float texel[5];
+        for (int k = 0, j = i; k < 3; ++k, j /= 3) d[k] = v[k] + (j % 3 - 1) * width, length2 += d[k] * d[k];
+        for (int k = 0; k < 3; ++k) d[k] /= sqrt(length2);
+        open_box(0, d, texel);
+        count += isinf(texel[4]);
+    }
+    return count;
+}
+
+/* Of smooth surfaces: where the cocoon caps the sky the ray goes on for ever; elsewhere it ends on the cocoon. */
+static void a_mirrors_ray_ends_in_the_sky_where_a_cap_is(void **state) {
+    struct gpu *gpu = *state;
+    start_to_fall_back(gpu, "mirror", open_box, -2, 0);
+    gpu_set(gpu, "cubemap_trace.cocoon_start=surface");
+    gpu_run(gpu);
+    uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height), up = 0, onto = 0, wrong = 0;
+    float *travelled = gpu_floats(gpu, "travelled", NULL, NULL), *cocoon = gpu_floats(gpu, "cocoon", NULL, NULL);
+    for (uint32_t i = 0; i < width * height; ++i) {
+        double start[3], d[3], v[3];
+        int stays;
+        ray_of(i, width, pick[i], -2, start, d);
+        const double expected = cocoon_walk(cocoon, start, d, &stays);
+        if (expected < 0 || stays < COCOON_WALK / 8) continue;
+        for (int k = 0; k < 3; ++k) v[k] = start[k] + expected * d[k];
+        const int sky = sky_around(v);
+        if (sky > 0 && sky < 27) continue; /* at the cap's rim */
+        sky ? ++up : ++onto;
+        wrong += (sky > 0) != isinf(travelled[i]);
+    }
+    print_message("# %u rays into the sky, %u onto walls, %u otherwise\n", up, onto, wrong);
+    assert_true(up > 50 && onto > 50);
+    assert_true(20 * wrong <= up + onto); /* bulges of the cocoon may lie between two samples */
+    free(travelled), free(cocoon), free(pick);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fallback_ends_where_the_ray_leaves_the_cocoon),
         cmocka_unit_test(a_ray_that_stopped_inside_of_something_ends_there),
+        cmocka_unit_test(a_mirrors_ray_ends_in_the_sky_where_a_cap_is),
     };
     return cmocka_run_group_tests_name("gpu_fallback", tests, gpu_set_up, gpu_tear_down);
 }

@@ -38,7 +38,7 @@ static const struct way ways[] = {
       "sky_mips.reach=0", "blur.brdf=false", "upscale.around=false", "resolve_sharp.blend=0"}},
     {{CUBES, "cocoon=max", "cubemap_select=score", "cubemap_trace.cocoon_start=surface", "cubemap_trace.mass_m=0"},
      {"cocoon.reach=0", "cocoon.maximum=samples", "cubemap_select.visibility=0", "cubemap_select.distance=0",
-      "cubemap_select.direction=0"}},
+      "cubemap_select.direction=0", "cubemap_trace.random_scale=true"}},
     {{CUBES, "cubemap_trace=box"}, {"cubemap_trace.sky=false", "cubemap_trace.grow_m=0.3"}},
     {{CUBES, "cubemap_trace=exact"}, {"cubemap_trace.interpolate=false", "cubemap_trace.unseen=stop"}},
     {{"downsample=mips", "downsample.jitter=true", "screen_trace=dda", "blur=upscale_blur", "blur.width=1",

@@ -9,13 +9,13 @@
 #include "text_file.h"
 #include "filter.h"
 
-enum { COLUMNS = 256, LISTS = 4, IMAGE_LISTS = 6 };
+enum { COLUMNS = 256, LISTS = 4, IMAGE_LISTS = 7 };
 
 static const struct function_list *const lists[LISTS] = {&functions_elementary, &functions_patterns,
                                                          &functions_geometry, &functions_lobes};
 
-static const struct image_list *const image_lists[IMAGE_LISTS] = {&images_surfaces, &images_lists, &images_cubes,
-                                                                  &images_filter,   &images_shown, &decodings};
+static const struct image_list *const image_lists[IMAGE_LISTS] = {
+    &images_surfaces, &images_lists, &images_cubes, &images_planes, &images_filter, &images_shown, &decodings};
 
 static size_t tabled(void) {
     size_t sum = 0;

@@ -44,3 +44,14 @@ char *image_shader(const char *variant, const char *format, ...) {
     fclose(file);
     return text;
 }
+
+void *image_read(struct frames *frames, const char *name, enum glint_type type, size_t values,
+                 struct glint_error *err) {
+    const struct glint_image *image = glint_replay_find_image(frames->replay, name);
+    void *out = NULL;
+    if (!image || (size_t)image->width * image->height * image->components != values)
+        glint_fail(err, GLINT_ERROR_DEVICE, "self-test: the replay made no %s of %zu values", name, values);
+    else if (!(out = malloc(values * sizeof(uint32_t)))) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    else if (!glint_replay_read_image(frames->replay, image, type, out, err)) free(out), out = NULL;
+    return out;
+}

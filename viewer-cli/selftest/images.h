@@ -17,7 +17,7 @@ struct image_list {
     const struct image_case *items;
     size_t count;
 };
-extern const struct image_list images_surfaces, images_lists, images_cubes, images_shown, decodings;
+extern const struct image_list images_surfaces, images_lists, images_cubes, images_planes, images_shown, decodings;
 
 /* found and expected may be either of two where a decision is a tie. */
 void image_compare(struct selftest_finding *finding, double found, double expected, double otherwise,
@@ -33,5 +33,8 @@ char *image_shader(const char *variant, const char *format, ...)
     __attribute__((format(printf, 2, 3)))
 #endif
     ;
+
+/* All values of an image of the last run, which has so many; the caller frees. NULL: err says why. */
+void *image_read(struct frames *frames, const char *name, enum glint_type type, size_t values, struct glint_error *err);
 
 #endif

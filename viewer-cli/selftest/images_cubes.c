@@ -4,63 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "images.h"
 #include "noise.h"
+#include "painted.h"
 #include "plain_capture.h"
-
-static void *read(struct frames *frames, const char *name, enum glint_type type, size_t values,
-                  struct glint_error *err) {
-    const struct glint_image *image = glint_replay_find_image(frames->replay, name);
-    void *out = NULL;
-    if (!image || (size_t)image->width * image->height * image->components != values)
-        glint_fail(err, GLINT_ERROR_DEVICE, "self-test: the replay made no %s of %zu values", name, values);
-    else if (!(out = malloc(values * sizeof(uint32_t)))) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    else if (!glint_replay_read_image(frames->replay, image, type, out, err)) free(out), out = NULL;
-    return out;
-}
-
-/* ---- A capture with cube maps ---- */
-
-enum { MOST_SIZE = 128, MOST_CUBES = 4 };
-struct cubes {
-    struct frame frame;
-    uint32_t size, count;
-    struct glint_cubemap cube[MOST_CUBES];
-    float values[MOST_CUBES][5][6 * MOST_SIZE * MOST_SIZE];
-    char names[MOST_CUBES][16];
-    struct planes parts[MOST_CUBES + 1];
-};
-
-typedef void (*painting)(uint32_t cube, size_t texel, const double direction[3], float out[5]);
-
-static const double place[3] = {20, -3, 7}; /* of the camera */
-
-static void make(struct cubes *c, uint32_t size, uint32_t count, painting paint) {
-    c->size = size, c->count = count;
-    frame_ordinary(&c->frame, 1);
-    frame_cameras(&c->frame, place, place, 0, 0);
-    for (uint32_t k = 0; k < count; k++) {
-        snprintf(c->names[k], sizeof c->names[k], "cubemap.%03u", k);
-        for (size_t i = 0; i < 6 * (size_t)size * size; i++) {
-            double direction[3];
-            float texel[5];
-            plain_direction((uint32_t)(i / ((size_t)size * size)), (double)(i % size), (double)(i / size % size), size,
-                            direction);
-            paint(k, i, direction, texel);
-            for (int channel = 0; channel < 5; channel++) c->values[k][channel][i] = texel[channel];
-        }
-        c->parts[k] =
-            (struct planes){c->names[k],
-                            size,
-                            6 * size,
-                            {"R", "G", "B", "A", "distance.Z"},
-                            {c->values[k][0], c->values[k][1], c->values[k][2], c->values[k][3], c->values[k][4]},
-                            GLINT_F32,
-                            &c->cube[k]};
-    }
-    c->frame.more = c->parts;
-    c->frame.more_count = count;
-}
 
 /* ---- box_color ---- */
 
@@ -100,18 +46,18 @@ static bool check_box(struct frames *frames, const struct image_case *which, str
     static const char *const passes[] = {"cubemap_active", "cubemap_mips", NULL};
     static const char *const settings[] = {"cubemap_mips=plain", NULL};
     enum { SIZE = 17 };
-    struct cubes *c = calloc(1, sizeof *c);
+    struct painted *c = calloc(1, sizeof *c);
     float *fine = NULL, *coarse = NULL;
     bool ok = c || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     (void)which;
-    if (ok) make(c, SIZE, 2, noise_with_holes);
+    if (ok) paint_cubes(c, SIZE, 2, noise_with_holes);
     ok = ok && frames_pipeline(frames, passes, settings, err) && frames_run(frames, &c->frame, err) &&
-         (fine = read(frames, "cubemap_color_mips", GLINT_F32, 2 * 6 * SIZE * SIZE * 4, err));
+         (fine = image_read(frames, "cubemap_color_mips", GLINT_F32, 2 * 6 * SIZE * SIZE * 4, err));
     for (size_t level = 1, finer = SIZE; ok && finer > 1; level++, finer /= 2) {
         const size_t size = finer / 2;
         char name[32];
         snprintf(name, sizeof name, "cubemap_color_mips.level%zu", level);
-        ok = (coarse = read(frames, name, GLINT_F32, 2 * 6 * size * size * 4, err)) != NULL;
+        ok = (coarse = image_read(frames, name, GLINT_F32, 2 * 6 * size * size * 4, err)) != NULL;
         for (size_t i = 0; ok && i < 2 * 6 * size * size; i++) {
             double y[4];
             expect_box(fine, finer, i, size, y);
@@ -142,7 +88,7 @@ static void harmonics(uint32_t cube, size_t texel, const double d[3], float out[
 /* The mean over the lattice's points in the plane that touches the sphere, weighed by cosⁿ⁺³, of what lies there. */
 static void expect_prefiltered(const double axis[3], uint32_t cube, size_t level, double y[4]) {
     enum { REACH = 3 };
-    const double rim = exp2((double)level) * 3.5 * 2 / MOST_SIZE, power = log(0.1) / log(cos(atan(rim)));
+    const double rim = exp2((double)level) * 3.5 * 2 / PAINTED_WIDEST, power = log(0.1) / log(cos(atan(rim)));
     /* Two axes across, any: the lattice is symmetric enough for harmonics of these degrees only with the shader's own. */
     const double side = axis[2] >= 0 ? 1 : -1, a = -1 / (side + axis[2]), b = axis[0] * axis[1] * a;
     const double t[3] = {1 + side * axis[0] * axis[0] * a, side * b, -side * axis[0]};
@@ -168,16 +114,16 @@ static bool check_prefiltered(struct frames *frames, const struct image_case *wh
                               struct glint_error *err) {
     static const char *const passes[] = {"cubemap_active", "cubemap_mips", NULL};
     static const char *const settings[] = {"cubemap_mips=prefilter", NULL};
-    struct cubes *c = calloc(1, sizeof *c);
+    struct painted *c = calloc(1, sizeof *c);
     bool ok = c || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     (void)which;
-    if (ok) make(c, MOST_SIZE, 2, harmonics);
+    if (ok) paint_cubes(c, PAINTED_WIDEST, 2, harmonics);
     ok = ok && frames_pipeline(frames, passes, settings, err) && frames_run(frames, &c->frame, err);
     for (size_t level = 1; ok && level < 5; level++) {
-        const uint32_t size = MOST_SIZE >> level;
+        const uint32_t size = PAINTED_WIDEST >> level;
         char name[32];
         snprintf(name, sizeof name, "cubemap_color_mips.level%zu", level);
-        float *found = read(frames, name, GLINT_F32, 2 * 6 * (size_t)size * size * 4, err);
+        float *found = image_read(frames, name, GLINT_F32, 2 * 6 * (size_t)size * size * 4, err);
         ok = found != NULL;
         for (size_t i = 0; ok && i < 2 * 6 * (size_t)size * size; i++) {
             double axis[3], y[4];
@@ -198,15 +144,6 @@ static bool check_prefiltered(struct frames *frames, const struct image_case *wh
 /* ---- cocoon.glsl, by a stand-in for cubemap_trace/march, over points and directions that random4 draws ---- */
 
 enum { COCOON = 32 };
-static void random4(uint32_t x, uint32_t y, uint32_t dimension, double u[4]) {
-    uint32_t v[4] = {x, y, 5, dimension};
-    for (int i = 0; i < 4; i++) v[i] = v[i] * 1664525u + 1013904223u;
-    v[0] += v[1] * v[3], v[1] += v[2] * v[0], v[2] += v[0] * v[1], v[3] += v[1] * v[2];
-    for (int i = 0; i < 4; i++) v[i] ^= v[i] >> 16;
-    v[0] += v[1] * v[3], v[1] += v[2] * v[0], v[2] += v[0] * v[1], v[3] += v[1] * v[2];
-    for (int i = 0; i < 4; i++) u[i] = ((double)(v[i] / 512) + 0.5) / 8388608;
-}
-
 /* Samples lie on a face's borders too: 1 / distance along its axis of a room around the centre, a maximum of six planes'. */
 static const double room[3][2] = {{2, 5}, {3, 3.5}, {8, 4}}; /* to the lower and the upper side of each axis */
 static double room_sample(size_t face, double x, double y) {
@@ -242,7 +179,7 @@ struct cocoon_point {
 static struct cocoon_point point_of(uint32_t x, uint32_t y) {
     struct cocoon_point p;
     double u[4], w[4], l = 0;
-    random4(x, y, 1, u), random4(x, y, 2, w);
+    drawn4(x, y, 1, u), drawn4(x, y, 2, w);
     p.scale = u[3] < 0.05 ? 0 : u[3] < 0.2 ? 0.05 : u[3] < 0.5 ? 1 : 40; /* in the centre to far outside */
     p.place = w[3] < 0.5 ? 0 : 1;
     for (int k = 0; k < 3; k++) p.v[k] = (2 * u[k] - 1) * p.scale;
@@ -294,7 +231,7 @@ static bool check_cocoon(struct frames *frames, const struct image_case *which, 
     static const float far[FRAME_PIXELS] = {0};
     static const uint32_t best[FRAME_PIXELS] = {0};
     const struct cocoon_case *with = which->with;
-    struct cubes *c = calloc(1, sizeof *c);
+    struct painted *c = calloc(1, sizeof *c);
     float *samples = calloc(2 * 6 * COCOON * COCOON, sizeof *samples), *found = NULL;
     char *shader = image_shader("march",
                                 "#include \"shared/cocoon.glsl\"\n#include \"shared/random.glsl\"\n"
@@ -313,7 +250,7 @@ static bool check_cocoon(struct frames *frames, const struct image_case *which, 
                                 which->glsl);
     bool ok = (c && samples && shader) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (ok) {
-        make(c, 1, 2, nothing_special);
+        paint_cubes(c, 1, 2, nothing_special);
         fill_cocoons(with->sample, samples);
     }
     struct planes parts[5];
@@ -327,7 +264,7 @@ static bool check_cocoon(struct frames *frames, const struct image_case *which, 
         c->frame.more = parts, c->frame.more_count = 5;
     }
     ok = ok && frames_pipeline(frames, passes, settings, err) && frames_shader(frames, "cubemap_trace", shader, err) &&
-         frames_run(frames, &c->frame, err) && (found = read(frames, "travelled", GLINT_F32, FRAME_PIXELS, err));
+         frames_run(frames, &c->frame, err) && (found = image_read(frames, "travelled", GLINT_F32, FRAME_PIXELS, err));
     for (size_t i = 0; ok && i < FRAME_PIXELS; i++) {
         const struct cocoon_point p = point_of((uint32_t)(i % FRAME_WIDTH), (uint32_t)(i / FRAME_WIDTH));
         double y[2];
@@ -367,15 +304,15 @@ static bool check_sphere(struct frames *frames, const struct image_case *which, 
                          struct glint_error *err) {
     static const char *const passes[] = {"cubemap_active", "cocoon", NULL};
     const char *const settings[] = {"cocoon=max", "cocoon.size=4", "cocoon.kernel=64", which->with, NULL};
-    struct cubes *c = calloc(1, sizeof *c);
+    struct painted *c = calloc(1, sizeof *c);
     bool ok = c || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok) make(c, SPHERE, 2, sphere_with_holes);
+    if (ok) paint_cubes(c, SPHERE, 2, sphere_with_holes);
     ok = ok && frames_pipeline(frames, passes, settings, err) && frames_run(frames, &c->frame, err);
     for (uint32_t level = 0; ok && level < LEVELS; level++) {
         const size_t size = SPHERE >> level, count = 12 * size * size;
         char name[32] = "cocoon_distance";
         if (level) snprintf(name, sizeof name, "cocoon_distance.level%u", level);
-        float *found = read(frames, name, GLINT_F32, count, err);
+        float *found = image_read(frames, name, GLINT_F32, count, err);
         ok = found != NULL;
         for (size_t i = 0; ok && i < count; i++) {
             const double y = expect_sphere(i, level);
@@ -384,7 +321,7 @@ static bool check_sphere(struct frames *frames, const struct image_case *which, 
         }
         free(found);
     }
-    float *found = ok ? read(frames, "cocoon", GLINT_F32, 12 * COCOON * COCOON, err) : NULL;
+    float *found = ok ? image_read(frames, "cocoon", GLINT_F32, 12 * COCOON * COCOON, err) : NULL;
     ok = found != NULL;
     for (size_t i = 0; ok && i < 12 * COCOON * COCOON; i++) {
         const double u = 2.0 * (double)(i % COCOON) / (COCOON - 1) - 1;
@@ -400,12 +337,12 @@ static bool check_sphere(struct frames *frames, const struct image_case *which, 
 }
 
 /* In the order of their distances from the camera, which is that of their places; up counts four times. */
-static const double centers[MOST_CUBES][3] = {{-1, 0, 0}, {2, 1, -1}, {-4, 3, 1}, {0, -4, 2}};
+static const double centers[PAINTED_MOST][3] = {{-1, 0, 0}, {2, 1, -1}, {-4, 3, 1}, {0, -4, 2}};
 
 static void expect_nearest(uint32_t x, uint32_t y, double best[2]) {
     double u[4], least = INFINITY, second = INFINITY;
-    random4(x, y, 3, u);
-    for (int k = 0; k < MOST_CUBES; k++) {
+    drawn4(x, y, 3, u);
+    for (int k = 0; k < PAINTED_MOST; k++) {
         double square = 0;
         for (int i = 0; i < 3; i++) square += pow(8 * u[i] - 4 - centers[k][i], 2);
         if (square < least) second = least, best[1] = best[0], least = square, best[0] = k;
@@ -419,7 +356,7 @@ static bool check_nearest(struct frames *frames, const struct image_case *which,
     static const char *const passes[] = {"cubemap_active", "downsample", "cubemap_select", NULL};
     static const char *const settings[] = {NULL};
     static const float zero[FRAME_PIXELS] = {0};
-    struct cubes *c = calloc(1, sizeof *c);
+    struct painted *c = calloc(1, sizeof *c);
     uint32_t *found = NULL;
     char *shader = image_shader("nearest",
                                 "#include \"shared/active.glsl\"\n#include \"shared/random.glsl\"\n"
@@ -433,15 +370,16 @@ static bool check_nearest(struct frames *frames, const struct image_case *which,
                                 strchr(which->glsl, ':') + 1);
     bool ok = (c && shader) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (ok) {
-        make(c, 1, MOST_CUBES, nothing_special);
-        for (int k = 0; k < MOST_CUBES; k++)
-            for (int i = 0; i < 3; i++) c->cube[k].center[i] = centers[k][i] + place[i];
-        c->parts[MOST_CUBES] = (struct planes){
+        paint_cubes(c, 1, PAINTED_MOST, nothing_special);
+        for (int k = 0; k < PAINTED_MOST; k++)
+            for (int i = 0; i < 3; i++) c->cube[k].center[i] = centers[k][i] + painted_from[i];
+        c->parts[PAINTED_MOST] = (struct planes){
             "engine.screen_trace.screen_travelled", FRAME_WIDTH, FRAME_HEIGHT, {"Z"}, {zero}, GLINT_F32, NULL};
         c->frame.more_count++;
     }
     ok = ok && frames_pipeline(frames, passes, settings, err) && frames_shader(frames, "cubemap_select", shader, err) &&
-         frames_run(frames, &c->frame, err) && (found = read(frames, "cubemap_best", GLINT_U32, FRAME_PIXELS, err));
+         frames_run(frames, &c->frame, err) &&
+         (found = image_read(frames, "cubemap_best", GLINT_U32, FRAME_PIXELS, err));
     for (size_t i = 0; ok && i < FRAME_PIXELS; i++) {
         double best[2] = {0, 0};
         expect_nearest((uint32_t)(i % FRAME_WIDTH), (uint32_t)(i / FRAME_WIDTH), best);
