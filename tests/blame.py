@@ -120,7 +120,10 @@ against a reference of {told['reference_rays']} rays a pixel; the error of the p
 {shares(mean, 'reference')}{"".join(scene(c) for c in told["captures"])}
 ## The players
 
-Slots that cannot be exchanged alone are one player; the declarations say so, or an image that only one variant makes.
+Slots that cannot be exchanged alone are one player; the declarations say so, or an image that only one variant makes. So are, in `kf2`, which
+has no cube maps, `resolve` and the slots of the cube maps: the reference's `hit` reads where rays ended in them, which nothing in `kf2` tells, and
+`kf2`'s own `blurred` asks for none of it. Cube maps without the other resolve change nothing, the other resolve without them does not run:
+no measurement tells the shares of the two apart.
 
 {players(told)}
 """
