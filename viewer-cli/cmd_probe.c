@@ -76,13 +76,14 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
 /* The tracers that step over nothing, with all else as it is. */
 static struct glint_pipeline *reference_of(const struct glint_pipeline *pipeline, struct glint_error *err) {
     static const struct {
-        const char *slot, *assignment;
-    } uses[] = {{"screen_trace", "screen_trace=dda"}, {"cubemap_trace", "cubemap_trace=exact"}};
+        const char *slot, *none, *assignment; /* by way of none: no value of the other variant is kept */
+    } uses[] = {{"screen_trace", "screen_trace=none", "screen_trace=dda"},
+                {"cubemap_trace", "cubemap_trace=none", "cubemap_trace=exact"}};
     struct glint_pipeline *copy = glint_pipeline_copy(pipeline, err);
     for (size_t u = 0; copy && u < 2; u++)
         for (size_t i = 0; copy && i < glint_pipeline_pass_count(pipeline); i++)
             if (strcmp(glint_pipeline_pass(pipeline, i)->slot, uses[u].slot) == 0 &&
-                !glint_pipeline_use(copy, uses[u].assignment, err))
+                (!glint_pipeline_use(copy, uses[u].none, err) || !glint_pipeline_use(copy, uses[u].assignment, err)))
                 glint_pipeline_destroy(&copy);
     return copy;
 }

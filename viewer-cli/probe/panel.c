@@ -133,7 +133,7 @@ void panel_mark(const struct panel *p, double x, double y, double radius, const 
     fputs("</title></circle>\n", p->out);
 }
 
-void panel_across(const struct panel *p, double x, const char *text, const char *color) {
+void panel_across(const struct panel *p, double x, int row, const char *text, const char *color) {
     if (!panel_shows(p, x)) return;
     const double at = panel_x(p, x);
     const bool right = at > p->left + 0.6 * p->width;
@@ -142,5 +142,5 @@ void panel_across(const struct panel *p, double x, const char *text, const char 
             "<path d=\"M%.1f %.1fV%.1f\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"/>\n",
             at, p->top, p->top + p->height, color);
     snprintf(style, sizeof style, "class=\"tick\" style=\"fill:%s\"", color);
-    label(p, right ? at - 5 : at + 5, p->top + 14, right ? "end" : "start", style, text);
+    label(p, right ? at - 5 : at + 5, p->top + 14 + 15 * row, right ? "end" : "start", style, text);
 }

@@ -36,7 +36,7 @@ void panel_line(const struct panel *panel, const double (*points)[2], size_t cou
 /* The same, filled up to the top of the panel. */
 void panel_solid(const struct panel *panel, const double (*points)[2], size_t count, const char *style);
 void panel_mark(const struct panel *panel, double x, double y, double radius, const char *style, const char *hint);
-/* A line across at x, labelled at the top of the panel. */
-void panel_across(const struct panel *panel, double x, const char *label, const char *color);
+/* A line across at x, labelled at the top of the panel; `row`: below how many other labels. */
+void panel_across(const struct panel *panel, double x, int row, const char *label, const char *color);
 
 #endif

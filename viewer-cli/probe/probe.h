@@ -43,8 +43,8 @@ bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay
                const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
                struct glint_error *err);
 void probe_side_finish(struct probe_side *side);
-/* The last record of this kind that a pass of the slot made (NULL: of any slot); NULL: none. */
-const struct glint_probe_record *probe_last(const struct probe_side *side, const char *kind);
+/* The last record of this kind that a pass of the slot told; NULL: none. */
+const struct glint_probe_record *probe_last(const struct probe_side *side, const char *slot, const char *kind);
 /* "cubemap.003"; "none" where there is none. Static storage for a few calls. */
 const char *probe_cubemap(const struct probe_side *side, double place);
 

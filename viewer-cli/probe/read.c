@@ -106,9 +106,10 @@ void probe_side_finish(struct probe_side *side) {
     *side = (struct probe_side){0};
 }
 
-const struct glint_probe_record *probe_last(const struct probe_side *side, const char *kind) {
+const struct glint_probe_record *probe_last(const struct probe_side *side, const char *slot, const char *kind) {
     for (size_t i = side->story.count; i-- > 0;)
-        if (glint_probe_is(&side->story.records[i], kind)) return &side->story.records[i];
+        if (glint_probe_is(&side->story.records[i], kind) && strcmp(side->story.records[i].pass->slot, slot) == 0)
+            return &side->story.records[i];
     return NULL;
 }
 

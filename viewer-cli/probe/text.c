@@ -62,10 +62,19 @@ static void print_steps(const struct probe_side *side, const struct glint_probe_
     table_destroy(&table);
 }
 
-/* The cube maps have nothing to do where the picture has ended the ray. */
+/* The cube maps have nothing to do where the picture has ended the ray. PREFIXcubemap_trace goes on where
+   PREFIXscreen_trace stopped. */
 static bool is_not_asked(const struct probe_side *side, const struct glint_probe_record *record) {
-    const struct glint_probe_record *screen = probe_last(side, "screen_end");
-    return record && glint_probe_is(record, "cubemap_end") && screen && glint_probe_value(screen, "finished") > 0;
+    if (!glint_probe_is(record, "cubemap_end")) return false;
+    const char *slot = record->pass->slot, *name = strstr(slot, "cubemap_trace");
+    const size_t prefix = name ? (size_t)(name - slot) : 0;
+    for (size_t i = 0; i < side->story.count; i++) {
+        const struct glint_probe_record *screen = &side->story.records[i];
+        if (glint_probe_is(screen, "screen_end") && screen->ray == record->ray &&
+            strncmp(screen->pass->slot, slot, prefix) == 0 && strcmp(screen->pass->slot + prefix, "screen_trace") == 0)
+            return glint_probe_value(screen, "finished") > 0;
+    }
+    return false;
 }
 
 /* An image of cube maps has no place in the picture, and the others no cube map. */
@@ -90,13 +99,17 @@ static void print_once(const struct probe_side *side, const struct glint_probe_r
 }
 
 static void print_records(const struct probe_side *side, const struct glint_pass *pass) {
-    const struct glint_probe_record *records = side->story.records;
+    const struct glint_probe_record *records = side->story.records, *before = NULL;
     size_t steps = 0;
     for (size_t i = 0, end; i < side->story.count; i = end) {
         end = i + 1;
         if (records[i].pass != pass) continue;
+        if (before ? before->ray != records[i].ray : records[i].ray > 0)
+            printf("  ray %u\n", records[i].ray), steps = 0;
+        before = &records[i];
         const bool step = is_step(records[i].kind);
-        while (step && end < side->story.count && records[end].pass == pass && records[end].kind == records[i].kind)
+        while (step && end < side->story.count && records[end].pass == pass && records[end].kind == records[i].kind &&
+               records[end].ray == records[i].ray)
             end++;
         printf("  %s%s\n", records[i].kind->text, step ? ":" : "");
         if (is_not_asked(side, &records[i])) printf("    nothing to do: the ray ended on screen\n");
@@ -147,8 +160,8 @@ static void print_side(const struct probe_side *side) {
 
 /* ---- Beside the reference ---- */
 
-static const char *ending(const struct probe_side *side, const char *kind, char *text, size_t size) {
-    const struct glint_probe_record *end = probe_last(side, kind);
+static const char *ending(const struct probe_side *side, const char *slot, const char *kind, char *text, size_t size) {
+    const struct glint_probe_record *end = probe_last(side, slot, kind);
     if (!end || is_not_asked(side, end)) return "–";
     const struct glint_probe_word why = glint_probe_word("end reason", glint_probe_value(end, "end"));
     const double place = (double)glint_probe_value(end, "place");
@@ -178,7 +191,9 @@ static void print_beside(const struct probe *probe) {
     for (int row = 0; row < 2; row++) {
         table_cell(table, row ? "in the cube maps" : "on screen");
         for (int s = 0; s < 2; s++)
-            table_cell(table, "%s", ending(sides[s], row ? "cubemap_end" : "screen_end", text, sizeof text));
+            table_cell(table, "%s",
+                       ending(sides[s], row ? "cubemap_trace" : "screen_trace", row ? "cubemap_end" : "screen_end",
+                              text, sizeof text));
     }
     for (size_t i = 0; colors[i]; i++) {
         table_cell(table, "%s", colors[i]);
@@ -193,13 +208,13 @@ void probe_print(const struct probe *probe) {
     printf("%s, pixel %u,%u of %u x %u, texel %u,%u of %u x %u, preset %s on %s\n", probe->capture, probe->pixel[0],
            probe->pixel[1], probe->full[0], probe->full[1], probe->texel[0], probe->texel[1], probe->half[0],
            probe->half[1], probe->preset, probe->device);
-    const struct glint_probe_record *ray = probe_last(&probe->own, "screen_ray");
+    const struct glint_probe_record *ray = probe_last(&probe->own, "screen_trace", "screen_ray");
     if (ray) {
         const double x = floor((double)glint_probe_value(ray, "start_x")),
                      y = floor((double)glint_probe_value(ray, "start_y"));
         if (x != probe->pixel[0] || y != probe->pixel[1])
             printf("The texel's ray is that of pixel %.0f,%.0f, which stands for its block.\n", x, y);
-    } else if (!probe_last(&probe->own, "cubemap_ray"))
+    } else if (!probe_last(&probe->own, "cubemap_trace", "cubemap_ray"))
         printf("The texel has no ray: it shows the sky, or a surface that reflects nothing.\n");
     print_side(&probe->own);
     if (probe->own.story.lost) printf("\n%zu more steps had no room.\n", probe->own.story.lost);
