@@ -120,7 +120,7 @@ static void print_records(const struct probe_side *side, const struct glint_pass
 }
 
 static void print_value(const struct probe_value *value) {
-    printf("  %-22s", value->row->name);
+    printf("  %-28s", value->row->name);
     const struct glint_probe_word word = glint_probe_word(value->row->unit, (float)value->values[0]);
     if (word.text) printf("  %s", word.text);
     const char *channel = value->row->kind == GLINT_ROW_CAPTURE ? value->row->source : value->row->channels;
