@@ -25,6 +25,8 @@
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LEVELS_BY(image, width, first, last, order)
 #define DISPATCH_LIST(list)
+#define DISPATCH_TILES(range)
+#define DISPATCH_TILES_BY(range, parameter)
 #define WORKGROUP(width, height)
 #define FACT(fact)
 #define PER_RAY

@@ -17,6 +17,8 @@
 #undef DISPATCH_LEVELS
 #undef DISPATCH_LEVELS_BY
 #undef DISPATCH_LIST
+#undef DISPATCH_TILES
+#undef DISPATCH_TILES_BY
 #undef WORKGROUP
 #undef FACT
 #undef PER_RAY
@@ -80,6 +82,9 @@
     {.kind = GLINT_ROW_DISPATCH_LEVELS, .id = __LINE__, .name = #image_, .assigned = #width_, .first = first_,   \
      .last = last_, .order = GLINT_ORDER_##order_},
 #define DISPATCH_LIST(list) {.kind = GLINT_ROW_DISPATCH_LIST, .id = __LINE__, .name = #list},
+#define DISPATCH_TILES(range) {.kind = GLINT_ROW_DISPATCH_TILES, .id = __LINE__, .name = #range},
+#define DISPATCH_TILES_BY(range, parameter) \
+    {.kind = GLINT_ROW_DISPATCH_TILES, .id = __LINE__, .name = #range, .image = #parameter},
 #define WORKGROUP(width, height) {.kind = GLINT_ROW_WORKGROUP, .id = __LINE__, .name = "", .first = width, .last = height},
 #define FACT(fact) {.kind = GLINT_ROW_FACT, .id = __LINE__, .name = #fact},
 #define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__, .name = ""},

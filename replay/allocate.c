@@ -8,7 +8,7 @@
 /* What is made from cube maps alone serves the next frame too, and lists are counted. */
 static bool is_transient(const struct run *run, const struct graph_image *image) {
     return run->options->outputs && image->source == SOURCE_MADE && !image->wanted && !image->kept &&
-           !image->pass->host && image->row->size != GLINT_SIZE_LIST && !run->graph.passes[image->maker].cached_work;
+           !size_is_buffer(image->row->size) && !image->pass->host && !run->graph.passes[image->maker].cached_work;
 }
 
 struct shared_block {

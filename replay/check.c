@@ -12,7 +12,7 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
                       struct faults *faults) {
     const bool array = size_is_array(image->size), cube = size_is_cube(image->size), layered = array || cube;
     const char *kind = binding->glsl, *is = NULL;
-    if (image->size == GLINT_SIZE_LIST) {
+    if (size_is_buffer(image->size)) {
         if (strcmp(kind, row_is_output(binding) ? "uimageBuffer" : "utextureBuffer") != 0)
             is = row_is_output(binding) ? "a list, to be written as uimageBuffer"
                                         : "a list, to be read as utextureBuffer";
@@ -33,7 +33,7 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
     const struct glint_row *dispatch = NULL; /* the last one */
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r], *own = pass_output(pass, row_image(row));
-        if ((row_is_output(row) || row->optional) && row->size == GLINT_SIZE_LIST &&
+        if ((row_is_output(row) || row->optional) && size_is_buffer(row->size) &&
             (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
                        pass->slot, pass->variant, row->name);

@@ -84,7 +84,7 @@ static bool lacks_cubemaps(const struct glint_pass *pass, const struct facts *fa
 
 static bool makes_list(const struct glint_pass *pass) {
     for (size_t r = 0; r < pass->row_count; r++)
-        if (row_is_output(&pass->rows[r]) && pass->rows[r].size == GLINT_SIZE_LIST) return true;
+        if (row_is_output(&pass->rows[r]) && size_is_buffer(pass->rows[r].size)) return true;
     return false;
 }
 

@@ -5,6 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+#define TILE_RANGE(name, first, end) RANGE_##name,
+#include "shared/tile_ranges.h"
+#undef TILE_RANGE
+    RANGES
+};
+static const char *const range_names[RANGES] = {
+#define TILE_RANGE(name, first, end) #name,
+#include "shared/tile_ranges.h"
+#undef TILE_RANGE
+};
+
 struct image *run_image(const struct run *run, const char *name) {
     const struct graph_image *image = graph_find(&run->graph, name);
     return image ? run->images[image - run->graph.images] : NULL;
@@ -23,14 +35,19 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
     const uint32_t *half = run->sizes.half;
     VkExtent3D extent = image_extent(&image->desc, level);
     struct workgroup group = pass_workgroup(step->pass->pass);
-    if (image->desc.buffer) {
+    const enum glint_size_class size = graph_find(&run->graph, image->name)->row->size;
+    if (size == GLINT_SIZE_TILES) {
+        extent = (VkExtent3D){tile_count(&run->sizes), 1, 1};
+        group = (struct workgroup){TILES_GROUP, 1};
+    } else if (image->desc.buffer) {
         extent = (VkExtent3D){half[0], half[1], 1};
         group = (struct workgroup){LIST_BLOCK, LIST_BLOCK};
     }
-    step->texels += dispatch_texels(run, &image->desc, level);
+    step->texels += dispatch_texels(run, &image->desc, size, level);
     step->dispatches[step->dispatch_count++] =
         (struct dispatch){.phase = phase,
                           .level = level,
+                          .tiles = ALL_TILES,
                           .groups = {(extent.width + group.width - 1) / group.width,
                                      (extent.height + group.height - 1) / group.height, image_layers(&image->desc)}};
 }
@@ -89,6 +106,48 @@ static size_t lists_after(const struct run *run, const struct glint_pass *pass, 
     return count;
 }
 
+static struct image *tile_list(const struct run *run, const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].optional && pass->rows[r].size == GLINT_SIZE_TILES &&
+            graph_find(&run->graph, pass->rows[r].name)->source == SOURCE_MADE)
+            return run_image(run, pass->rows[r].name);
+    return NULL;
+}
+
+/* The row DISPATCH_TILES that follows row `r`, when the list is there and the shader, maybe a user's, knows of tiles. */
+static const struct glint_row *tiles_after(const struct run *run, const struct step *step, size_t r) {
+    const struct glint_pass *pass = step->pass->pass;
+    if (!tile_list(run, pass) || !step->spirv.tiles) return NULL;
+    while (++r < pass->row_count && pass->rows[r].kind != GLINT_ROW_DISPATCH &&
+           pass->rows[r].kind != GLINT_ROW_DISPATCH_LEVELS)
+        if (pass->rows[r].kind == GLINT_ROW_DISPATCH_TILES) return &pass->rows[r];
+    return NULL;
+}
+
+/* Over the tiles of a range, and over the rest; where the list says with how many workgroups: shared/tile_list.glsl. */
+static bool add_tiles(const struct run *run, struct step *step, uint32_t phase, const struct image *image,
+                      const struct glint_row *row, struct glint_error *err) {
+    const struct workgroup group = pass_workgroup(step->pass->pass);
+    const uint32_t wide = tile_width(run, image);
+    const uint32_t groups = (wide / group.width) * (wide / group.height);
+    uint32_t range = 0;
+    while (range < RANGES && strcmp(range_names[range], row->name) != 0) range += 2;
+    if (range >= RANGES || groups == 0 || groups > 4 || groups == 3 || wide % group.width || wide % group.height)
+        return glint_fail(
+            err, GLINT_ERROR_USAGE,
+            "%s/%s: DISPATCH_TILES %s: expected a range of tiles, of %u x %u texels in 1, 2 or 4 workgroups",
+            step->pass->pass->slot, step->pass->pass->variant, row->name, wide, wide);
+    for (uint32_t rest = 0; rest < 2; rest++)
+        step->dispatches[step->dispatch_count++] =
+            (struct dispatch){.phase = phase,
+                              .list = tile_list(run, step->pass->pass),
+                              .from = 4 * (VkDeviceSize)(12 * (range + rest) + 4 * (groups / 2)),
+                              .tiles = range + rest,
+                              .over = image,
+                              .rest = rest};
+    return true;
+}
+
 bool step_plan(const struct run *run, struct step *step, struct glint_error *err) {
     const struct glint_pass *pass = step->pass->pass;
     step->dispatches = calloc(pass->row_count * LEVELS_MAX, sizeof *step->dispatches);
@@ -105,8 +164,11 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
         const size_t count = row->kind == GLINT_ROW_DISPATCH ? lists_after(run, pass, r, lists) : 0;
         for (size_t i = 0; i < count; i++)
             step->dispatches[step->dispatch_count++] =
-                (struct dispatch){.phase = phase + 1 + (uint32_t)i, .list = lists[i]};
-        if (row->kind == GLINT_ROW_DISPATCH && count == 0) add(run, step, phase, image, 0);
+                (struct dispatch){.phase = phase + 1 + (uint32_t)i, .list = lists[i], .tiles = ALL_TILES};
+        const struct glint_row *tiles =
+            row->kind == GLINT_ROW_DISPATCH && count == 0 ? tiles_after(run, step, r) : NULL;
+        if (tiles && !add_tiles(run, step, phase, image, tiles, err)) return false;
+        if (row->kind == GLINT_ROW_DISPATCH && count == 0 && !tiles) add(run, step, phase, image, 0);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(run, step, phase, row, image);
         phase++;
     }
@@ -187,13 +249,14 @@ void step_record(const struct run *run, struct step *step) {
         push[0] = dispatch->level; /* how push_begin.glsl opens the block */
         struct barriers barriers = {0};
         if (dispatch->list) image_access(dispatch->list, IMAGE_GROUPS, &barriers);
-        access_images(run, step->pass->pass, &barriers);
+        if (!dispatch->rest || pass_row(step->pass->pass, GLINT_ROW_SELF, NULL)) /* else it only writes other tiles */
+            access_images(run, step->pass->pass, &barriers);
         probes_access(step, &barriers);
         barriers_record(&barriers, device);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, dispatch->program->pipeline);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4, push);
-        if (dispatch->list) vkCmdDispatchIndirect(commands, dispatch->list->buffer, 0);
+        if (dispatch->list) vkCmdDispatchIndirect(commands, dispatch->list->buffer, dispatch->from);
         else vkCmdDispatch(commands, dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
     }
 }

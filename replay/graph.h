@@ -97,6 +97,7 @@ bool pass_remembers(const struct glint_pass *later, const struct glint_pass *ear
 bool size_is_cube(enum glint_size_class size);  /* one cube map or an array of them */
 bool size_is_array(enum glint_size_class size); /* with layers for each active cube map */
 bool size_has_levels(enum glint_size_class size);
+bool size_is_buffer(enum glint_size_class size); /* a list */
 
 /* order.c */
 /* The images a row reads: its own, and what that implies. */

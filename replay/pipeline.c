@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "faults.h"
+#include "graph.h"
 
 bool row_is_parameter(const struct glint_row *row) {
     return row->kind == GLINT_ROW_SPEC || row->kind == GLINT_ROW_CHOICE || row->kind == GLINT_ROW_PUSH;
@@ -300,14 +301,32 @@ double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct 
     return entry->values[parameter - pass->rows];
 }
 
-bool pipeline_shows_all(const struct glint_pipeline *pipeline) {
+static const double *value_of(const struct pipeline_pass *entry, const char *parameter) {
+    for (size_t r = 0; r < entry->pass->row_count; r++)
+        if (row_is_parameter(&entry->pass->rows[r]) && strcmp(entry->pass->rows[r].name, parameter) == 0)
+            return &entry->values[r];
+    return NULL;
+}
+
+void pipeline_classes(const struct glint_pipeline *pipeline, float *smooth, float *rough) {
+    *smooth = -1, *rough = INFINITY;
     for (size_t p = 0; p < pipeline->count; p++) {
         const struct glint_pass *pass = pipeline->passes[p].pass;
-        for (size_t r = 0; r < pass->row_count; r++)
-            for (size_t k = 0; pass->rows[r].kind == GLINT_ROW_SHOWS_ALL && k < pass->row_count; k++)
-                if (row_is_parameter(&pass->rows[k]) && strcmp(pass->rows[k].name, pass->rows[r].name) == 0 &&
-                    pipeline->passes[p].values[k] == 0)
-                    return true;
+        for (size_t r = 0; r < pass->row_count; r++) {
+            const struct glint_row *row = &pass->rows[r];
+            const double *limit =
+                row->kind == GLINT_ROW_DISPATCH_TILES && row->image ? value_of(&pipeline->passes[p], row->image) : NULL;
+            if (limit && strcmp(row->name, "smooth") == 0) *smooth = fmaxf(*smooth, (float)*limit);
+            if (limit && strcmp(row->name, "rough") == 0) *rough = fminf(*rough, (float)*limit);
+        }
+    }
+}
+
+bool pipeline_shows_all(const struct glint_pipeline *pipeline) {
+    for (size_t p = 0; p < pipeline->count; p++) {
+        const struct glint_row *row = pass_row(pipeline->passes[p].pass, GLINT_ROW_SHOWS_ALL, NULL);
+        const double *value = row ? value_of(&pipeline->passes[p], row->name) : NULL;
+        if (value && *value == 0) return true;
     }
     return false;
 }

@@ -29,6 +29,8 @@ bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char 
 
 /* Whether a pass of the pipeline shows the reflections of surfaces without specular and metal, too. */
 bool pipeline_shows_all(const struct glint_pipeline *pipeline);
+/* The largest roughness of a surface that some pass takes as smooth, and the least of a rough one: rows DISPATCH_TILES. */
+void pipeline_classes(const struct glint_pipeline *pipeline, float *smooth, float *rough);
 
 /* A whole text file of at most `limit` bytes, NUL-terminated. The caller frees it. */
 char *file_text(const char *path, size_t limit, struct glint_error *err);

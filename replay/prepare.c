@@ -60,6 +60,8 @@ static bool find_programs(struct glint_replay *replay, struct step *step, struct
     for (size_t d = 0; d < step->dispatch_count; d++) {
         struct dispatch *dispatch = &step->dispatches[d];
         constants.data[CONSTANT_PHASE] = dispatch->phase;
+        constants.data[PLACE_TILES] = dispatch->tiles;
+        constants.data[PLACE_WORKS] = !dispatch->rest;
         dispatch->program = programs_get(replay->device, step->pass->pass, &step->spirv, &constants, err);
         if (!dispatch->program) return false;
     }

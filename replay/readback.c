@@ -5,6 +5,7 @@
 
 #include <Imath/half.h>
 
+#include "shared/tile_list.h"
 #include "timing.h"
 
 static VkDeviceSize aligned(VkDeviceSize size) {
@@ -12,10 +13,14 @@ static VkDeviceSize aligned(VkDeviceSize size) {
 }
 
 /* What lies behind a list's header and its items means nothing, and shall be the same in every run. */
-static void blank_list(const struct image_desc *desc, uint32_t *words) {
-    const uint32_t end = desc->width * desc->height;
-    for (uint32_t i = 4; i < desc->width && i < end; i++) words[i] = UINT32_MAX;
-    for (uint64_t i = (uint64_t)desc->width + words[3]; i < end; i++) words[i] = UINT32_MAX;
+static void blank_list(const struct image *image, uint32_t *words) {
+    const uint32_t head = image->desc.width, end = head * image->desc.height;
+    const bool tiles = image->levels[0].info.row->size == GLINT_SIZE_TILES;
+    for (uint32_t i = 4; i < head && !tiles; i++) words[i] = UINT32_MAX;
+    const uint64_t items = !tiles       ? words[3]
+                           : end > head ? (uint64_t)words[TILE_RANGES + 1] + words[TILE_RANGES + 3]
+                                        : 0;
+    for (uint64_t i = head + items; i < end; i++) words[i] = UINT32_MAX;
 }
 
 bool readback_images(struct glint_replay *replay, const struct image_part *parts, size_t count,
@@ -36,8 +41,7 @@ bool readback_images(struct glint_replay *replay, const struct image_part *parts
     record_host_barrier(replay->device);
     bool ok = device_submit(replay->device, "reading images back", err);
     for (size_t i = 0; ok && i < count; i++)
-        if (parts[i].image->desc.buffer)
-            blank_list(&parts[i].image->desc, (uint32_t *)((char *)buffer->map + offsets[i]));
+        if (parts[i].image->desc.buffer) blank_list(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));
     replay->seconds[PHASE_READBACK] += now_seconds() - start;
     return ok;
 }

@@ -18,7 +18,7 @@ static json_t *work_record(const struct run *run, size_t p) {
     json_t *work = json_pack("{sIsI}", "texels", (json_int_t)(step->texels * rays), "of",
                              (json_int_t)run->replay->results[p].texels);
     for (size_t d = 0; d < step->dispatch_count; d++) {
-        if (!step->dispatches[d].list) continue;
+        if (!step->dispatches[d].list || step->dispatches[d].tiles != ALL_TILES) continue;
         if (!json_object_get(work, "lists")) json_object_set_new(work, "lists", json_object());
         json_object_set_new(json_object_get(work, "lists"), step->dispatches[d].list->name, json_null());
     }

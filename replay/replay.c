@@ -148,6 +148,9 @@ bool run_work(struct run *run, struct glint_error *err) {
     run->block.flags.w = run->pipeline->first_ray;
     run->block.up.w = options->float_precision ? INFINITY : HALF_LARGEST;
     run->block.work = (uvec4){options->all, pipeline_shows_all(run->pipeline), 0, 0};
+    float classes[2];
+    pipeline_classes(run->pipeline, &classes[0], &classes[1]);
+    memcpy(&run->block.work.z, classes, sizeof classes);
     if (mirror) frame_block_mirror(&run->block, glint_capture_frame(replay->capture), &mirror->planar);
     if (!run_allocate(run, err)) return false;
     if (options->cache && !replay_hash(replay, run->content, NULL)) run->content[0] = 0;
@@ -157,7 +160,7 @@ bool run_work(struct run *run, struct glint_error *err) {
     run_decide(run);
     if (!run_put_aside(run, err) || !run_upload(run, err)) return false;
     start = now_seconds();
-    bool ok = run_prepare(run, err) && run_execute(run, err) && probes_finish(run, err);
+    bool ok = run_prepare(run, err) && run_execute(run, err) && run_count_tiles(run, err) && probes_finish(run, err);
     replay->seconds[PHASE_PASSES] += now_seconds() - start;
     return ok;
 }

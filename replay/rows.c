@@ -29,6 +29,10 @@ bool size_has_levels(enum glint_size_class size) {
            size == GLINT_SIZE_SKY_MIPS || size == GLINT_SIZE_PARABOLOIDS_MIPS || size == GLINT_SIZE_HALF_MIPS3;
 }
 
+bool size_is_buffer(enum glint_size_class size) {
+    return size == GLINT_SIZE_LIST || size == GLINT_SIZE_TILES;
+}
+
 bool list_has(const char *const *list, const char *name) {
     for (; list && *list; list++)
         if (strcmp(*list, name) == 0) return true;

@@ -102,10 +102,11 @@ bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipel
     struct glint_error own = {0};
     char *code = entry->shader ? shader_flatten(entry->shader, pass->slot, shaders->folder, &own)
                                : shader_flatten_pass(pass, shaders->folder, &own);
-    *spirv = (struct spirv){.words = pass->spirv, .bytes = pass->spirv_bytes};
+    *spirv = (struct spirv){.words = pass->spirv, .bytes = pass->spirv_bytes, .tiles = true};
     if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
     if (code) {
         spirv->from = entry->shader ? entry->shader : shaders->folder;
+        spirv->tiles = strstr(code, "tile_texel(") != NULL;
         const bool ok = find_compiled(spirv, shaders, spirv->from, code, err);
         free(code);
         if (!ok || !spirv_check_bindings(spirv, pass, spirv->from, err)) return false;

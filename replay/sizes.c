@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shared/tile_list.h"
+
 /* Width and height of an image whose contents already exist; false for one that will be made on the device. */
 static bool existing_size(const struct run *run, const struct graph_image *image, uint32_t size[2]) {
     const struct glint_table *table = tables_find(&run->tables, image->name);
@@ -49,6 +51,12 @@ static bool traces_all_pixels(const struct glint_pipeline *pipeline) {
     return false;
 }
 
+uint32_t tile_width(const struct run *run, const struct image *over) {
+    return over->desc.width == run->sizes.full[0] ? TILE : TILE / 2;
+}
+uint32_t tile_count(const struct frame_sizes *sizes) {
+    return (sizes->full[0] + TILE - 1) / TILE * ((sizes->full[1] + TILE - 1) / TILE);
+}
 uint32_t list_blocks(const struct frame_sizes *sizes) {
     return (sizes->half[0] + LIST_BLOCK - 1) / LIST_BLOCK * ((sizes->half[1] + LIST_BLOCK - 1) / LIST_BLOCK);
 }
@@ -100,10 +108,10 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
                                 .layers = layers,
                                 .cube = cube,
                                 .levels = 1,
-                                .buffer = row->size == GLINT_SIZE_LIST};
+                                .buffer = size_is_buffer(row->size)};
     if (run->options->float_precision) desc->format = format_widened(row->format);
     if (image->source == SOURCE_NOTHING && !image->blank) {
-        if (row->size == GLINT_SIZE_LIST) desc->width = LIST_WIDTH; /* the header is there */
+        if (desc->buffer) desc->width = LIST_WIDTH; /* the header is there */
         return true;
     }
     uint32_t expected[2] = {0, 0}, found[2];
@@ -148,6 +156,10 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         break;
     case GLINT_SIZE_PLANAR:
         expected[0] = sizes->planar[0], expected[1] = sizes->planar[1];
+        break;
+    case GLINT_SIZE_TILES:
+        expected[0] = LIST_WIDTH; /* behind the tiles their kinds */
+        expected[1] = 1 + (2 * tile_count(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
         break;
     case GLINT_SIZE_LIST:
         expected[0] = LIST_WIDTH; /* behind the items a maker notes marks and a count of each block (compact.glsl) */

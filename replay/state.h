@@ -15,6 +15,7 @@
 
 enum {
     LIST_WIDTH = 256,
+    TILES_GROUP = 256 /* of a maker's workgroup */,
     LIST_ITEMS = 64 /* of a workgroup */,
     LIST_BLOCK = 32 /* pixels across, of a maker's workgroup */,
     COCOON_SIZE = 32 /* shared/cocoon.glsl */,
@@ -64,16 +65,20 @@ struct glint_replay {
 /* One dispatch of a pass. */
 struct dispatch {
     uint32_t phase, level, groups[3];
-    struct program *program; /* of the phase */
+    struct program *program; /* of the phase and the tiles */
     VkDescriptorSet set;     /* with this level of what the pass writes */
-    struct image *list;      /* whose header says how many groups; NULL: `groups` */
+    struct image *list;      /* that says how many groups, from this byte on; NULL: `groups` */
+    VkDeviceSize from;
+    uint32_t tiles;           /* GLINT_ROW_DISPATCH_TILES: the range that it is over; ALL_TILES */
+    const struct image *over; /* and the image */
+    bool rest;                /* where the pass has nothing to do; beside the dispatch before it */
 };
 
 /* One pass of a run on the device. */
 struct step {
     const struct graph_pass *pass;
     struct spirv spirv;
-    struct constants constants;  /* but for the phase */
+    struct constants constants;  /* but for what changes with the dispatch */
     struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
     size_t dispatch_count;
     uint64_t texels; /* that they go over, lists apart */
@@ -131,6 +136,9 @@ bool run_sizes(struct run *run, struct glint_error *err);
 bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
                         struct glint_error *err);
 
+uint32_t tile_width(const struct run *run,
+                    const struct image *over); /* in texels of an image over all of the picture */
+uint32_t tile_count(const struct frame_sizes *sizes);
 uint32_t list_blocks(const struct frame_sizes *sizes);
 uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */
 
@@ -185,7 +193,9 @@ struct whole_work {
     uint64_t texels; /* rays included; 0 where it is not known */
     bool cached_work;
 };
-uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, uint32_t level);
+uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, enum glint_size_class size,
+                         uint32_t level);
+bool run_count_tiles(struct run *run, struct glint_error *err); /* adds those of tiles to the steps' texels */
 uint64_t pass_rays(const struct graph_pass *pass, const struct glint_pipeline *pipeline);
 void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                        const struct glint_replay_options *options, struct glint_run *inputs, struct whole_work *work);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shared/tile_list.h"
+
 /* Of all dispatches when nothing is left out. */
 static uint64_t texels_of(const struct run *run, const struct graph_pass *entry, struct glint_error *err) {
     const struct glint_pass *pass = entry->pass;
@@ -18,13 +20,16 @@ static uint64_t texels_of(const struct run *run, const struct graph_pass *entry,
             !run_describe_image(run, &image, &desc, err))
             return 0;
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(entry, row, &desc, &first, &last)) continue;
-        for (uint32_t level = first; level <= last; level++) texels += dispatch_texels(run, &desc, level);
+        for (uint32_t level = first; level <= last; level++)
+            texels += dispatch_texels(run, &desc, image.row->size, level);
     }
     return texels;
 }
 
-uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, uint32_t level) {
+uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, enum glint_size_class size,
+                         uint32_t level) {
     const VkExtent3D extent = image_extent(desc, level);
+    if (size == GLINT_SIZE_TILES) return tile_count(&run->sizes);
     if (desc->buffer) return (uint64_t)run->sizes.half[0] * run->sizes.half[1];
     return (uint64_t)extent.width * extent.height * image_layers(desc);
 }
@@ -52,6 +57,42 @@ void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline 
     tables_finish(&run.tables);
     graph_finish(&run.graph);
     free(run.active);
+}
+
+/* Tiles at the picture's border are cut off there. */
+static uint64_t count_tiles(const struct run *run, const struct dispatch *dispatch, const uint32_t *words) {
+    const uint32_t total = tile_count(&run->sizes), *range = words + TILE_RANGES + 2 * dispatch->tiles;
+    const uint32_t width = dispatch->over->desc.width, height = dispatch->over->desc.height;
+    const uint32_t wide = tile_width(run, dispatch->over);
+    uint64_t texels = 0;
+    for (uint32_t i = 0; i < range[1]; i++) {
+        const uint32_t tile = words[TILE_ITEMS + (range[0] + i) % total];
+        const uint32_t left = width - wide * (tile & 0xFFFF), below = height - wide * (tile >> 16);
+        texels += (uint64_t)(left < wide ? left : wide) * (below < wide ? below : wide);
+    }
+    return texels;
+}
+
+static struct image *list_of_tiles(const struct run *run) {
+    for (size_t i = 0; i < run->graph.image_count; i++)
+        if (run->graph.images[i].row->size == GLINT_SIZE_TILES && run->graph.images[i].source == SOURCE_MADE &&
+            run->images[i]->key == run->keys[i])
+            return run->images[i];
+    return NULL;
+}
+
+bool run_count_tiles(struct run *run, struct glint_error *err) {
+    struct image *list = list_of_tiles(run);
+    struct host_buffer buffer = {0};
+    VkDeviceSize offset;
+    if (!list) return true;
+    const bool ok = readback_images(run->replay, &(struct image_part){list, 0}, 1, &buffer, &offset, err);
+    for (size_t p = 0; ok && p < run->graph.pass_count; p++)
+        for (size_t d = 0; d < run->steps[p].dispatch_count; d++)
+            if (run->steps[p].dispatches[d].list == list && !run->steps[p].dispatches[d].rest)
+                run->steps[p].texels += count_tiles(run, &run->steps[p].dispatches[d], buffer.map);
+    host_buffer_finish(&buffer, run->replay->device);
+    return ok;
 }
 
 /* Of a list: its items without what fills it up. */

@@ -9,6 +9,7 @@
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
 #include "shared/reuse.glsl"
+#include "shared/tiles.glsl"
 
 // Level 0 is the image, weighted by whether there is a ray; a coarser level the mean of the finer one's texels.
 vec4 level_texel(ivec2 pixel, ivec2 size) {
@@ -33,7 +34,7 @@ float radius_px(ivec2 pixel, float depth_m) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (dispatch_phase == 0u) {
         ivec2 size = imageSize(reflection_mips);
         if (all(lessThan(pixel, size))) imageStore(reflection_mips, pixel, level_texel(pixel, size));
@@ -43,7 +44,8 @@ void main() {
     if (any(greaterThanEqual(pixel, size))) return;
     vec4 color = texelFetch(reflection_half, pixel, 0);
     float depth_m = texelFetch(depth_half, pixel, 0).x;
-    if (reflects(depth_m, texelFetch(normal_half, pixel, 0).xyz)) {
+    bool shown = is_pick_shown(texelFetch(pick, pixel, 0).x);
+    if (tile_works && shown && reflects(depth_m, texelFetch(normal_half, pixel, 0).xyz)) {
         // A bilinear tap of level k is about as wide as a disc of radius 2^k texels.
         float level = log2(max(radius_px(pixel, depth_m), 1.0));
         vec2 uv = (vec2(pixel) + 0.5) / vec2(size);

@@ -9,5 +9,6 @@ WRITE(image2D, reflection_mips, RGBA16F, "radiance", HALF_MIPS, "R G B weight", 
 SELF(texture2D, chain, reflection_mips)
 DISPATCH_LEVELS(reflection_mips, 0, -1, down)
 DISPATCH(reflection_blurred)
+DISPATCH_TILES(shown)
 SPEC(bool,  filter_color, true, 0,    1,   "1", "glint", "between levels and texels; off: the nearest of both")
 PUSH(float, widest,       0.25, 0.0,  1.0, "1", "000, Mafia III approach", "largest kernel, as a part of the picture's width; 0: no blur")

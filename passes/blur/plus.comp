@@ -8,16 +8,17 @@
 };
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
+#include "shared/tiles.glsl"
 #include "probe/tell.glsl"
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(reflection_blurred)))) return;
     vec4 color = texelFetch(reflection_half, pixel, 0);
     Surface center = surface_at(pixel);
     probe_texel(pixel);
     // A surface that shares nothing keeps what it has, whatever that is: as if this pass were not there.
-    bool shares = center.normal.w >= fade_from && fade(center.normal.w, fade_from, fade_to) > 0.0 &&
+    bool shares = tile_works && center.shown && center.normal.w >= fade_from && fade(center.normal.w, fade_from, fade_to) > 0.0 &&
                   reflects(center.depth_m, center.normal.xyz);
     float total = 1.0;
     if (shares && !finite(color)) color = vec4(total = 0.0);

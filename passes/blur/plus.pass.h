@@ -6,3 +6,4 @@ SPEC(bool, brdf, true, 0, 1, "1", "000, Neighbor sample reuse", "weigh neighbour
 #include "shared/reuse_rows.h"
 NEEDS_BY(rough, fade_from)
 DISPATCH(reflection_blurred)
+DISPATCH_TILES_BY(rough, fade_from)

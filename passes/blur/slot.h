@@ -6,5 +6,6 @@ READ(texture2D, depth_half)
 READ(texture2D, normal_half)
 READ(utexture2D, pick)
 WRITE(image2D, reflection_blurred, RGBA16F, "radiance", HALF, "R G B A", -1, "reflection_half with what its neighbours found")
+#include "shared/tile_rows.h"
 NEEDS(reflecting)
 REFERENCE_NONE("rays of a pixel share nothing with those of its neighbours")

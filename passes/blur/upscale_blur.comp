@@ -11,6 +11,7 @@
 #include "shared/edges.glsl"
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
+#include "shared/tiles.glsl"
 
 const uint DOWN = 0u, ALONG_ROWS = 1u, ALONG_COLUMNS = 2u, FINER = 3u, FINEST = 4u; // dispatch phases
 
@@ -158,12 +159,16 @@ vec4 with_coarser(ivec2 texel, int level, vec4 own) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = tile_texel(reduction(frame.size));
     int level = int(dispatch_level);
     ivec2 size = dispatch_phase == ALONG_ROWS ? imageSize(reflection_across)
                  : dispatch_phase == FINEST   ? imageSize(reflection_blurred)
                                               : imageSize(reflection_levels);
     if (any(greaterThanEqual(texel, size))) return;
+    if (!tile_works) {
+        imageStore(reflection_blurred, texel, vec4(0.0));
+        return;
+    }
     if (dispatch_phase == DOWN) {
         imageStore(reflection_levels, texel, level == 0 ? finest(texel) : coarser(texel, level));
     } else if (dispatch_phase == ALONG_ROWS) {

@@ -8,6 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#include "shared/tiles.glsl"
 #include "probe/tell.glsl"
 
 // How much of the reflection the surface sends to the viewer.
@@ -33,12 +34,12 @@ vec3 reflected_color(ivec2 pixel) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(composed)))) return;
     vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (fact_reflecting && reflects(depth_m, surface.xyz)) {
+    if (fact_reflecting && tile_works && reflects(depth_m, surface.xyz)) {
         vec3 weight = intensity * weight_of(pixel, depth_m, surface);
         probe_pixel(pixel);
         probe(PROBE_reflectance, vec4(weight, 0.0));

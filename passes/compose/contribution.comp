@@ -8,6 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#include "shared/tiles.glsl"
 
 // How much of the reflection the surface sends to the viewer.
 vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
@@ -32,11 +33,11 @@ vec3 blended(ivec2 pixel, float depth_m, vec4 surface, vec3 below) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(composed)))) return;
     vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (fact_reflecting && reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
+    if (fact_reflecting && tile_works && reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
     imageStore(composed, pixel, vec4(color, 1.0));
 }

@@ -14,3 +14,5 @@ FACT(fresnel)
 FACT(reflecting)
 WRITE(image2D, composed, RGBA16F, "radiance", FULL, "R G B A", 0, "lit plus the last reflection image times the environment BRDF; a: 1")
 DISPATCH(composed)
+DISPATCH_TILES(shown)
+#include "shared/tile_rows.h"

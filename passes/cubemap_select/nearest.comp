@@ -8,15 +8,16 @@
 };
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
+#include "shared/tiles.glsl"
 
 void main() {
     load_active_centers();
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
     uint best = 255u;
-    if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal)) {
+    if (tile_works && texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal)) {
         vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
         vec3 position = mat3(frame.world_from_view) *
                         view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);

@@ -8,6 +8,7 @@
 };
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
+#include "shared/tiles.glsl"
 #include "shared/work_list.glsl"
 
 // Each term lies in [0, 1]. What cannot beat `least` is not looked at in the cube map.
@@ -44,10 +45,11 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 size = imageSize(cubemap_best), pixel = own_pixel(size);
+    ivec2 size = imageSize(cubemap_best);
+    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
     float depth_m;
     vec3 normal;
-    bool traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    bool traced = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
     if (!traced && inside(pixel, size)) imageStore(cubemap_best, pixel, uvec4(255u));
     if (has_list()) {
         pixel = listed_pixel(cubemap_list);

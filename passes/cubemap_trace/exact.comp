@@ -9,6 +9,7 @@
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
+#include "shared/tiles.glsl"
 #include "cubemap_trace/place.glsl"
 #include "cubemap_trace/probe.glsl"
 #include "cubemap_trace/texels.glsl"
@@ -278,14 +279,14 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
 
 void main() {
     load_active_centers();
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec4 normal = texelFetch(normal_jittered, pixel, 0);
     float start_m = texelFetch(screen_travelled, pixel, 0).x;
     Result result = Result(start_m, NO_PLACE, END_not_traced, 0u, 0u);
     probe_texel(pixel);
-    if (texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal.xyz)) {
+    if (tile_works && texelFetch(screen_finished, pixel, 0).x == 0u && reflects(depth_m, normal.xyz)) {
         vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
         vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec3 direction = mirror_direction(origin, normal.xyz);

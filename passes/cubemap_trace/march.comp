@@ -7,6 +7,7 @@
 #include "march.pass.h"
 };
 #include "cubemap_trace/march.glsl"
+#include "shared/tiles.glsl"
 #include "shared/work_list.glsl"
 
 Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
@@ -38,10 +39,11 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec4 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 size = imageSize(travelled), pixel = own_pixel(size);
+    ivec2 size = imageSize(travelled);
+    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
     float depth_m;
     vec4 normal;
-    bool traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    bool traced = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
     if (!traced && inside(pixel, size))
         store(pixel, Result(texelFetch(screen_travelled, pixel, 0).x, NO_PLACE, END_not_traced, 0u, 0u));
     if (has_list()) {

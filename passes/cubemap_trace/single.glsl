@@ -3,6 +3,7 @@
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
+#include "shared/tiles.glsl"
 #include "shared/work_list.glsl"
 #include "cubemap_trace/place.glsl"
 #include "cubemap_trace/probe.glsl"
@@ -48,10 +49,11 @@ Result traced(ivec2 pixel, float depth_m, vec3 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 size = imageSize(travelled), pixel = own_pixel(size);
+    ivec2 size = imageSize(travelled);
+    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
     float depth_m;
     vec3 normal;
-    bool has = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    bool has = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
     if (!has && inside(pixel, size))
         store(pixel, Result(texelFetch(screen_travelled, pixel, 0).x, NO_PLACE, END_not_traced, 0u));
     if (has_list()) {

@@ -16,5 +16,7 @@ DIAGNOSTIC(uimage2D, cubemap_end, R8UI, "end reason", HALF, "reason", 0, "why th
 DIAGNOSTIC(uimage2D, cubemap_steps, R32UI, "steps", HALF, "steps", 0, "steps taken, refinements and switches included")
 DIAGNOSTIC(uimage2D, cubemap_fetches, R32UI, "fetches", HALF, "fetches", 0, "texture fetches made")
 DISPATCH(travelled)
+DISPATCH_TILES(shown)
 NEEDS(reflecting)
 PER_RAY
+#include "shared/tile_rows.h"

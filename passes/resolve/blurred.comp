@@ -8,6 +8,7 @@
 };
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
+#include "shared/tiles.glsl"
 
 // 1 from `full` on, 0 up to `none`, which may lie on either side; equal: a step.
 float fade(float none, float full, float at) {
@@ -73,12 +74,12 @@ End end_of(ivec2 pixel, float depth_m, vec3 normal) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
     End end = End(vec4(0.0), vec4(0.0));
-    if (reflects(depth_m, normal)) end = end_of(pixel, depth_m, normal);
+    if (tile_works && reflects(depth_m, normal)) end = end_of(pixel, depth_m, normal);
     imageStore(reflection_half, pixel, end.color);
     float part = end.attenuation.x * end.attenuation.y * end.attenuation.z * end.attenuation.w;
     imageStore(contribution, pixel, vec4(is_pick_shown(texelFetch(pick, pixel, 0).x) ? part : 0.0));

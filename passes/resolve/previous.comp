@@ -7,6 +7,7 @@
 #include "previous.pass.h"
 };
 #include "resolve/before.glsl"
+#include "shared/tiles.glsl"
 
 vec4 reflected_color(ivec2 pixel, float depth_m, vec3 normal) {
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
@@ -23,12 +24,12 @@ vec4 reflected_color(ivec2 pixel, float depth_m, vec3 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;
     if (diagnostics) imageStore(previous_source, pixel, uvec4(0u));
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
     probe_texel(pixel);
-    vec4 color = reflects(depth_m, normal) ? reflected_color(pixel, depth_m, normal) : vec4(0.0);
+    vec4 color = tile_works && reflects(depth_m, normal) ? reflected_color(pixel, depth_m, normal) : vec4(0.0);
     imageStore(reflection_half, pixel, color);
 }

@@ -6,6 +6,8 @@ READ(texture2D, normal_jittered)
 READ(utexture2D, pick)
 WRITE(image2D, reflection_half, RGBA16F, "radiance", HALF, "R G B A", 0, "rgb: radiance that arrives along the ray; a: 1 where a source was found")
 DISPATCH(reflection_half)
+DISPATCH_TILES(shown)
 NEEDS(reflecting)
 PER_RAY
+#include "shared/tile_rows.h"
 ACCUMULATE(reflection_half)

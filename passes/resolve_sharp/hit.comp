@@ -10,6 +10,7 @@
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
 #include "shared/shown.glsl"
+#include "shared/tiles.glsl"
 
 // The texel whose ray is taken: upscale's choice, else the pixel's own.
 ivec2 ray_texel(ivec2 pixel) {
@@ -25,14 +26,14 @@ bool has_ray(ivec2 texel) {
 
 void main() {
     load_active_centers();
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(reflection_sharp)))) return;
     vec4 color = texelFetch(reflection, pixel, 0), surface = texelFetch(normal_full, pixel, 0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     ivec2 texel = ray_texel(pixel);
     probe_pixel(pixel);
-    bool sharpened = roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);
+    bool sharpened = tile_works && roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);
     if (sharpened && has_ray(texel)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);

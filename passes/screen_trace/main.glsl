@@ -1,5 +1,6 @@
 // Every pixel that has a ray, over a list or without one, for a variant that defines
 // Result trace(ivec2 pixel, float depth_m, vec3 normal).
+#include "shared/tiles.glsl"
 #include "shared/work_list.glsl"
 
 void store(ivec2 pixel, Result result) {
@@ -21,10 +22,11 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
 }
 
 void main() {
-    ivec2 size = imageSize(screen_travelled), pixel = own_pixel(size);
+    ivec2 size = imageSize(screen_travelled);
+    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
     float depth_m;
     vec3 normal;
-    bool traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    bool traced = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
     if (!traced && inside(pixel, size)) store(pixel, Result(0.0, false, END_not_traced, 0u, 0u));
     if (has_list()) {
         pixel = listed_pixel(screen_list);

@@ -12,6 +12,8 @@ DIAGNOSTIC(uimage2D, screen_fetches, R32UI, "fetches", HALF, "fetches", 0, "text
 DISPATCH(screen_travelled)
 OPTIONAL_READ(utextureBuffer, screen_list, R32UI, LIST, 0xFFFFFFFFu)
 DISPATCH_LIST(screen_list)
+DISPATCH_TILES(shown)
 OPTIONAL_READ(utexture2D, screen_rejected, R8UI, HALF, 0)
 NEEDS(reflecting)
 PER_RAY
+#include "shared/tile_rows.h"

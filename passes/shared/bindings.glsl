@@ -22,6 +22,11 @@
 // have at least as many workgroups as HALF has tiles. See work_list.glsl.
 // More rows DISPATCH_LIST may follow, for several lists of one pass; each is a phase.
 //
+// DISPATCH_TILES(range), behind a DISPATCH, has the pass run over the tiles of tile_list instead, where a pass made that: over
+// those of that range (shared/tile_ranges.h), and with tile_works false over the rest, to write what images hold there. See
+// tiles.glsl. DISPATCH_TILES_BY(smooth or rough, parameter): the parameter is the largest roughness of a smooth surface, or
+// the least of a rough one.
+//
 // PASSES_ON(image, from) says that the pass, where its facts do not hold, would make the image of what it reads as it is: dropped,
 // it is remembered as that. Of several rows the first whose image is made counts.
 // FACT(name) gives a constant fact_NAME: false when the survey has found that the frame has nothing of the kind, so that the
@@ -35,6 +40,9 @@ layout(constant_id = 0) const bool diagnostics = false;
 layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (probe/tell.glsl)
 layout(constant_id = 3) const bool halves = true; // images declared as halves are that, and not floats instead
 layout(constant_id = 4) const uint dispatch_phase = 0u;
+const uint ALL_TILES = 0xFFFFFFFFu; // no list of tiles: all of the image
+layout(constant_id = 997) const uint tile_range = ALL_TILES; // of tile_ranges.h, that the dispatch is over
+layout(constant_id = 998) const bool tile_works = true;      // false: over the rest, where the pass has nothing to do
 #define PASS(title, source)
 #define SLOT(title)
 #define READ(kind, name) layout(set = 0, binding = __LINE__) uniform kind name;
@@ -63,6 +71,8 @@ layout(constant_id = 4) const uint dispatch_phase = 0u;
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LEVELS_BY(image, width, first, last, order)
 #define DISPATCH_LIST(list)
+#define DISPATCH_TILES(range)
+#define DISPATCH_TILES_BY(range, parameter)
 #define WORKGROUP(width, height)
 #define FACT(fact) layout(constant_id = __LINE__) const bool fact_##fact = true;
 #define PER_RAY

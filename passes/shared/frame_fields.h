@@ -13,7 +13,7 @@ FIELD(vec4,  up,                       "xyz: unit up axis; w: largest colour tha
 FIELD(uvec4, size,                     "xy: full resolution; zw: pipeline's half resolution")
 FIELD(uvec4, counts,                   "x: active cube maps; y: frame number; z: cube face size; w: sky face size, 0 without a sky")
 FIELD(uvec4, flags,                    "x: 1 when history is valid (HISTORY rows hold the previous frame); y: 1 after a cut; z: chain length; w: number of the ray, from pipeline.first_ray")
-FIELD(uvec4, work,                 "x: 1 when rays are traced even where the picture shows no reflection; y: 1 when it shows every surface's, whatever the material; zw: 0")
+FIELD(uvec4, work,                 "x: 1 when rays are traced even where the picture shows no reflection; y: 1 when it shows every surface's, whatever the material; z: largest roughness of a surface that some pass takes as smooth, w: least of a rough one, as bits of a float")
 FIELD(uvec4, foreground,           "stencil ids with (id & y) == x are of the class `foreground`; z: 1 when the capture has such a class; w: 0")
 FIELD(mat4,  mirror_uv_from_world, "camera-relative world to (u, v, 1, 1) times the depth in m that the planar map's camera has it at; 0 without a planar map")
 FIELD(vec4,  mirror_plane,         "xyz: unit normal of the planar map's mirror; w: n·p + w = 0 on it, camera-relative world in m")

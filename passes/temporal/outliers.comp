@@ -8,6 +8,7 @@
 };
 #include "shared/neighbour.glsl"
 #include "temporal/history.glsl"
+#include "shared/tiles.glsl"
 
 const ivec2 BESIDE[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
 
@@ -37,14 +38,14 @@ float around(ivec2 texel, Surface center) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(reflection_temporal)))) return;
     vec4 color = current_color(pixel);
     Surface center = surface_at(pixel);
     probe_texel(pixel);
     float age = finite(color) ? 1.0 : 0.0;
     if (age == 0.0) color = vec4(0.0);
-    if (reflects(center.depth_m, center.normal.xyz)) {
+    if (tile_works && center.shown && reflects(center.depth_m, center.normal.xyz)) {
         float bright = luminance(color.rgb), most = outlier < 1e6 ? outlier * around(pixel, center) : -1.0;
         // A mirror shows small bright things as they are.
         most = mix(bright, most, fade(center.normal.w, fade_from, fade_to));

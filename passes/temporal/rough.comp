@@ -9,6 +9,7 @@
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
 #include "temporal/history.glsl"
+#include "shared/tiles.glsl"
 
 vec4 current_color(ivec2 texel) {
     return has_reflection_blurred ? texelFetch(reflection_blurred, texel, 0) : texelFetch(reflection_half, texel, 0);
@@ -32,7 +33,7 @@ vec4 with_extra(ivec2 pixel, Surface center, vec4 color, inout float samples) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(reflection_temporal)))) return;
     vec4 color = current_color(pixel);
     Surface center = surface_at(pixel);
@@ -41,7 +42,7 @@ void main() {
     if (!(center.normal.w < least_roughness)) { // a smoother surface keeps what it has, as if this pass were not there
         age = finite(color) ? 1.0 : 0.0;
         if (age == 0.0) color = vec4(0.0);
-        if (reflects(center.depth_m, center.normal.xyz)) {
+        if (tile_works && center.shown && reflects(center.depth_m, center.normal.xyz)) {
             Past past = past_of(pixel, center);
             if (past.age == 0.0 && extra) color = with_extra(pixel, center, color, age);
             color = joined(past, color, age);

@@ -10,5 +10,6 @@ READ(texture2D, travelled)
 READ(texture2D, motion_full)
 WRITE(image2D, reflection_temporal, RGBA16F, "radiance", HALF, "R G B A", -1, "the mean of this frame's reflection and of those before it")
 DISPATCH(reflection_temporal)
+#include "shared/tile_rows.h"
 NEEDS(reflecting)
 REFERENCE_NONE("a frame has rays enough of its own")

@@ -9,6 +9,7 @@
 #include "shared/reproject.glsl"
 #include "shared/reuse.glsl"
 #include "shared/shown.glsl"
+#include "shared/tiles.glsl"
 #include "probe/tell.glsl"
 
 vec4 current_color(ivec2 pixel) {
@@ -46,12 +47,12 @@ float travelled_at(ivec2 texel) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(reflection_stable)))) return;
     vec4 color = current_color(pixel), surface = texelFetch(normal_full, pixel, 0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
-    bool steadied = roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);
+    bool steadied = tile_works && roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);
     if (steadied && frame.flags.x != 0u && frame.flags.y == 0u && history > 0.0) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);

@@ -4,6 +4,7 @@ PASS("Variance-clamped history", "000, Temporal filter")
 #include "slot.h"
 WORKGROUP(8, 16)
 #line 202
+DISPATCH_TILES_BY(smooth, sharp_roughness)
 HISTORY(texture2D, previous_stable, reflection_stable)
 NEEDS(history)
 PASSES_ON(reflection_stable, reflection_sharp)

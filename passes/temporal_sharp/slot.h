@@ -10,6 +10,7 @@ READ(texture2D, travelled)
 OPTIONAL_READ(utexture2D, pick, R8UI, HALF, 4)
 WRITE(image2D, reflection_stable, RGBA16F, "radiance", FULL, "R G B A", -1, "reflection_sharp with what earlier frames had of smooth surfaces; a: 0 where no frame found a source, which is no history")
 DISPATCH(reflection_stable)
+#include "shared/tile_rows.h"
 NEEDS(reflecting)
 REFERENCE_NONE("a frame has rays enough of its own")
 REFERENCE_WITH(resolve_sharp, "it steadies what resolve_sharp draws")

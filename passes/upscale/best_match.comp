@@ -7,17 +7,19 @@
 #include "best_match.pass.h"
 };
 #include "shared/camera.glsl"
+#include "shared/shown.glsl"
+#include "shared/tiles.glsl"
 #include "upscale/source.glsl"
 
 // An invocation takes the four pixels of a half-resolution texel, which look at the same texels around: a workgroup's, and
 // one more on each side. When the resolution is not reduced it takes one pixel, and the texel there.
-const ivec2 GROUP = ivec2(8, 16), TILE = GROUP + 2;
-shared vec4 tile_surface[TILE.x * TILE.y]; // normal, in world axes; w: roughness
-shared vec3 tile_place[TILE.x * TILE.y];   // in full-resolution pixels; z: depth in m, 0 without a ray
+const ivec2 GROUP = ivec2(8), AROUND = GROUP + 2;
+shared vec4 tile_surface[AROUND.x * AROUND.y]; // normal, in world axes; w: roughness
+shared vec3 tile_place[AROUND.x * AROUND.y];   // in full-resolution pixels; z: depth in m, 0 without a ray
 
 void load_tile(ivec2 first, ivec2 last) {
-    for (int i = int(gl_LocalInvocationIndex); i < TILE.x * TILE.y; i += GROUP.x * GROUP.y) {
-        ivec2 texel = first + ivec2(i % TILE.x, i / TILE.x);
+    for (int i = int(gl_LocalInvocationIndex); i < AROUND.x * AROUND.y; i += GROUP.x * GROUP.y) {
+        ivec2 texel = first + ivec2(i % AROUND.x, i / AROUND.x);
         bool outside = any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, last));
         texel = clamp(texel, ivec2(0), last);
         vec4 surface = texelFetch(normal_half, texel, 0);
@@ -38,10 +40,10 @@ struct Pixel {
     vec4 surface;            // world axes; w: roughness
 };
 
-Pixel pixel_at(ivec2 pixel, float depth_m, vec4 surface) {
+Pixel pixel_at(ivec2 pixel, float depth_m, vec4 surface, bool shown) {
     Pixel p;
     p.place = vec2(pixel) + 0.5;
-    p.reflects = reflects(depth_m, surface.xyz);
+    p.reflects = shown && reflects(depth_m, surface.xyz);
     p.depth_m = depth_m;
     p.surface = vec4(normalize(surface.xyz), surface.w > 0.0 ? min(surface.w, 1.0) : 0.0);
     vec3 normal = mat3(frame.view_from_world) * p.surface.xyz;
@@ -61,6 +63,12 @@ float cost(Pixel p, vec4 surface, vec3 place) {
     return place.z > 0.0 ? sum : INFINITE;
 }
 
+void store_nothing(ivec2 pixel) {
+    if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
+    imageStore(reflection, pixel, vec4(0.0));
+    imageStore(sharp_source, pixel, uvec4(0u));
+}
+
 void store(ivec2 pixel, Pixel p, bool found, ivec2 own, ivec2 best) {
     bool sharp = p.reflects && p.surface.w <= sharp_roughness;
     probe_pixel(pixel);
@@ -75,10 +83,11 @@ const float ALIKE = 1e-3, ROUNDING = 1.0 / 2048.0;
 void match_block(ivec2 own) {
     ivec2 size = ivec2(frame.size.xy);
     vec4 depths_m = textureGather(sampler2D(depth_full, nearest_clamp), vec2(2 * own + 1) / vec2(size)).wzxy;
+    uint shown = shown_in_block(2 * own);
     Pixel p[4];
     for (int i = 0; i < 4; ++i) {
         ivec2 pixel = 2 * own + ivec2(i & 1, i >> 1);
-        p[i] = pixel_at(pixel, depths_m[i], texelFetch(normal_full, min(pixel, size - 1), 0));
+        p[i] = pixel_at(pixel, depths_m[i], texelFetch(normal_full, min(pixel, size - 1), 0), (shown >> i & 1u) != 0u);
     }
     vec4 least = vec4(LARGEST);
     float alike = ALIKE + roughness_weight * ROUNDING;
@@ -86,7 +95,7 @@ void match_block(ivec2 own) {
     ivec2 middle = ivec2(gl_LocalInvocationID.xy) + 1;
     for (int n = 0; n < 9; ++n) {
         ivec2 beside = ivec2(n % 3, n / 3) - 1;
-        int at = (middle.y + beside.y) * TILE.x + middle.x + beside.x;
+        int at = (middle.y + beside.y) * AROUND.x + middle.x + beside.x;
         vec4 surface = tile_surface[at];
         vec3 place = tile_place[at];
         for (int i = 0; i < 4; ++i) {
@@ -106,15 +115,20 @@ void match_block(ivec2 own) {
 }
 
 void main() {
-    ivec2 own = ivec2(gl_GlobalInvocationID.xy), size = ivec2(frame.size.zw);
+    ivec2 own = tile_texel(reduction(frame.size)), size = ivec2(frame.size.zw);
     bool reduced = reduction(frame.size) == 2.0;
+    if (!tile_works) {
+        int wide = reduced ? 2 : 1;
+        for (int i = 0; i < wide * wide; ++i) store_nothing(wide * own + ivec2(i % wide, i / wide));
+        return;
+    }
     if (reduced) load_tile(own - ivec2(gl_LocalInvocationID.xy) - 1, size - 1);
     if (any(greaterThanEqual(own, size))) return;
     if (reduced) {
         match_block(own);
         return;
     }
-    Pixel p = pixel_at(own, texelFetch(depth_full, own, 0).x, texelFetch(normal_full, own, 0));
+    Pixel p = pixel_at(own, texelFetch(depth_full, own, 0).x, texelFetch(normal_full, own, 0), is_shown(own));
     bool found = is_pick_shown(texelFetch(pick, own, 0).x) &&
                  reflects(texelFetch(depth_half, own, 0).x, texelFetch(normal_half, own, 0).xyz);
     store(own, p, found, own, ivec2(0));

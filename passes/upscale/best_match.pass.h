@@ -1,8 +1,8 @@
 /* One sample of those around, the one whose surface is most like the pixel's. */
 PASS("Best match of depth and normal", "000, Upscale")
 #include "slot.h"
-WORKGROUP(8, 16)
 DISPATCH(depth_half)
+DISPATCH_TILES(shown)
 #line 202
 WRITE(uimage2D, sharp_source, R8UI, "1", FULL, "place", 255, "0: a rough pixel; else a smooth one, and the chosen texel's place around its own, 1 + x + 3y, 5 in the middle")
 SPEC(bool,  around,           true,  0,   1,    "1", "chosen by measuring", "look at all eight texels around the pixel's own; off: at the four nearest")

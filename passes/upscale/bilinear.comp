@@ -7,14 +7,16 @@
 #include "bilinear.pass.h"
 };
 #include "shared/camera.glsl"
+#include "shared/shown.glsl"
+#include "shared/tiles.glsl"
 #include "upscale/source.glsl"
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;
     vec4 sum = vec4(0.0);
     probe_pixel(pixel);
-    if (reflects(texelFetch(depth_full, pixel, 0).x, texelFetch(normal_full, pixel, 0).xyz)) {
+    if (tile_works && is_shown(pixel) && reflects(texelFetch(depth_full, pixel, 0).x, texelFetch(normal_full, pixel, 0).xyz)) {
         vec2 place = (vec2(pixel) + 0.5) / reduction(frame.size) - 0.5;
         ivec2 corner = ivec2(floor(place)), last = ivec2(frame.size.zw) - 1;
         vec2 part = place - vec2(corner);

@@ -9,6 +9,8 @@
 #include "shared/camera.glsl"
 #include "shared/edges.glsl"
 #include "shared/reuse.glsl"
+#include "shared/shown.glsl"
+#include "shared/tiles.glsl"
 #include "upscale/source.glsl"
 
 // What a texel weighs that is not of the pixel's surface: where none of the four is, the nearest mixture is better than nothing.
@@ -57,12 +59,12 @@ vec4 mixture(ivec2 pixel, float depth_m, vec4 surface) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0), color = vec4(0.0);
     probe_pixel(pixel);
-    if (reflects(depth_m, surface.xyz)) {
+    if (tile_works && is_shown(pixel) && reflects(depth_m, surface.xyz)) {
         float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
         color = mixture(pixel, depth_m, vec4(normalize(surface.xyz), roughness));
     }

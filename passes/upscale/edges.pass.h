@@ -2,6 +2,7 @@
 PASS("Bilinear up to edges", "001, Downscaled Depth and Normals")
 #include "slot.h"
 DISPATCH(reflection)
+DISPATCH_TILES(shown)
 #line 202
 READ(utexture2D, edge_levels)
 SPEC(bool,  lobes,      true, 0,   1,    "1", "glint", "a texel counts by how far its lobe is the pixel's; off: the pixel's normal and roughness do not matter")

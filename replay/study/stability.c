@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "device.h"
+#include "graph.h"
 
 void glint_stability_finish(struct glint_stability *s) {
     for (size_t i = 0; i < s->image_count; i++) {
@@ -79,7 +80,7 @@ static bool lies_over_picture(enum glint_size_class size) {
 static bool is_looked_at(const struct glint_image *image) {
     const enum glint_size_class size = image->row->size;
     const bool uint = format_is_uint(image->format);
-    if (image->level || size == GLINT_SIZE_LIST || (!image->pass && uint)) return false;
+    if (image->level || size_is_buffer(size) || (!image->pass && uint)) return false;
     return !uint || lies_over_picture(size);
 }
 /* What tracers did on the way is a count, not a choice. */

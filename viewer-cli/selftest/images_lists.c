@@ -1,4 +1,4 @@
-/* Cases of compact.glsl and work_list.glsl: lists of pixels, and the pixels that invocations take from them. */
+/* Cases of compact.glsl, work_list.glsl and tiles.glsl: lists of pixels and tiles, and what invocations take from them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +32,7 @@ static void paint(const struct plain *plain, float *values) {
         const int class = class_of(plain->user, (uint32_t)(i % plain->width), (uint32_t)(i / plain->width));
         values[PLAIN_DEPTH * pixels + i] = class == CLASSES ? INFINITY : 5;
         values[PLAIN_ROUGHNESS * pixels + i] = class == 0 ? 0.1f : 0.11f;
+        values[PLAIN_SPECULAR * pixels + i] = 0.5f;
     }
 }
 
@@ -161,6 +162,84 @@ static bool check_pixels(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
+/* ---- Tiles of 16 x 16 pixels ---- */
+
+/* In the order of the list: rough, rough and smooth, smooth, nothing. */
+static int kind_of_tile(const struct kind *kind, uint32_t column, uint32_t row) {
+    bool has[CLASSES + 1] = {false};
+    for (uint32_t y = 16 * row; y < 16 * row + 16 && y < kind->height; y++)
+        for (uint32_t x = 16 * column; x < 16 * column + 16 && x < kind->width; x++) has[class_of(kind, x, y)] = true;
+    return has[1] ? has[0] : has[0] ? 2 : 3;
+}
+
+static const char *const with_classes[] = {"classify_tiles=shown", "temporal.least_roughness=0.105", NULL};
+static const char *const whole_texels[] = {"classify_tiles=shown", "downsample.jitter=false", NULL};
+static const char *const half_texels[] = {"classify_tiles=shown", "downsample=pick", "downsample.jitter=false", NULL};
+
+static bool check_tiles(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
+                        struct glint_error *err) {
+    static const char *const passes[] = {"classify_tiles", NULL};
+    bool ok = true;
+    for (size_t k = 0; ok && k < KINDS; k++) {
+        const uint32_t across = (kinds[k].width + 15) / 16, count = across * ((kinds[k].height + 15) / 16);
+        size_t room = 0;
+        uint32_t ends[4], at = 0;
+        ok = run(frames, &kinds[k], passes, which->with, NULL, err);
+        uint32_t *list = ok ? read(frames, "tile_list", GLINT_U32, &room, err) : NULL;
+        ok = list && (ITEMS + count <= room ||
+                      glint_fail(err, GLINT_ERROR_DEVICE, "self-test: a list of %zu words is too short", room));
+        for (int class = 0; ok && class < 4; ends[class ++] = at)
+            for (uint32_t tile = 0; tile < count; tile++) {
+                const uint32_t item = tile / across << 16 | tile % across;
+                if (kind_of_tile(&kinds[k], tile % across, tile / across) != class) continue;
+                image_compare(finding, list[ITEMS + at], item, item, "picture %zu, tile %u", k, at);
+                at++;
+            }
+        for (uint32_t i = 0; ok && i < 6; i++) { /* shown, smooth, rough, each with the rest behind it */
+            const uint32_t first[] = {0, ends[2], ends[0], ends[2], 0, ends[1]};
+            const uint32_t end[] = {ends[2], count, ends[2], count + ends[0], ends[1], count};
+            const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i + 8], list[12 * i + 10]};
+            const uint32_t tiles = end[i] - first[i], expected[] = {first[i], tiles, tiles, 4};
+            for (int w = 0; w < 4; w++)
+                image_compare(finding, found[w], expected[w], expected[w], "picture %zu, range %u", k, i);
+        }
+        free(list);
+    }
+    return ok;
+}
+
+#define TEXELS                                                                                                         \
+    "ivec2 at = tile_texel(reduction(frame.size));\n"                                                                  \
+    "    if (all(lessThan(at, imageSize(screen_travelled))))\n"                                                        \
+    "        imageStore(screen_travelled, at, vec4(float(at.x) + 512.0 * float(at.y) + (tile_works ? 0.25 : 0.5)))"
+
+static bool check_texels(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
+                         struct glint_error *err) {
+    static const char *const passes[] = {"classify_tiles", "downsample", "screen_trace", NULL};
+    char *shader = image_shader("linear",
+                                "#include \"shared/camera.glsl\"\n#include \"shared/tiles.glsl\"\n"
+                                "void main() {\n    %s;\n}\n",
+                                which->glsl);
+    bool ok = shader || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t k = 0; ok && k < KINDS; k++) {
+        const uint32_t scale = which->with == half_texels ? 2 : 1, width = (kinds[k].width + scale - 1) / scale;
+        size_t count = 0;
+        ok = run(frames, &kinds[k], passes, which->with, shader, err);
+        float *found = ok ? read(frames, "screen_travelled", GLINT_F32, &count, err) : NULL;
+        ok = found != NULL;
+        for (size_t i = 0; ok && i < count; i++) {
+            const uint32_t x = (uint32_t)i % width, y = (uint32_t)i / width;
+            const bool works = kind_of_tile(&kinds[k], x * scale / 16, y * scale / 16) < 3;
+            const double expected = x + 512.0 * y + (works ? 0.25 : 0.5);
+            image_compare(finding, (double)found[i], expected, expected, "picture %zu, texel %u,%u", k, x, y);
+        }
+        free(found);
+    }
+    free(shader);
+    return ok;
+}
+
+#define TILES "tile_grid(size), tile_count(size)"
 #define COMPACT                                                                                                        \
     "compact(marked, list): mark_block(list), place_block(marked, list), add_up(marked), write_header(list, total), "  \
     "gather_items(marks), marks_of_square(), count_of(marks), pack(counts), unpack(counts), square_corner(), "         \
@@ -174,6 +253,9 @@ static const struct image_case list[] = {
     {{"pixels without a list", "each invocation its own", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, without},
     {{"pixels of a compacted list", "every one that is listed once, and the others by their own place", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, with_tiles},
     {{"pixels of a list of blocks", "the same, with room between the blocks", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, with_blocks},
+    {{"list of tiles", "tiles by the classes that they hold, in the order of the picture, and the ranges of them that passes run over", TILES, "words", 0, "integers"}, check_tiles, NULL, with_classes},
+    {{"texels of tiles", "each once, in a tile that shows reflections or in the rest", TEXELS, "texels", 0, "integers"}, check_texels, TEXELS, whole_texels},
+    {{"texels of tiles at half resolution", "the same of blocks of 2 x 2", TEXELS, "texels", 0, "integers"}, check_texels, TEXELS, half_texels},
 };
 /* clang-format on */
 

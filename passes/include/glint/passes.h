@@ -32,12 +32,14 @@ enum glint_row_kind {
     GLINT_ROW_HISTORY,   /* what an image held at the end of the previous frame; `name` is the binding's */
     GLINT_ROW_DISPATCH_LEVELS, /* one dispatch for each of some levels of an image */
     GLINT_ROW_DISPATCH_LIST,   /* instead of the DISPATCH before it: one invocation for each item of a list, if made */
-    GLINT_ROW_PER_RAY,         /* the slot's passes run once for each ray of a frame */
-    GLINT_ROW_ACCUMULATE,      /* an image that becomes its mean over the rays */
-    GLINT_ROW_WORKGROUP,       /* `first` × `last` invocations make a workgroup; 8 × 8 where no row says so */
-    GLINT_ROW_ASSUMED,         /* a parameter that stands for what the capture's data do not say: halved and doubled, it
+    GLINT_ROW_DISPATCH_TILES, /* instead of the DISPATCH before it: over the tiles of tile_list, if made; name: the range
+                                  that the pass is for; image: the parameter that is the class's limit, or NULL */
+    GLINT_ROW_PER_RAY,        /* the slot's passes run once for each ray of a frame */
+    GLINT_ROW_ACCUMULATE,     /* an image that becomes its mean over the rays */
+    GLINT_ROW_WORKGROUP,      /* `first` × `last` invocations make a workgroup; 8 × 8 where no row says so */
+    GLINT_ROW_ASSUMED,        /* a parameter that stands for what the capture's data do not say: halved and doubled, it
                                   tells how far an answer depends on it */
-    GLINT_ROW_RESOLUTION,      /* the pipeline's half resolution becomes "full" while this variant is in its slot */
+    GLINT_ROW_RESOLUTION,     /* the pipeline's half resolution becomes "full" while this variant is in its slot */
     /* What the preset `reference` has, and what error is traced back to: each slot has one of the first two. */
     GLINT_ROW_REFERENCE,      /* this variant is its slot's reference */
     GLINT_ROW_REFERENCE_NONE, /* the slot's reference is to leave it out; help: why */
@@ -68,6 +70,8 @@ enum glint_size_class {
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PARABOLOIDS_MIPS, /* 2D array of two hemispheres for each active cube map, as wide as its faces, with levels */
+    GLINT_SIZE_TILES, /* a buffer like LIST: tiles of 16 × 16 pixels (passes/shared/tile_list.h). DISPATCH over it: a workgroup
+                         for each 256 tiles. It is never read from a run: readers then run over whole images */
     GLINT_SIZE_LIST /* a buffer of uints, shown as an image 256 wide. Row 0: workgroup counts x, y, z, number of items; then
                        up to HALF's pixels items, and room for its maker to work in. DISPATCH over it: 64 invocations for
                        each 32 × 32 pixels of HALF. A list that no pass makes: 0xFFFFFFFF everywhere, the header alone */

@@ -1,0 +1,6 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Which tiles of the picture show reflections, by roughness class")
+WRITE(uimageBuffer, tile_list, R32UI, "1", TILES, "item", 0xFFFFFFFFu, "16 x 16 pixels each, x + 65536 y: those with rough surfaces alone, with rough and smooth ones, with smooth ones alone, without any that the picture shows")
+NEEDS(reflecting)
+REFERENCE_NONE("order of work alone: no result depends on it")

@@ -1,0 +1,20 @@
+// Tiles of 16x16 pixels of the picture, by what they hold, and which texel of an image an invocation works on. Next include of
+// a pass with the row of tile_rows.h. No kernel's reach has to be added to them: what a neighbour or the next frame takes is
+// what the picture shows, which has a tile of its own, and where it shows nothing images hold nothing. (shown.glsl)
+#ifndef GLINT_TILES
+#define GLINT_TILES
+#include "shared/tile_grid.glsl"
+
+// scale: pixels of the picture to a texel of the image, along an axis. Beyond every image: no texel.
+ivec2 tile_texel(float scale) {
+    if (tile_range == ALL_TILES) return ivec2(gl_GlobalInvocationID.xy);
+    int range = TILE_RANGES + 2 * int(tile_range);
+    uint place = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, total = tile_count(frame.size.xy);
+    if (place >= texelFetch(tile_list, range + 1).x) return ivec2(0x7FFFFFFF);
+    place += texelFetch(tile_list, range).x;
+    uint item = texelFetch(tile_list, TILE_ITEMS + int(place < total ? place : place - total)).x;
+    uint wide = uint(float(TILE) / scale), across = wide / gl_WorkGroupSize.x; // texels; workgroups to a tile
+    uvec2 group = uvec2(gl_WorkGroupID.z % across, gl_WorkGroupID.z / across);
+    return ivec2(wide * uvec2(item & 0xFFFFu, item >> 16u) + gl_WorkGroupSize.xy * group + gl_LocalInvocationID.xy);
+}
+#endif
