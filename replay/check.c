@@ -37,8 +37,7 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
             (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
                        pass->slot, pass->variant, row->name);
-        const bool works = row->kind == GLINT_ROW_DISPATCH_LIST || (row_is_output(row) && row->size == GLINT_SIZE_LIST);
-        if (works && pass_row(pass, GLINT_ROW_WORKGROUP, NULL))
+        if (row->kind == GLINT_ROW_DISPATCH_LIST && pass_row(pass, GLINT_ROW_WORKGROUP, NULL))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected workgroups of 8 x 8", pass->slot,
                        pass->variant, row->name);
         if (row->kind == GLINT_ROW_DISPATCH_LIST && (!pass_row(pass, GLINT_ROW_READ, row->name) || !dispatch))

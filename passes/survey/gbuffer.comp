@@ -31,15 +31,38 @@ uint kind_of(int figure) {
     return COUNTED;
 }
 
+// Pixels of a kind lie together: how often the same figure came in a row is added when another one comes.
+struct Row {
+    int figure;
+    uint count;
+};
+void add_row(inout Row row) {
+    if (row.count > 0u) atomicAdd(figures[row.figure], row.count);
+    row.count = 0u;
+}
+void bin(inout Row row, int figure, int number, int most) {
+    figure += clamp(number, 0, most);
+    if (figure != row.figure) add_row(row);
+    row.figure = figure;
+    row.count++;
+}
+
 // Of one pixel after the other, kept by the invocation until all are counted.
 struct Sums {
+    Row by_surface_roughness, by_reflecting_roughness, by_metalness, by_weight;
+    uvec2 stencil; // an id, and how often it came in a row
     uint sky, surfaces, reflecting, water, transparent, moved, moving;
     vec2 surface_roughness, reflecting_roughness, depth, light; // lowest, highest
     float transparent_roughest;
 };
 void widen(inout vec2 range, float value) { range = vec2(min(range.x, value), max(range.y, value)); }
-void bin(int figure, int number, int most) { atomicAdd(figures[figure + clamp(number, 0, most)], 1u); }
 float held(float roughness) { return roughness > 0.0 ? min(roughness, 1.0) : 0.0; } // NaN is 0
+
+void add_stencil(inout uvec2 stencil) {
+    for (uint left = stencil.y > 0u ? stencil.x : 0u; left != 0u; left &= left - 1u)
+        atomicAdd(figures[at_stencil_bits + min(findLSB(left), 7)], stencil.y);
+    stencil.y = 0u;
+}
 
 float weight_of(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specular) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
@@ -51,10 +74,9 @@ float weight_of(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specu
 }
 
 // How far a surface was from here in the frame before, and how far from where a still one would have been, in pixels.
-vec2 moved_px(ivec2 pixel, float depth_m) {
+vec2 moved_px(ivec2 pixel, float depth_m, vec2 moved) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy), size = vec2(frame.size.xy);
     if (textureSize(motion_full, 0) != ivec2(frame.size.xy)) return vec2(0.0);
-    vec2 moved = texelFetch(motion_full, pixel, 0).xy;
     vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 then = (frame.previous_view_from_world * vec4(position, 1.0)).xyz;
     if (!(then.z * frame.depth_range.w > 0.0)) return vec2(length(moved * size), INFINITE);
@@ -63,41 +85,45 @@ vec2 moved_px(ivec2 pixel, float depth_m) {
     return vec2(length((moved - jitter) * size), length((moved - still) * size));
 }
 
-void count_surface(ivec2 pixel, float depth_m, inout Sums sums) {
-    vec4 surface = texelFetch(normal_full, pixel, 0), base = texelFetch(albedo_full, pixel, 0);
-    float specular = texelFetch(specular_full, pixel, 0).x, roughness = held(surface.w);
+void count_surface(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specular, vec2 motion, inout Sums sums) {
+    float roughness = held(surface.w);
     sums.surfaces++;
     widen(sums.surface_roughness, roughness);
     widen(sums.depth, max(depth_m, 0.0));
-    bin(at_surface_roughness, int(roughness * 10.0), 9);
-    bin(at_metalness, int(held(base.a) * 10.0), 9);
-    vec2 moved = moved_px(pixel, depth_m);
+    bin(sums.by_surface_roughness, at_surface_roughness, int(roughness * 10.0), 9);
+    bin(sums.by_metalness, at_metalness, int(held(base.a) * 10.0), 9);
+    vec2 moved = moved_px(pixel, depth_m, motion);
     if (moved.x > 1.0 / 64.0) sums.moved++;
     if (moved.y > 0.125) sums.moving++;
     if (base.a == 0.0 && specular == 0.0) return;
     sums.reflecting++;
     widen(sums.reflecting_roughness, roughness);
-    bin(at_reflecting_roughness, int(roughness * 10.0), 9);
+    bin(sums.by_reflecting_roughness, at_reflecting_roughness, int(roughness * 10.0), 9);
     float weight = reflects(depth_m, surface.xyz) ? weight_of(pixel, depth_m, surface, base, specular) : 0.0;
-    bin(at_weight, weight > 0.0 ? int(ceil(-log2(weight))) - 1 : 11, 11);
+    bin(sums.by_weight, at_weight, weight > 0.0 ? int(ceil(-log2(weight))) - 1 : 11, 11);
 }
 
 bool has_part(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
 
+// Everything is fetched before anything is looked at, so that no fetch waits for another one.
 void count_pixel(ivec2 pixel, inout Sums sums) {
-    float depth_m = texelFetch(depth_full, pixel, 0).x;
-    if (depth_m < INFINITE) count_surface(pixel, depth_m, sums);
-    else sums.sky++;
+    float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
+    vec4 surface = texelFetch(normal_full, pixel, 0), base = texelFetch(albedo_full, pixel, 0);
+    vec2 motion = texelFetch(motion_full, min(pixel, textureSize(motion_full, 0) - 1), 0).xy;
     float light = dot(texelFetch(lit, pixel, 0).rgb, vec3(0.2126, 0.7152, 0.0722));
+    if (depth_m < INFINITE) count_surface(pixel, depth_m, surface, base, specular, motion, sums);
+    else sums.sky++;
     if (light >= 0.0 && light < LARGEST) widen(sums.light, light);
     if (has_part(water_color) && texelFetch(water_color, pixel, 0).a > 0.0) sums.water++;
     if (has_part(transparent_color) && texelFetch(transparent_color, pixel, 0).a > 0.0) {
         sums.transparent++;
         sums.transparent_roughest = max(sums.transparent_roughest, held(texelFetch(transparent_normal, pixel, 0).w));
     }
-    if (textureSize(stencil_full, 0) == ivec2(frame.size.xy))
-        for (uint left = texelFetch(stencil_full, pixel, 0).x; left != 0u; left &= left - 1u)
-            bin(at_stencil_bits, findLSB(left), 7);
+    if (textureSize(stencil_full, 0) == ivec2(frame.size.xy)) {
+        uint id = texelFetch(stencil_full, pixel, 0).x;
+        if (id != sums.stencil.x) add_stencil(sums.stencil);
+        sums.stencil = uvec2(id, sums.stencil.y + 1u);
+    }
 }
 
 void add_range(int lowest, int highest, vec2 range) {
@@ -106,17 +132,25 @@ void add_range(int lowest, int highest, vec2 range) {
     atomicMax(figures[highest], floatBitsToUint(range.y));
 }
 
-// 64 x 64 pixels, a row at a time.
+const int LANES = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
+
+// 64 x 64 pixels, a few rows at a time.
 void count_block(int place) {
     int lane = int(gl_LocalInvocationIndex);
-    for (int i = lane; i < FIGURES; i += 64) figures[i] = kind_of(i) == LOWEST ? 0xFFFFFFFFu : 0u;
+    for (int i = lane; i < FIGURES; i += LANES) figures[i] = kind_of(i) == LOWEST ? 0xFFFFFFFFu : 0u;
     barrier();
     const vec2 NONE = vec2(INFINITE, -INFINITE);
-    Sums sums = Sums(0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
-    for (int row = 0; row < 64; ++row) {
-        ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane, row);
+    const Row EMPTY = Row(0, 0u);
+    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
+    for (int row = lane / 64; row < 64; row += LANES / 64) {
+        ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane % 64, row);
         if (inside(pixel, ivec2(frame.size.xy))) count_pixel(pixel, sums);
     }
+    add_row(sums.by_surface_roughness);
+    add_row(sums.by_reflecting_roughness);
+    add_row(sums.by_metalness);
+    add_row(sums.by_weight);
+    add_stencil(sums.stencil);
     atomicAdd(figures[at_sky], sums.sky);
     atomicAdd(figures[at_surfaces], sums.surfaces);
     atomicAdd(figures[at_reflecting], sums.reflecting);
@@ -130,7 +164,7 @@ void count_block(int place) {
     add_range(at_darkest, at_brightest, sums.light);
     atomicMax(figures[at_transparent_roughest], floatBitsToUint(sums.transparent_roughest));
     barrier();
-    for (int i = lane; i < FIGURES; i += 64) imageStore(survey_blocks, place + i, uvec4(figures[i]));
+    for (int i = lane; i < FIGURES; i += LANES) imageStore(survey_blocks, place + i, uvec4(figures[i]));
 }
 
 // Each workgroup sums up some figures over all blocks.
@@ -140,7 +174,7 @@ void join_blocks(int first, int blocks) {
         uint kind = kind_of(figure), own = kind == LOWEST ? 0xFFFFFFFFu : 0u;
         if (lane == 0) figures[0] = own;
         barrier();
-        for (int block = lane; block < blocks; block += 64) {
+        for (int block = lane; block < blocks; block += LANES) {
             uint one = texelFetch(partial, first + FIGURES * block + figure).x;
             own = kind == COUNTED ? own + one : kind == LOWEST ? min(own, one) : max(own, one);
         }

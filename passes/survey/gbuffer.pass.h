@@ -1,5 +1,6 @@
 /* What a frame holds, counted in one go over its pixels. No pipeline has it: the plan asks it before there is a pipeline. */
 PASS("Figures of the G-buffer", "glint")
+WORKGROUP(64, 4)
 #line 102
 SLOT("What a frame holds, for the plan")
 READ(texture2D, depth_full)
