@@ -43,9 +43,10 @@ static bool read_gbuffer(struct glint_replay *replay, const struct glint_pipelin
     return channels_read(gbuffer, replay->capture, err);
 }
 
+/* `whole`: with what no plan asks for. */
 static bool survey(struct glint_replay *replay, const struct glint_pipeline *pipeline,
-                   const struct glint_replay_options *options, struct glint_error *err) {
-    if (replay->surveyed) return true;
+                   const struct glint_replay_options *options, bool whole, struct glint_error *err) {
+    if (replay->surveyed && !(whole && replay->survey.brief)) return true;
     double start = now_seconds();
     replay->survey_time = (struct glint_time){0};
     if (!read_gbuffer(replay, pipeline, err)) {
@@ -55,23 +56,23 @@ static bool survey(struct glint_replay *replay, const struct glint_pipeline *pip
     replay->seconds[PHASE_READ] += now_seconds() - start;
     if (!replay->device || !glint_capture_find(replay->capture, "lit"))
         survey_channels(&replay->gbuffer, &replay->survey);
-    else if (!survey_on_device(replay, options, err)) return false;
+    else if (!survey_on_device(replay, options, whole, err)) return false;
     replay->surveyed = true;
     return true;
 }
 
 static bool holds(void *user, const char *fact, char *reason, size_t size, bool *known, struct glint_error *err) {
     struct fact_source *source = user;
-    return (fact_is_of_parts(fact) || survey(source->replay, source->pipeline, source->options, err)) &&
+    return (fact_is_of_parts(fact) || survey(source->replay, source->pipeline, source->options, false, err)) &&
            survey_fact(&source->replay->survey, pipeline_shows_all(source->pipeline), fact, reason, size, known);
 }
 
-bool glint_replay_survey(struct glint_replay *replay, uint32_t repeat, const struct glint_survey **found,
-                         struct glint_time *time, struct glint_error *err) {
+bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey **found, struct glint_time *time,
+                         struct glint_error *err) {
     static const struct glint_pipeline nothing;
-    const struct glint_replay_options options = {.repeat = repeat};
+    static const struct glint_replay_options defaults;
     if (!replay->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
-    const bool ok = survey(replay, &nothing, &options, err);
+    const bool ok = survey(replay, &nothing, &defaults, true, err);
     channels_finish(&replay->gbuffer);
     *found = &replay->survey;
     if (time) *time = replay->survey_time;

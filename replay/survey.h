@@ -30,8 +30,9 @@ const struct glint_pass *survey_pass(void);
 struct pipeline_pass;
 uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, size_t count, const char *output,
                      const struct glint_replay_options *wanted, struct glint_time *time, struct glint_error *err);
-/* The figures that only a device counts and those that it counts as the host does. */
-bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, struct glint_error *err);
+/* The figures that plans go by; `whole`: those that only a device counts and all that it counts as the host does. */
+bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, bool whole,
+                      struct glint_error *err);
 
 /* survey_cubemaps.c: looks at the active cube maps when a pass of the graph asks what they show; the graph has then to be made
    anew. `before`: how many the survey knows of from the last graph. */

@@ -33,7 +33,7 @@ static void set_range(float range[2], const uint32_t *figures, enum place least,
     range[1] = any ? as_float(figures[most]) : -INFINITY;
 }
 
-static void read_figures(struct glint_survey *survey, const uint32_t *f) {
+static void read_figures(struct glint_survey *survey, const uint32_t *f, bool whole) {
     survey->sky = f[at_sky];
     survey->surfaces.count = f[at_surfaces];
     survey->reflecting.count = f[at_reflecting];
@@ -50,10 +50,11 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f) {
     set_range(survey->surfaces.roughness, f, at_surface_smoothest, at_surface_roughest, survey->surfaces.count > 0);
     set_range(survey->reflecting.roughness, f, at_reflecting_smoothest, at_reflecting_roughest,
               survey->reflecting.count > 0);
-    set_range(survey->depth_m, f, at_nearest, at_farthest, survey->surfaces.count > 0);
-    set_range(survey->light, f, at_darkest, at_brightest, f[at_darkest] <= f[at_brightest]);
+    set_range(survey->depth_m, f, at_nearest, at_farthest, whole && survey->surfaces.count > 0);
+    set_range(survey->light, f, at_darkest, at_brightest, whole && f[at_darkest] <= f[at_brightest]);
     survey->transparent_roughness = as_float(f[at_transparent_roughest]);
     survey->whole = true;
+    survey->brief = !whole;
 }
 
 const struct glint_pass *survey_pass(void) {
@@ -91,10 +92,13 @@ uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, 
     return values;
 }
 
-bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, struct glint_error *err) {
-    struct pipeline_pass pass = {.pass = survey_pass()};
+bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, bool whole,
+                      struct glint_error *err) {
+    double values[64] = {0};
+    struct pipeline_pass pass = {.pass = survey_pass(), .values = values};
+    for (size_t r = 0; r < pass.pass->row_count; r++) values[r] = whole; /* its one parameter */
     uint32_t *figures = survey_run(replay, &pass, 1, "survey_figures", wanted, &replay->survey_time, err);
-    if (figures) read_figures(&replay->survey, figures);
+    if (figures) read_figures(&replay->survey, figures, whole);
     free(figures);
     return figures != NULL;
 }

@@ -19,8 +19,10 @@ static json_t *range(const float values[2]) {
 }
 
 static json_t *pixels(const struct glint_survey_pixels *p) {
+    uint64_t binned = 0;
+    for (int b = 0; b < GLINT_SURVEY_BINS; b++) binned += p->by_roughness[b];
     return json_pack("{sIsoso}", "count", (json_int_t)p->count, "roughness", range(p->roughness), "by_roughness",
-                     numbers(p->by_roughness, GLINT_SURVEY_BINS));
+                     binned == p->count ? numbers(p->by_roughness, GLINT_SURVEY_BINS) : json_null());
 }
 
 bool glint_survey_class(const struct glint_survey *survey, const struct glint_stencil_class *class, uint64_t *count) {
@@ -53,7 +55,11 @@ json_t *survey_record(const struct glint_survey *survey, const struct glint_time
                   range(survey->depth_m), "cubemaps", (json_int_t)survey->cubemaps, "volumes",
                   (json_int_t)survey->volumes, "planar", survey->has_planar, "previous", survey->has_previous);
     json_object_set_new(json, "counted_on", json_string(survey->whole ? "device" : "host"));
-    if (!json || !survey->whole) return json;
+    if (json && survey->whole)
+        json_object_set_new(json, "time_ns",
+                            json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
+                                      (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns));
+    if (!json || !survey->whole || survey->brief) return json;
     json_object_set_new(json, "metalness", numbers(survey->metalness, GLINT_SURVEY_BINS));
     json_object_set_new(json, "weight", numbers(survey->weight, GLINT_SURVEY_WEIGHTS));
     json_object_set_new(json, "water", json_integer((json_int_t)survey->water));
@@ -63,16 +69,13 @@ json_t *survey_record(const struct glint_survey *survey, const struct glint_time
     json_object_set_new(json, "moving", json_integer((json_int_t)survey->moving));
     json_object_set_new(json, "stencil", stencil(survey, frame));
     json_object_set_new(json, "light", range(survey->light));
-    json_object_set_new(json, "time_ns",
-                        json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
-                                  (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns));
     return json;
 }
 
 char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err) {
     const struct glint_survey *survey;
     struct glint_time time;
-    if (!glint_replay_survey(replay, 0, &survey, &time, err)) return NULL;
+    if (!glint_replay_survey(replay, &survey, &time, err)) return NULL;
     json_t *json = survey_record(survey, &time, glint_capture_frame(replay->capture));
     char *text = json_dumps(json, JSON_INDENT(2));
     json_decref(json);

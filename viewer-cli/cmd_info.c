@@ -187,7 +187,7 @@ static enum status print_survey(const struct arguments *a, struct glint_capture 
     char *text = NULL;
     struct glint_device *device = glint_device_create(&(struct glint_device_options){0}, err);
     struct glint_replay *replay = device ? glint_replay_create(device, err) : NULL;
-    bool ok = replay && glint_replay_load(replay, capture, err) && glint_replay_survey(replay, 0, &survey, &time, err);
+    bool ok = replay && glint_replay_load(replay, capture, err) && glint_replay_survey(replay, &survey, &time, err);
     if (ok && a->json) ok = (text = glint_replay_survey_json(replay, err)) != NULL;
     if (text) puts(text);
     else if (ok) info_print_whole_survey(survey, &time, glint_capture_frame(capture));

@@ -85,19 +85,17 @@ vec2 moved_px(ivec2 pixel, float depth_m, vec2 moved) {
     return vec2(length((moved - jitter) * size), length((moved - still) * size));
 }
 
-void count_surface(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specular, vec2 motion, inout Sums sums) {
+// What nobody but people asks for.
+void count_more(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specular, inout Sums sums) {
     float roughness = held(surface.w);
-    sums.surfaces++;
-    widen(sums.surface_roughness, roughness);
     widen(sums.depth, max(depth_m, 0.0));
     bin(sums.by_surface_roughness, at_surface_roughness, int(roughness * 10.0), 9);
     bin(sums.by_metalness, at_metalness, int(held(base.a) * 10.0), 9);
+    vec2 motion = texelFetch(motion_full, min(pixel, textureSize(motion_full, 0) - 1), 0).xy;
     vec2 moved = moved_px(pixel, depth_m, motion);
     if (moved.x > 1.0 / 64.0) sums.moved++;
     if (moved.y > 0.125) sums.moving++;
     if (base.a == 0.0 && specular == 0.0) return;
-    sums.reflecting++;
-    widen(sums.reflecting_roughness, roughness);
     bin(sums.by_reflecting_roughness, at_reflecting_roughness, int(roughness * 10.0), 9);
     float weight = reflects(depth_m, surface.xyz) ? weight_of(pixel, depth_m, surface, base, specular) : 0.0;
     bin(sums.by_weight, at_weight, weight > 0.0 ? int(ceil(-log2(weight))) - 1 : 11, 11);
@@ -105,14 +103,8 @@ void count_surface(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float sp
 
 bool has_part(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
 
-// Everything is fetched before anything is looked at, so that no fetch waits for another one.
-void count_pixel(ivec2 pixel, inout Sums sums) {
-    float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
-    vec4 surface = texelFetch(normal_full, pixel, 0), base = texelFetch(albedo_full, pixel, 0);
-    vec2 motion = texelFetch(motion_full, min(pixel, textureSize(motion_full, 0) - 1), 0).xy;
+void count_picture(ivec2 pixel, inout Sums sums) {
     float light = dot(texelFetch(lit, pixel, 0).rgb, vec3(0.2126, 0.7152, 0.0722));
-    if (depth_m < INFINITE) count_surface(pixel, depth_m, surface, base, specular, motion, sums);
-    else sums.sky++;
     if (light >= 0.0 && light < LARGEST) widen(sums.light, light);
     if (has_part(water_color) && texelFetch(water_color, pixel, 0).a > 0.0) sums.water++;
     if (has_part(transparent_color) && texelFetch(transparent_color, pixel, 0).a > 0.0) {
@@ -126,10 +118,42 @@ void count_pixel(ivec2 pixel, inout Sums sums) {
     }
 }
 
+// Everything is fetched before anything is looked at, so that no fetch waits for another one.
+void count_pixel(ivec2 pixel, inout Sums sums) {
+    float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
+    vec4 surface = texelFetch(normal_full, pixel, 0), base = texelFetch(albedo_full, pixel, 0);
+    if (depth_m < INFINITE) {
+        float roughness = held(surface.w);
+        sums.surfaces++;
+        widen(sums.surface_roughness, roughness);
+        if (!(base.a == 0.0 && specular == 0.0)) {
+            sums.reflecting++;
+            widen(sums.reflecting_roughness, roughness);
+        }
+        if (whole) count_more(pixel, depth_m, surface, base, specular, sums);
+    } else sums.sky++;
+    if (whole) count_picture(pixel, sums);
+}
+
 void add_range(int lowest, int highest, vec2 range) {
     if (range.x > range.y) return;
     atomicMin(figures[lowest], floatBitsToUint(range.x));
     atomicMax(figures[highest], floatBitsToUint(range.y));
+}
+
+void add_more(Sums sums) {
+    add_row(sums.by_surface_roughness);
+    add_row(sums.by_reflecting_roughness);
+    add_row(sums.by_metalness);
+    add_row(sums.by_weight);
+    add_stencil(sums.stencil);
+    atomicAdd(figures[at_water], sums.water);
+    atomicAdd(figures[at_transparent], sums.transparent);
+    atomicAdd(figures[at_moved], sums.moved);
+    atomicAdd(figures[at_moving], sums.moving);
+    add_range(at_nearest, at_farthest, sums.depth);
+    add_range(at_darkest, at_brightest, sums.light);
+    atomicMax(figures[at_transparent_roughest], floatBitsToUint(sums.transparent_roughest));
 }
 
 const int LANES = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
@@ -146,23 +170,12 @@ void count_block(int place) {
         ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane % 64, row);
         if (inside(pixel, ivec2(frame.size.xy))) count_pixel(pixel, sums);
     }
-    add_row(sums.by_surface_roughness);
-    add_row(sums.by_reflecting_roughness);
-    add_row(sums.by_metalness);
-    add_row(sums.by_weight);
-    add_stencil(sums.stencil);
+    if (whole) add_more(sums);
     atomicAdd(figures[at_sky], sums.sky);
     atomicAdd(figures[at_surfaces], sums.surfaces);
     atomicAdd(figures[at_reflecting], sums.reflecting);
-    atomicAdd(figures[at_water], sums.water);
-    atomicAdd(figures[at_transparent], sums.transparent);
-    atomicAdd(figures[at_moved], sums.moved);
-    atomicAdd(figures[at_moving], sums.moving);
     add_range(at_surface_smoothest, at_surface_roughest, sums.surface_roughness);
     add_range(at_reflecting_smoothest, at_reflecting_roughest, sums.reflecting_roughness);
-    add_range(at_nearest, at_farthest, sums.depth);
-    add_range(at_darkest, at_brightest, sums.light);
-    atomicMax(figures[at_transparent_roughest], floatBitsToUint(sums.transparent_roughest));
     barrier();
     for (int i = lane; i < FIGURES; i += LANES) imageStore(survey_blocks, place + i, uvec4(figures[i]));
 }

@@ -79,12 +79,13 @@ static uint64_t kept_bytes(const struct glint_device_info *info) {
 
 static bool measure(struct turns *t, struct glint_savings *savings, glint_progress progress, void *user,
                     struct glint_error *err) {
-    const struct glint_survey *survey;
     const struct glint_plan_entry *entries;
-    if (!glint_replay_survey(t->replay, t->rounds, &survey, &savings->survey, err) ||
-        !glint_replay_plan(t->replay, t->pipeline, &t->options[PLANNED], &entries, &t->passes, err) ||
-        !make_room(t, err))
+    struct glint_replay_options first = t->options[PLANNED];
+    first.repeat = t->rounds; /* of the surveys, which are made now */
+    if (!glint_replay_plan(t->replay, t->pipeline, &first, &entries, &t->passes, err) || !make_room(t, err))
         return false;
+    const uint64_t frame_ns = t->replay->survey_time.median_ns;
+    savings->survey_ns = frame_ns + (t->replay->survey.looked_at ? t->replay->cubes.time.median_ns : 0);
     savings->passes = calloc(t->passes + 1, sizeof *savings->passes);
     if (!savings->passes) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (uint32_t round = 0; round < t->rounds; round++) /* who is first changes, too */
@@ -97,8 +98,8 @@ static bool measure(struct turns *t, struct glint_savings *savings, glint_progre
     for (size_t p = 0; p < t->passes; p++)
         savings->passes[p] = (struct glint_saving){time_statistics(of_pass(t, PLANNED, p), t->rounds).median_ns,
                                                    time_statistics(of_pass(t, WHOLE, p), t->rounds).median_ns};
-    return sum_up(t, savings->survey.median_ns, t->all, &savings->all, err) &&
-           sum_up(t, savings->survey.median_ns, t->frame, &savings->frame, err);
+    return sum_up(t, savings->survey_ns, t->all, &savings->all, err) &&
+           sum_up(t, frame_ns, t->frame, &savings->frame, err);
 }
 
 bool glint_study_savings(struct glint_replay *replay, const struct glint_pipeline *pipeline,

@@ -208,7 +208,7 @@ static void the_device_counts_as_the_host_does(void **state) {
         struct glint_capture *capture =
             glint_capture_open(sampled(pair->fixture, samples[s].name, 1, path), NULL, &err);
         check(capture && glint_replay_load(pair->planned, capture, &err), &err);
-        check(glint_replay_survey(pair->planned, 0, &device, NULL, &err), &err);
+        check(glint_replay_survey(pair->planned, &device, NULL, &err), &err);
         check(glint_survey_capture(capture, &host, &err), &err);
         assert_true(device->whole && !host.whole);
         assert_int_equal(device->pixels, WIDTH * HEIGHT);

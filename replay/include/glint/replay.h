@@ -88,8 +88,8 @@ struct glint_survey {
     uint32_t cubemaps, volumes; /* volumes: cube maps with an inner volume */
     bool has_sky, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
     bool has_history; /* of a replay: what passes remember of the frame before is there, and this is no cut */
-    /* What the device alone counts; `whole` says that it did. */
-    bool whole;
+    /* What the device alone counts; `whole` says that it did, `brief` that it left out this, depths and bins: no plan asks. */
+    bool whole, brief;
     uint64_t metalness[GLINT_SURVEY_BINS]; /* surfaces, bins of 0.1 */
     uint64_t weight[GLINT_SURVEY_WEIGHTS]; /* reflecting ones by the share of a reflection that they send to the viewer:
                                                  over 1/2, over 1/4, … over 1/2048, less */
@@ -179,9 +179,9 @@ void glint_replay_destroy(struct glint_replay **replay);
    that was run last, and no cut, passes that remember find that frame's images. */
 bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err);
 /* The survey of the loaded capture: on the replay's device, when it has one, else what the host counts. *time (NULL: not
-   wanted) receives what it took there, in `repeat` rounds (0: one, not warmed up) unless it was known already. */
-bool glint_replay_survey(struct glint_replay *replay, uint32_t repeat, const struct glint_survey **survey,
-                         struct glint_time *time, struct glint_error *err);
+   wanted) receives what it took there. */
+bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey **survey, struct glint_time *time,
+                         struct glint_error *err);
 /* The same as run.json has it; the caller frees it. NULL on failure. */
 char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err);
 /* Pixels of a stencil class. False: the class is not one bit of the id, and by bits alone its pixels are not known. */

@@ -22,7 +22,7 @@ struct glint_savings {
     struct glint_saving *passes; /* in the order of the plan */
     size_t pass_count;
     uint32_t rounds;
-    struct glint_time survey; /* n = 0: none was needed */
+    uint64_t survey_ns; /* of pixels, and of cube maps, which is made once for as long as they stay; medians */
     struct glint_savings_time all, frame;
 };
 /* The replay has a device, and a capture is loaded. Of the options, what concerns times and memory is set here. */
