@@ -37,6 +37,8 @@
 #define PASSES_ON(image, from)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
+#define ALONG_RAYS(image, normals)
+#define WITHIN(texels)
 #define RESOLUTION(size)
 #define REFERENCE
 #define REFERENCE_NONE(why)

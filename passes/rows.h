@@ -29,6 +29,8 @@
 #undef PASSES_ON
 #undef SHOWS_ALL
 #undef ASSUMED
+#undef ALONG_RAYS
+#undef WITHIN
 #undef RESOLUTION
 #undef REFERENCE
 #undef REFERENCE_NONE
@@ -94,6 +96,8 @@
 #define READS_LEVELS(image_) {.kind = GLINT_ROW_READS_LEVELS, .id = __LINE__, .name = #image_},
 #define PASSES_ON(image_, from) {.kind = GLINT_ROW_PASSES_ON, .id = __LINE__, .name = #from, .image = #image_},
 #define SHOWS_ALL(parameter) {.kind = GLINT_ROW_SHOWS_ALL, .id = __LINE__, .name = #parameter},
+#define ALONG_RAYS(image_, normals) {.kind = GLINT_ROW_ALONG_RAYS, .id = __LINE__, .name = #image_, .image = #normals},
+#define WITHIN(texels) {.kind = GLINT_ROW_WITHIN, .id = __LINE__, .name = "", .first = texels},
 #define ASSUMED(parameter) {.kind = GLINT_ROW_ASSUMED, .id = __LINE__, .name = #parameter},
 #define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},
 #define REFERENCE {.kind = GLINT_ROW_REFERENCE, .id = __LINE__, .name = ""},

@@ -31,7 +31,22 @@ static bool row_is_dispatch(const struct glint_row *row) {
            row->kind == GLINT_ROW_DISPATCH_LIST;
 }
 
-static void add(const struct run *run, struct step *step, uint32_t phase, const struct image *image, uint32_t level) {
+/* The layers of a level that a dispatch may leave others out for, by the row WITHIN behind its own; NULL: all are needed. */
+static struct face_run *needed_layers(const struct run *run, const struct step *step, const struct glint_row *row,
+                                      uint32_t level, uint32_t *count) {
+    const struct glint_pass *pass = step->pass->pass;
+    const struct glint_row *within = row + 1;
+    uint8_t faces[GLINT_SURVEY_CUBEMAPS];
+    if (within == pass->rows + pass->row_count || within->kind != GLINT_ROW_WITHIN || !run_limits(run, pass) ||
+        !run_faces(run, level, within->first, faces))
+        return NULL;
+    struct face_run *layers = calloc(FACE_RUNS_MAX, sizeof *layers);
+    if (layers) *count = face_runs(faces, run->sizes.active, layers);
+    return layers;
+}
+
+static void add(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
+                const struct image *image, uint32_t level) {
     const uint32_t *half = run->sizes.half;
     VkExtent3D extent = image_extent(&image->desc, level);
     struct workgroup group = pass_workgroup(step->pass->pass);
@@ -43,13 +58,18 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
         extent = (VkExtent3D){half[0], half[1], 1};
         group = (struct workgroup){LIST_BLOCK, LIST_BLOCK};
     }
-    step->texels += dispatch_texels(run, &image->desc, size, level);
-    step->dispatches[step->dispatch_count++] =
+    struct dispatch *dispatch = &step->dispatches[step->dispatch_count++];
+    *dispatch =
         (struct dispatch){.phase = phase,
                           .level = level,
                           .tiles = ALL_TILES,
                           .groups = {(extent.width + group.width - 1) / group.width,
                                      (extent.height + group.height - 1) / group.height, image_layers(&image->desc)}};
+    const uint64_t texels = dispatch_texels(run, &image->desc, size, level);
+    dispatch->layers = needed_layers(run, step, row, level, &dispatch->layer_runs);
+    if (!dispatch->layers) step->texels += texels;
+    for (uint32_t i = 0; i < dispatch->layer_runs; i++)
+        step->texels += texels / dispatch->groups[2] * dispatch->layers[i].count;
 }
 
 static double value_of(const struct graph_pass *pass, const char *parameter) {
@@ -90,7 +110,7 @@ static void add_levels(const struct run *run, struct step *step, uint32_t phase,
     uint32_t fine, coarse;
     if (!dispatch_levels(step->pass, row, &image->desc, &fine, &coarse)) return;
     for (uint32_t i = 0; i <= coarse - fine; i++)
-        add(run, step, phase, image, row->order == GLINT_ORDER_up ? coarse - i : fine + i);
+        add(run, step, phase, row, image, row->order == GLINT_ORDER_up ? coarse - i : fine + i);
 }
 
 /* The images of the rows DISPATCH_LIST that follow row `r`; 0 when there are none, or one of them was not made. */
@@ -168,7 +188,7 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
         const struct glint_row *tiles =
             row->kind == GLINT_ROW_DISPATCH && count == 0 ? tiles_after(run, step, r) : NULL;
         if (tiles && !add_tiles(run, step, phase, image, tiles, err)) return false;
-        if (row->kind == GLINT_ROW_DISPATCH && count == 0 && !tiles) add(run, step, phase, image, 0);
+        if (row->kind == GLINT_ROW_DISPATCH && count == 0 && !tiles) add(run, step, phase, row, image, 0);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS) add_levels(run, step, phase, row, image);
         phase++;
     }
@@ -256,7 +276,12 @@ void step_record(const struct run *run, struct step *step) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, dispatch->program->pipeline);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4, push);
+        const uint32_t *groups = dispatch->groups;
+        for (uint32_t i = 0; i < dispatch->layer_runs; i++)
+            vkCmdDispatchBase(commands, 0, 0, dispatch->layers[i].first, groups[0], groups[1],
+                              dispatch->layers[i].count);
+        if (dispatch->layers) continue;
         if (dispatch->list) vkCmdDispatchIndirect(commands, dispatch->list->buffer, dispatch->from);
-        else vkCmdDispatch(commands, dispatch->groups[0], dispatch->groups[1], dispatch->groups[2]);
+        else vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
     }
 }

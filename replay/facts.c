@@ -75,19 +75,9 @@ static bool sky(const struct question *q) {
     return q->survey->sky > 0;
 }
 
-/* Faces with texels that have no distance, or let the sky through, of all that were looked at. */
-static uint32_t count_faces(const struct glint_survey *survey, bool alpha) {
-    uint32_t faces = 0;
-    for (uint32_t i = 0; i < survey->looked_at; i++) {
-        uint32_t bits = survey->active[i].open | (alpha ? survey->active[i].sky : 0u);
-        for (; bits; bits &= bits - 1) faces++;
-    }
-    return faces;
-}
-
 /* Whether a distance cube map has texels without a surface. */
 static bool cube_sky(const struct question *q) {
-    const uint32_t open = count_faces(q->survey, false);
+    const uint32_t open = glint_survey_faces(q->survey, GLINT_SURVEY_OPEN);
     if (q->survey->looked_at == 0) snprintf(q->reason, q->size, "the cube maps may show the sky");
     else snprintf(q->reason, q->size, "%u of %u cube faces show the sky", open, 6 * q->survey->looked_at);
     return open > 0 || q->survey->looked_at == 0;
@@ -95,13 +85,14 @@ static bool cube_sky(const struct question *q) {
 
 /* Whether some ray may end in the sky, or is seen through fog that takes its colour. */
 static bool sky_seen(const struct question *q) {
-    const uint32_t open = count_faces(q->survey, true);
-    const bool unknown = q->survey->looked_at == 0, seen = q->survey->sky > 0 || unknown || open > 0;
+    const uint32_t open = glint_survey_faces(q->survey, GLINT_SURVEY_OPEN),
+                   sky = glint_survey_faces(q->survey, GLINT_SURVEY_SKY);
+    const bool unknown = q->survey->looked_at == 0, seen = q->survey->sky > 0 || unknown || open > 0 || sky > 0;
     if (q->survey->has_fog) snprintf(q->reason, q->size, "fog takes the colour of the sky");
     else if (unknown) snprintf(q->reason, q->size, "the cube maps may show the sky");
     else
-        snprintf(q->reason, q->size, "%" PRIu64 " pixels and %u of %u cube faces show the sky", q->survey->sky, open,
-                 6 * q->survey->looked_at);
+        snprintf(q->reason, q->size, "%" PRIu64 " pixels and %u of %u cube faces show the sky", q->survey->sky,
+                 open > sky ? open : sky, 6 * q->survey->looked_at);
     return seen || q->survey->has_fog;
 }
 

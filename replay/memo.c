@@ -80,11 +80,19 @@ static bool given_key(const struct run *run, size_t i, uint64_t *key, struct gli
     else if (image->source != SOURCE_RUN && !capture_key(run, i, key, err)) return false;
     if (size_is_array(image->row->size) && run->active)
         *key = mix(*key, run->active, run->sizes.active * sizeof *run->active);
+    uint8_t faces[GLINT_SURVEY_CUBEMAPS];
+    if (run_captures_faces(run, i, faces)) *key = mix(*key, faces, run->sizes.active);
     if (image->source != SOURCE_RUN) return true;
     size_t bytes = 0;
     if (!run_read_given(run, i, &bytes, err)) return false;
     *key = mix(*key, run->given[i], bytes);
     return true;
+}
+
+static uint64_t mix_faces(uint64_t key, const struct run *run) {
+    for (uint32_t i = 0; i < run->sizes.active; i++)
+        key = mix_number(mix_number(key, run->replay->survey.active[i].crossed), run->replay->survey.active[i].nearby);
+    return key;
 }
 
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
@@ -102,6 +110,7 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
     memcpy(words, &run->block, sizeof words);
     for (uint64_t w = 0; w < FRAME_WORDS; w++)
         if (step->spirv.frame_words[w]) key = mix_number(key, w << 32 | words[w]);
+    if (run_limits(run, pass)) key = mix_faces(key, run);
     for (size_t r = 0; r < pass->row_count; r++)
         if (row_is_sampled(&pass->rows[r]) && pass->rows[r].kind != GLINT_ROW_SELF) {
             const struct graph_image *image = graph_bound(&run->graph, &pass->rows[r]);

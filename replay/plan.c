@@ -86,11 +86,11 @@ bool replay_graph(struct glint_replay *replay, const struct glint_pipeline *pipe
     if (options->history && !glint_capture_frame(replay->capture)->cut) replay->survey.has_history = true;
     struct fact_source source = {replay, pipeline, options};
     const struct graph_inputs graph_inputs = {pipeline, options, replay->capture, inputs, {holds, &source}};
-    if (options->all) return graph_init(graph, &graph_inputs, err);
+    if (options->all || replay->surveying) return graph_init(graph, &graph_inputs, err);
     const uint32_t before = replay->survey.looked_at;
-    replay->survey.looked_at = 0; /* not at this pipeline's cube maps */
+    replay->survey.looked_at = replay->survey.followed = 0; /* not at this pipeline's cube maps */
     if (!graph_init(graph, &graph_inputs, err)) return false;
-    if (survey_cubemaps(replay, graph, options, before, err) && replay->survey.looked_at == 0) return true;
+    if (survey_cubemaps(replay, pipeline, graph, options, before, err) && replay->survey.looked_at == 0) return true;
     graph_finish(graph);
     return replay->survey.looked_at > 0 && graph_init(graph, &graph_inputs, err);
 }

@@ -101,6 +101,7 @@ void run_release(struct run *run) {
     vkDestroyDescriptorPool(device, run->pool, NULL);
     for (size_t p = 0; run->steps && p < run->graph.pass_count; p++) {
         free(run->steps[p].ns);
+        for (size_t d = 0; d < run->steps[p].dispatch_count; d++) free(run->steps[p].dispatches[d].layers);
         free(run->steps[p].dispatches);
     }
     free(run->steps);

@@ -156,7 +156,7 @@ static VkResult create_layouts(struct program *program, struct glint_device *dev
 }
 
 static VkResult create_pipeline(struct program *program, struct glint_device *device, const struct spirv *spirv,
-                                const struct constants *constants, const char *name) {
+                                const struct constants *constants, bool some_layers, const char *name) {
     const VkShaderModuleCreateInfo module_info = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv->bytes, .pCode = spirv->words};
     VkShaderModule module;
@@ -166,6 +166,7 @@ static VkResult create_pipeline(struct program *program, struct glint_device *de
     const VkSpecializationInfo values = {constants->count, constants->entries, constants->count * sizeof(uint32_t),
                                          constants->data};
     const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .flags = some_layers ? VK_PIPELINE_CREATE_DISPATCH_BASE : 0,
                                               .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                                                         .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                                                         .module = module,
@@ -210,7 +211,8 @@ struct program *programs_get(struct glint_device *device, const struct glint_pas
     }
     program->key = key;
     VkResult result = create_layouts(program, device, programs->frame, pass, constants, name);
-    if (result == VK_SUCCESS) result = create_pipeline(program, device, spirv, constants, name);
+    if (result == VK_SUCCESS)
+        result = create_pipeline(program, device, spirv, constants, pass_row(pass, GLINT_ROW_WITHIN, NULL), name);
     if (result != VK_SUCCESS) {
         vk_fail(err, name, result);
         program_destroy(program, device);

@@ -119,11 +119,8 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "history", options->history ? json_string(options->history) : json_null());
     json_object_set_new(root, "active_cubemaps", json_integer((json_int_t)run->sizes.active));
     json_object_set_new(root, "all", json_boolean(options->all));
-    json_object_set_new(
-        root, "survey",
-        run->replay->surveyed && !options->all
-            ? survey_record(&run->replay->survey, &run->replay->survey_time, glint_capture_frame(run->replay->capture))
-            : json_null());
+    json_object_set_new(root, "survey",
+                        run->replay->surveyed && !options->all ? survey_record(run->replay) : json_null());
     for (size_t p = 0; p < run->graph.pass_count; p++) json_array_append_new(passes, pass_record(run, p));
     json_object_set_new(root, "passes", passes);
     json_object_set_new(root, "warnings", warnings(run));

@@ -39,7 +39,10 @@ struct glint_replay {
     uint64_t serial;  /* of the load: contents of another capture never pass for this one's */
     struct glint_survey survey;
     struct glint_time survey_time; /* n = 0: it was not the device that counted */
-    struct cube_survey cubes;      /* the last one of cube maps, which later frames may share */
+    bool surveying;                /* a pass of the survey is run */
+    uint64_t followed_key;         /* of what survey.followed was found from */
+    struct glint_time followed_time;
+    struct cube_survey cubes; /* the last one of cube maps, which later frames may share */
     bool surveyed;
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
     struct channels sky;     /* read for its key, likewise */
@@ -67,7 +70,9 @@ struct dispatch {
     uint32_t phase, level, groups[3];
     struct program *program; /* of the phase and the tiles */
     VkDescriptorSet set;     /* with this level of what the pass writes */
-    struct image *list;      /* that says how many groups, from this byte on; NULL: `groups` */
+    struct face_run *layers; /* that it works on; NULL: all */
+    uint32_t layer_runs;
+    struct image *list; /* that says how many groups, from this byte on; NULL: `groups` */
     VkDeviceSize from;
     uint32_t tiles;           /* GLINT_ROW_DISPATCH_TILES: the range that it is over; ALL_TILES */
     const struct image *over; /* and the image */
@@ -174,6 +179,20 @@ bool run_writes(const struct run *run, size_t i);
 /* restore.c: work that an earlier process left; false when the step has to execute. */
 bool run_restore(struct run *run, struct step *step);
 
+/* reach.c: faces that no ray comes to are left out. Whether the images that a pass makes are looked up along known rays alone,
+   so that it may leave some out; which of an image's faces are taken from the capture, false: all. */
+bool run_limits(const struct run *run, const struct glint_pass *pass);
+bool run_captures_faces(const struct run *run, size_t i, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);
+/* The faces that lie within so many texels of a level of the rays; false: it is not known of that many. */
+bool run_faces(const struct run *run, uint32_t level, int texels, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);
+bool graph_follows_rays(const struct graph *graph, const char *image);
+/* Faces as runs of layers. */
+struct face_run {
+    uint32_t first, count;
+};
+enum { FACE_RUNS_MAX = 3 * GLINT_SURVEY_CUBEMAPS };
+uint32_t face_runs(const uint8_t *faces, uint32_t active, struct face_run *runs);
+
 /* upload.c: fills the images that no shader makes. */
 bool run_upload(struct run *run, struct glint_error *err);
 
@@ -218,8 +237,7 @@ void probes_access(const struct step *step, struct barriers *barriers);
 bool probes_finish(struct run *run, struct glint_error *err);
 
 /* survey_record.c */
-json_t *survey_record(const struct glint_survey *survey, const struct glint_time *time,
-                      const struct glint_frame *frame);
+json_t *survey_record(const struct glint_replay *replay);
 
 /* record.c: what run.json says of a run. */
 json_t *run_record(const struct run *run);

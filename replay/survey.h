@@ -26,10 +26,11 @@ bool fact_is_of_cubemaps(const char *fact);
 
 /* survey_device.c. The pass that counts. */
 const struct glint_pass *survey_pass(void);
-/* Runs passes of the survey, and returns the pixels of what the last of them makes; the caller frees them. */
+/* Runs passes of the survey, and reads what they make, one after the other; the caller frees it. */
 struct pipeline_pass;
-uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, size_t count, const char *output,
-                     const struct glint_replay_options *wanted, struct glint_time *time, struct glint_error *err);
+uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, size_t count,
+                     const char *const *outputs, const struct glint_replay_options *wanted, struct glint_time *time,
+                     struct glint_error *err);
 /* The figures that plans go by; `whole`: those that only a device counts and all that it counts as the host does. */
 bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, bool whole,
                       struct glint_error *err);
@@ -37,8 +38,8 @@ bool survey_on_device(struct glint_replay *replay, const struct glint_replay_opt
 /* survey_cubemaps.c: looks at the active cube maps when a pass of the graph asks what they show; the graph has then to be made
    anew. `before`: how many the survey knows of from the last graph. */
 struct graph;
-bool survey_cubemaps(struct glint_replay *replay, const struct graph *graph, const struct glint_replay_options *options,
-                     uint32_t before, struct glint_error *err);
+bool survey_cubemaps(struct glint_replay *replay, const struct glint_pipeline *pipeline, const struct graph *graph,
+                     const struct glint_replay_options *options, uint32_t before, struct glint_error *err);
 
 /* Over channels that hold at least the survey's. */
 void survey_channels(const struct channels *channels, struct glint_survey *survey);

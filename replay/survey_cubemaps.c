@@ -34,52 +34,111 @@ static bool find_key(const struct glint_replay *replay, const struct glint_table
     return true;
 }
 
-/* All texels of COCOON_SIZE squares of each face. */
-static void read_faces(struct glint_survey_cubemap *map, const uint32_t *texels) {
-    enum { FACE = COCOON_SIZE * COCOON_SIZE };
-    for (uint32_t i = 0; i < 6 * FACE; i++) {
-        if (texels[i] & 1) map->open |= (uint8_t)(1u << i / FACE);
-        if (texels[i] & 2) map->sky |= (uint8_t)(1u << i / FACE);
-    }
+enum { SQUARES = 6 * COCOON_SIZE * COCOON_SIZE /* of a cube map */, BLOCK = 64, BLOCK_WORDS = 8 };
+
+static uint8_t faces_of(const uint32_t *squares) {
+    uint8_t faces = 0;
+    for (uint32_t i = 0; i < SQUARES; i++)
+        if (squares[i]) faces |= (uint8_t)(1u << 6 * i / SQUARES);
+    return faces;
 }
 
-static bool look_at(struct glint_replay *replay, const struct pipeline_pass *maker, const struct glint_table *active,
+static bool look_at(struct glint_replay *replay, const struct pipeline_pass *maker, uint32_t count,
                     const struct glint_replay_options *options, struct glint_error *err) {
+    static const char *const outputs[] = {"cubemap_open", "cubemap_sky", NULL};
     struct pipeline_pass passes[] = {*maker, {.pass = glint_pass_find("survey", "cubemaps")}};
-    struct cube_survey found = {0};
-    uint32_t *texels = survey_run(replay, passes, 2, "cubemap_sky", options, &found.time, err);
-    if (!texels) return false;
-    for (uint32_t i = 0; i < active->width; i++) {
-        found.active[i].number = active->texels.u[i];
-        read_faces(&found.active[i], texels + i * 6 * COCOON_SIZE * COCOON_SIZE);
+    struct cube_survey *cubes = &replay->cubes;
+    uint32_t *texels = survey_run(replay, passes, 2, outputs, options, &cubes->time, err);
+    for (uint32_t i = 0; texels && i < count; i++) {
+        cubes->active[i].open = faces_of(texels + (size_t)i * SQUARES);
+        cubes->active[i].sky = faces_of(texels + (size_t)(count + i) * SQUARES);
     }
     free(texels);
-    replay->cubes = found;
+    return texels != NULL;
+}
+
+/* Whether all rays that the picture shows are mirrors', whose ways are known before they are traced. */
+static bool all_mirrors(const struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                        const struct graph *graph) {
+    const struct glint_survey *survey = &replay->survey;
+    return graph_follows_rays(graph, "cubemap_color") && replay->surveyed && survey->whole &&
+           !survey->has_transparent && !pipeline_shows_all(pipeline) && survey->reflecting.count > 0 &&
+           !(survey->reflecting.roughness[1] > 0);
+}
+
+static uint8_t six_bits(const uint32_t *words, uint32_t place) {
+    uint8_t faces = 0;
+    for (uint32_t bit = 6 * place, i = 0; i < 6; bit++, i++) faces |= (uint8_t)((words[bit / 32] >> bit % 32 & 1) << i);
+    return faces;
+}
+
+static bool follow_rays(struct glint_replay *replay, const struct pipeline_pass *maker, uint32_t count,
+                        const struct glint_replay_options *options, struct glint_error *err) {
+    static const char *const outputs[] = {"ray_ways", NULL};
+    const struct glint_part_info *gbuffer = glint_capture_find(replay->capture, "gbuffer");
+    const size_t blocks = (size_t)((gbuffer->width + BLOCK - 1) / BLOCK) * ((gbuffer->height + BLOCK - 1) / BLOCK);
+    struct pipeline_pass passes[] = {*maker, {.pass = glint_pass_find("survey", "reach")}};
+    struct glint_survey *survey = &replay->survey;
+    uint32_t *list = survey_run(replay, passes, 2, outputs, options, &replay->followed_time, err);
+    if (!list) return false;
+    for (uint32_t i = 0; i < count; i++) survey->active[i].crossed = survey->active[i].nearby = 0;
+    for (size_t b = 0; b < blocks; b++)
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t *words = list + LIST_WIDTH + b * BLOCK_WORDS;
+            survey->active[i].crossed |= six_bits(words, i);
+            survey->active[i].nearby |= six_bits(words + BLOCK_WORDS / 2, i);
+        }
+    free(list);
+    survey->followed = count;
     return true;
 }
 
-bool survey_cubemaps(struct glint_replay *replay, const struct graph *graph, const struct glint_replay_options *options,
-                     uint32_t before, struct glint_error *err) {
-    const size_t maker = graph_maker(graph, "active_index");
+/* What the ways of rays are known from. */
+static uint64_t ways_key(const struct glint_replay *replay, const struct glint_table *active) {
+    const uint64_t key = XXH3_64bits_withSeed(&replay->serial, sizeof replay->serial, 1);
+    return XXH3_64bits_withSeed(active->texels.u, active->width * sizeof *active->texels.u, key);
+}
+
+static bool look(struct glint_replay *replay, const struct pipeline_pass *maker, const struct glint_table *active,
+                 const struct glint_replay_options *options, bool mirrors, uint32_t before, struct glint_error *err) {
     struct glint_survey *survey = &replay->survey;
+    const uint32_t count = active->width;
+    uint64_t key = 0, ways = ways_key(replay, active);
+    if (!mirrors) ways = 0;
+    else if (before == count && replay->followed_key == ways) survey->followed = count;
+    else if (!follow_rays(replay, maker, count, options, err)) return false;
+    replay->followed_key = ways;
+    if (!find_key(replay, active, &key, err)) return false;
+    for (uint32_t i = 0; i < count; i++) key = key * 31 + (survey->followed ? survey->active[i].crossed : 63);
+    for (uint32_t i = 0; i < count; i++) key = key * 31 + (survey->followed ? survey->active[i].nearby : 63);
+    if (replay->cubes.key != key) {
+        replay->cubes.key = 0;
+        if (!look_at(replay, maker, count, options, err)) return false;
+        replay->cubes.key = key;
+        before = 0;
+    }
+    for (uint32_t i = 0; i < count && before != count; i++) {
+        survey->active[i].number = active->texels.u[i];
+        survey->active[i].open = replay->cubes.active[i].open;
+        survey->active[i].sky = replay->cubes.active[i].sky;
+    }
+    survey->looked_at = count;
+    return true;
+}
+
+bool survey_cubemaps(struct glint_replay *replay, const struct glint_pipeline *pipeline, const struct graph *graph,
+                     const struct glint_replay_options *options, uint32_t before, struct glint_error *err) {
+    const size_t maker = graph_maker(graph, "active_index");
     double seconds[256];
     struct tables tables = {0};
-    uint64_t key = 0;
     if (!replay->device || !asks(graph) || maker == graph->pass_count || !graph->passes[maker].runs ||
         graph->pass_count > sizeof seconds / sizeof *seconds)
         return true;
     bool ok = tables_init(&tables, graph, replay->capture, seconds, err);
     const struct glint_table *active = ok ? tables_find(&tables, "active_index") : NULL;
-    if (active && active->texels.u && active->width <= GLINT_SURVEY_CUBEMAPS) {
-        ok = find_key(replay, active, &key, err);
-        if (ok && replay->cubes.key != key) {
-            ok = look_at(replay, graph->passes[maker].entry, active, options, err);
-            replay->cubes.key = ok ? key : 0;
-            before = 0;
-        }
-        if (ok && before != active->width) memcpy(survey->active, replay->cubes.active, sizeof survey->active);
-        survey->looked_at = ok ? active->width : 0;
-    }
+    if (active && active->texels.u && active->width <= GLINT_SURVEY_CUBEMAPS)
+        ok = look(replay, graph->passes[maker].entry, active, options, all_mirrors(replay, pipeline, graph), before,
+                  err);
     tables_finish(&tables);
     return ok;
 }

@@ -61,11 +61,31 @@ const struct glint_pass *survey_pass(void) {
     return glint_pass_find("survey", "gbuffer");
 }
 
-uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, size_t count, const char *output,
-                     const struct glint_replay_options *wanted, struct glint_time *time, struct glint_error *err) {
+/* The pixels of images, one after the other. */
+static uint32_t *read_images(struct glint_replay *replay, const char *const *names, struct glint_error *err) {
+    uint32_t *values = NULL;
+    size_t count = 0;
+    for (; *names; names++) {
+        const struct glint_image *image = glint_replay_find_image(replay, *names);
+        const size_t more = (size_t)image->width * image->height;
+        uint32_t *larger = realloc(values, (count + more) * sizeof *values);
+        if (larger) values = larger;
+        else glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", *names);
+        if (!larger || !glint_replay_read_image(replay, image, GLINT_U32, values + count, err)) {
+            free(values);
+            return NULL;
+        }
+        count += more;
+    }
+    return values;
+}
+
+uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, size_t count,
+                     const char *const *outputs, const struct glint_replay_options *wanted, struct glint_time *time,
+                     struct glint_error *err) {
     static double no_values[64];
     char name[] = "survey";
-    const char *force[8] = {NULL}, *outputs[] = {output, NULL};
+    const char *force[8] = {NULL};
     for (size_t i = 0; i < count && i + 1 < sizeof force / sizeof *force; i++) {
         force[i] = passes[i].pass->slot;
         if (!passes[i].values) passes[i].values = no_values;
@@ -78,14 +98,9 @@ uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, 
                                                  .no_cache = true,
                                                  .lineage = UINT32_MAX};
     struct run run = {.replay = replay, .pipeline = &pipeline, .options = &options, .survey = true};
-    uint32_t *values = NULL;
-    const struct glint_image *image = run_work(&run, err) ? glint_replay_find_image(replay, output) : NULL;
-    if (image && !(values = calloc((size_t)image->width * image->height, sizeof *values)))
-        glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", output);
-    if (values && !glint_replay_read_image(replay, image, GLINT_U32, values, err)) {
-        free(values);
-        values = NULL;
-    }
+    replay->surveying = true;
+    uint32_t *values = run_work(&run, err) ? read_images(replay, outputs, err) : NULL;
+    replay->surveying = false;
     for (size_t p = 0; values && p < run.graph.pass_count; p++)
         if (run.steps[p].execute) *time = time_statistics(run.steps[p].ns, run.steps[p].timed);
     run_release(&run);
@@ -94,10 +109,11 @@ uint32_t *survey_run(struct glint_replay *replay, struct pipeline_pass *passes, 
 
 bool survey_on_device(struct glint_replay *replay, const struct glint_replay_options *wanted, bool whole,
                       struct glint_error *err) {
+    static const char *const outputs[] = {"survey_figures", NULL};
     double values[64] = {0};
     struct pipeline_pass pass = {.pass = survey_pass(), .values = values};
     for (size_t r = 0; r < pass.pass->row_count; r++) values[r] = whole; /* its one parameter */
-    uint32_t *figures = survey_run(replay, &pass, 1, "survey_figures", wanted, &replay->survey_time, err);
+    uint32_t *figures = survey_run(replay, &pass, 1, outputs, wanted, &replay->survey_time, err);
     if (figures) read_figures(&replay->survey, figures, whole);
     free(figures);
     return figures != NULL;

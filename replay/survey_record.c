@@ -47,18 +47,54 @@ const char *glint_survey_motion(const struct glint_survey *survey) {
     return survey->moving ? "objects" : survey->moved ? "camera" : "none";
 }
 
-json_t *survey_record(const struct glint_survey *survey, const struct glint_time *time,
-                      const struct glint_frame *frame) {
+static json_t *time_record(const struct glint_time *time) {
+    return json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
+                     (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns);
+}
+
+uint32_t glint_survey_faces(const struct glint_survey *survey, enum glint_survey_face kind) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < survey->looked_at; i++) {
+        const struct glint_survey_cubemap *map = &survey->active[i];
+        const uint8_t faces[] = {map->open, map->sky, survey->followed ? map->crossed : 63,
+                                 survey->followed ? map->nearby : 63};
+        for (uint32_t left = faces[kind]; left; left &= left - 1) count++;
+    }
+    return count;
+}
+
+/* Numbers of faces as bits. */
+static json_t *cubemaps_record(const struct glint_replay *replay) {
+    const struct glint_survey *survey = &replay->survey;
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < survey->looked_at; i++) {
+        const struct glint_survey_cubemap *map = &survey->active[i];
+        json_t *entry = json_pack("{sIsisi}", "number", (json_int_t)map->number, "open", map->open, "sky", map->sky);
+        if (survey->followed) json_object_set_new(entry, "crossed", json_integer(map->crossed));
+        if (survey->followed) json_object_set_new(entry, "nearby", json_integer(map->nearby));
+        json_array_append_new(list, entry);
+    }
+    json_t *record = json_pack("{sisisisisiso}", "faces", (int)(6 * survey->looked_at), "open",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list);
+    json_object_set_new(record, "time_ns",
+                        time_record(&replay->cubes.time)); /* once for as long as they stay the same */
+    if (survey->followed) json_object_set_new(record, "ways_time_ns", time_record(&replay->followed_time));
+    return record;
+}
+
+json_t *survey_record(const struct glint_replay *replay) {
+    const struct glint_survey *survey = &replay->survey;
     json_t *json =
         json_pack("{sIsIsosososIsIsbsb}", "pixels", (json_int_t)survey->pixels, "sky", (json_int_t)survey->sky,
                   "surfaces", pixels(&survey->surfaces), "reflecting", pixels(&survey->reflecting), "depth_m",
                   range(survey->depth_m), "cubemaps", (json_int_t)survey->cubemaps, "volumes",
                   (json_int_t)survey->volumes, "planar", survey->has_planar, "previous", survey->has_previous);
     json_object_set_new(json, "counted_on", json_string(survey->whole ? "device" : "host"));
-    if (json && survey->whole)
-        json_object_set_new(json, "time_ns",
-                            json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
-                                      (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns));
+    if (json && survey->whole) json_object_set_new(json, "time_ns", time_record(&replay->survey_time));
+    if (json && survey->looked_at) json_object_set_new(json, "active_cubemaps", cubemaps_record(replay));
     if (!json || !survey->whole || survey->brief) return json;
     json_object_set_new(json, "metalness", numbers(survey->metalness, GLINT_SURVEY_BINS));
     json_object_set_new(json, "weight", numbers(survey->weight, GLINT_SURVEY_WEIGHTS));
@@ -67,16 +103,15 @@ json_t *survey_record(const struct glint_survey *survey, const struct glint_time
     json_object_set_new(json, "motion", json_string(glint_survey_motion(survey)));
     json_object_set_new(json, "moved", json_integer((json_int_t)survey->moved));
     json_object_set_new(json, "moving", json_integer((json_int_t)survey->moving));
-    json_object_set_new(json, "stencil", stencil(survey, frame));
+    json_object_set_new(json, "stencil", stencil(survey, glint_capture_frame(replay->capture)));
     json_object_set_new(json, "light", range(survey->light));
     return json;
 }
 
 char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err) {
     const struct glint_survey *survey;
-    struct glint_time time;
-    if (!glint_replay_survey(replay, &survey, &time, err)) return NULL;
-    json_t *json = survey_record(survey, &time, glint_capture_frame(replay->capture));
+    if (!glint_replay_survey(replay, &survey, NULL, err)) return NULL;
+    json_t *json = survey_record(replay);
     char *text = json_dumps(json, JSON_INDENT(2));
     json_decref(json);
     if (!text) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");

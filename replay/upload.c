@@ -96,6 +96,24 @@ static bool comes_with(const struct graph_image *image, const char *role, bool i
     return strcmp(image->row->role, role) == 0 && format_is_uint(image->row->format) == ids;
 }
 
+/* The layers of an image that are needed; the others hold nothing. */
+static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, uint32_t first, uint32_t layers) {
+    struct glint_replay *replay = run->replay;
+    struct image *image = run->images[i];
+    const VkDeviceSize face_bytes =
+        (VkDeviceSize)image->desc.width * image->desc.height * format_bytes(image->desc.format);
+    uint8_t faces[GLINT_SURVEY_CUBEMAPS];
+    if (!run_captures_faces(run, i, faces)) {
+        image_record_upload(image, replay->device, &replay->staging, offset, 0, first, layers, first == 0);
+        return;
+    }
+    if (first == 0) image_record_clear(image, replay->device, run->graph.images[i].row->nothing);
+    for (uint32_t face = 0; face < 6; face++)
+        if (faces[first / 6] >> face & 1)
+            image_record_upload(image, replay->device, &replay->staging, offset + face * face_bytes, 0, first + face, 1,
+                                false);
+}
+
 /* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
 static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role,
                         struct channels *channels, uint32_t first, uint32_t layers, struct glint_error *err) {
@@ -141,7 +159,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         if (first == 0) *bad = (struct bad_values){0};
         packing.bad.first += image_values(&run->images[i]->desc, 0) / image_layers(&run->images[i]->desc) * first;
         bad_values_add(bad, &packing.bad);
-        image_record_upload(run->images[i], replay->device, &replay->staging, offset, 0, first, layers, first == 0);
+        record_layers(run, i, offset, first, layers);
         offset += ((VkDeviceSize)part->width * part->height * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
     }
     bool ok = submit(run, err);
@@ -279,12 +297,25 @@ static bool upload_captured(struct run *run, size_t i, struct glint_error *err) 
     return ok;
 }
 
+/* What a pass leaves out holds nothing. */
+static bool clear_left_out(struct run *run, size_t i, struct glint_error *err) {
+    const struct graph_image *image = &run->graph.images[i];
+    if (!run_limits(run, image->pass)) return true;
+    if (!device_begin(run->replay->device, err)) return false;
+    image_record_clear(run->images[i], run->replay->device, image->row->nothing);
+    return submit(run, err);
+}
+
 bool run_upload(struct run *run, struct glint_error *err) {
     bool ok = true;
     for (size_t i = 0; ok && i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
         bool table = image->source == SOURCE_MADE && image->pass->host;
-        if (!run_writes(run, i) || (image->source == SOURCE_MADE && !table)) continue;
+        if (!run_writes(run, i)) continue;
+        if (image->source == SOURCE_MADE && !table) {
+            ok = clear_left_out(run, i, err);
+            continue;
+        }
         bool stand_in = size_is_array(image->row->size) && run->sizes.active == 0;
         if (image->source == SOURCE_CAPTURE && !stand_in) {
             ok = report_progress(run->progress, run->user, image->row->role, 0, err) && upload_captured(run, i, err);

@@ -181,13 +181,24 @@ static enum status print_run(const struct arguments *a) {
     return STATUS_DONE;
 }
 
+/* What cube maps show and where rays may come is asked by those who read them: the default pipeline. */
+static bool survey_cubemaps(struct glint_replay *replay, struct glint_error *err) {
+    const struct glint_plan_entry *entries;
+    size_t count;
+    struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", err);
+    const bool ok = pipeline && glint_replay_plan(replay, pipeline, NULL, &entries, &count, err);
+    glint_pipeline_destroy(&pipeline);
+    return ok;
+}
+
 static enum status print_survey(const struct arguments *a, struct glint_capture *capture, struct glint_error *err) {
     const struct glint_survey *survey;
     struct glint_time time;
     char *text = NULL;
     struct glint_device *device = glint_device_create(&(struct glint_device_options){0}, err);
     struct glint_replay *replay = device ? glint_replay_create(device, err) : NULL;
-    bool ok = replay && glint_replay_load(replay, capture, err) && glint_replay_survey(replay, &survey, &time, err);
+    bool ok = replay && glint_replay_load(replay, capture, err) && glint_replay_survey(replay, &survey, &time, err) &&
+              survey_cubemaps(replay, err);
     if (ok && a->json) ok = (text = glint_replay_survey_json(replay, err)) != NULL;
     if (text) puts(text);
     else if (ok) info_print_whole_survey(survey, &time, glint_capture_frame(capture));

@@ -195,6 +195,34 @@ static void print_classes(const struct glint_survey *survey, const struct glint_
             printf("class %s: %llu pixels\n", frame->classes[i].name, (unsigned long long)count);
 }
 
+static const char *faces_text(uint8_t faces, char text[32]) {
+    static const char *const names[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+    size_t length = 0;
+    text[0] = 0;
+    for (int face = 0; face < 6; face++)
+        if (faces >> face & 1)
+            length += (size_t)snprintf(text + length, 32 - length, "%s%s", length ? " " : "", names[face]);
+    return faces ? text : "none";
+}
+
+static void print_cubemaps(const struct glint_survey *survey) {
+    static const char *const titles[] = {">cube map", "<sky on", "<rays may come to", NULL};
+    char text[32];
+    if (survey->looked_at == 0) return;
+    printf("%u of %u faces of the active cube maps show the sky, rays may come to %u%s:\n",
+           glint_survey_faces(survey, GLINT_SURVEY_SKY), 6 * survey->looked_at,
+           glint_survey_faces(survey, GLINT_SURVEY_CROSSED),
+           survey->followed ? "" : " (only of mirrors it is known which)");
+    struct table *table = table_create(titles);
+    for (uint32_t i = 0; i < survey->looked_at; i++) {
+        table_cell(table, "%u", survey->active[i].number);
+        table_cell(table, "%s", faces_text(survey->active[i].sky, text));
+        table_cell(table, "%s", faces_text(survey->followed ? survey->active[i].crossed : 63, text));
+    }
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
 void info_print_whole_survey(const struct glint_survey *survey, const struct glint_time *time,
                              const struct glint_frame *frame) {
     info_print_survey(survey);
@@ -209,6 +237,7 @@ void info_print_whole_survey(const struct glint_survey *survey, const struct gli
     printf("%llu pixels of water, %llu transparent; %s planar reflection map; %u cube maps, %u with an inner volume\n",
            (unsigned long long)survey->water, (unsigned long long)survey->transparent, survey->has_planar ? "a" : "no",
            survey->cubemaps, survey->volumes);
+    print_cubemaps(survey);
     printf("motion: %s (%llu pixels were elsewhere, %llu move by themselves)\n", glint_survey_motion(survey),
            (unsigned long long)survey->moved, (unsigned long long)survey->moving);
     printf("luminance %.3g to %.3g; depth %.3g to %.3g m\n", (double)survey->light[0], (double)survey->light[1],

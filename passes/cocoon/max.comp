@@ -105,13 +105,13 @@ void keep_cocoon(ivec3 at) {
 
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (dispatch_phase == 3u) {
+    if (dispatch_phase == 4u) {
         keep_cocoon(at);
         return;
     }
     int width = imageSize(cocoon_distance).x, level = int(dispatch_level);
     if (at.x >= width || at.y >= width) return;
     if (dispatch_phase == 0u) imageStore(cocoon_distance, at, vec4(farthest_child(at, width, level)));
-    else if (dispatch_phase == 1u) fill_level(at, width, level);
+    else if (dispatch_phase < 3u) fill_level(at, width, level);
     else cap_level(at, width, level);
 }

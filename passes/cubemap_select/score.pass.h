@@ -3,6 +3,7 @@ PASS("Best score", "000, Best cube-map selection, GPU")
 #include "slot.h"
 #line 202
 READ(textureCubeArray, cubemap_distance)
+ALONG_RAYS(cubemap_distance, normal_jittered)
 OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
 DISPATCH_LIST(cubemap_list)
 PUSH(float, visibility, 0.1,  0.0, 16.0, "1", "000, Best cube-map selection, GPU", "weight of: the ray's beginning is seen from the centre; 0: off")

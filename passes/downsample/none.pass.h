@@ -5,3 +5,4 @@ RESOLUTION(full)
 #include "jitter.h"
 REFERENCE
 REFERENCE_SET(downsample, pattern, sobol)
+ALONG_RAYS(normal_jittered, normal_full)

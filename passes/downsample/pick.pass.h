@@ -3,3 +3,4 @@ PASS("Edge-aware pick", "000, G-buffer down-sampling and jittering")
 #include "slot.h"
 #include "jitter.h"
 #include "pick_rows.h"
+ALONG_RAYS(normal_jittered, normal_full)

@@ -5,3 +5,4 @@ OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
 #include "ends.h"
 #include "sources.h"
 REFERENCE
+ALONG_RAYS(cubemap_color, normal_jittered)

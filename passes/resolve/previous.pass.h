@@ -8,3 +8,4 @@ OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
 #include "before_rows.h"
 #line 352
 DIAGNOSTIC(uimage2D, previous_source, R8UI, "1", HALF, "source", 0, "where a hit on screen found its colour: 1: in the previous frame, 2: its point was outside of the picture or behind the camera, 3: it was hidden; 0: no hit on screen")
+ALONG_RAYS(cubemap_color, normal_jittered)

@@ -35,6 +35,9 @@
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when
 // frame.flags.x is 1; what a pass did not make then, because its frame had nothing to do for it, holds the image's "nothing"
 // value. Otherwise they are stand-ins of one texel with that value.
+// ALONG_RAYS(image, normals): of these cube maps the pass looks up what lies on the ways of the rays of `normals`, as the centres
+// see them, and no farther than two texels beside them. In the pass that makes `image`: that holds normals, for mirrors those of
+// `normals`. WITHIN(texels), behind a DISPATCH: faces that no way comes that near to may be left out then.
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
 layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (probe/tell.glsl)
@@ -83,6 +86,8 @@ layout(constant_id = 998) const bool tile_works = true;      // false: over the 
 #define PASSES_ON(image, from)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
+#define ALONG_RAYS(image, normals)
+#define WITHIN(texels)
 #define RESOLUTION(size)
 #define REFERENCE
 #define REFERENCE_NONE(why)

@@ -8,17 +8,18 @@
 };
 #include "shared/constants.glsl"
 
+bool has_sky(ivec3 texel) {
+    return dispatch_phase == 0u ? !(texelFetch(cubemap_distance, texel, 0).x < LARGEST) : !(texelFetch(cubemap_color, texel, 0).a >= 1.0);
+}
+
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
     int squares = imageSize(cubemap_sky).x, size = int(frame.counts.z);
     if (any(greaterThanEqual(at.xy, ivec2(squares)))) return;
     ivec2 first = at.xy * size / squares, end = (at.xy + 1) * size / squares;
-    uint sky = 0u;
-    for (int y = first.y; y < end.y; ++y) {
-        for (int x = first.x; x < end.x; ++x) {
-            if (!(texelFetch(cubemap_distance, ivec3(x, y, at.z), 0).x < LARGEST)) sky |= 1u;
-            if (!(texelFetch(cubemap_color, ivec3(x, y, at.z), 0).a >= 1.0)) sky |= 2u;
-        }
-    }
-    imageStore(cubemap_sky, at, uvec4(sky));
+    bool sky = false;
+    for (int y = first.y; y < end.y; ++y)
+        for (int x = first.x; x < end.x; ++x) sky = sky || has_sky(ivec3(x, y, at.z));
+    if (dispatch_phase == 0u) imageStore(cubemap_open, at, uvec4(sky));
+    else imageStore(cubemap_sky, at, uvec4(sky));
 }

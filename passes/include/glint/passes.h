@@ -37,9 +37,13 @@ enum glint_row_kind {
     GLINT_ROW_PER_RAY,        /* the slot's passes run once for each ray of a frame */
     GLINT_ROW_ACCUMULATE,     /* an image that becomes its mean over the rays */
     GLINT_ROW_WORKGROUP,      /* `first` × `last` invocations make a workgroup; 8 × 8 where no row says so */
-    GLINT_ROW_ASSUMED,        /* a parameter that stands for what the capture's data do not say: halved and doubled, it
+    GLINT_ROW_ALONG_RAYS, /* of `name`, cube maps, the pass looks up what lies on the ways of the rays of `image`, an
+                                  image of normals; or, where it makes `name`, that holds the rays of `image` for mirrors */
+    GLINT_ROW_WITHIN,  /* of the dispatch before it: faces that no ray comes nearer to than `first` texels may be left
+                                  out where the image is looked up along rays alone */
+    GLINT_ROW_ASSUMED, /* a parameter that stands for what the capture's data do not say: halved and doubled, it
                                   tells how far an answer depends on it */
-    GLINT_ROW_RESOLUTION,     /* the pipeline's half resolution becomes "full" while this variant is in its slot */
+    GLINT_ROW_RESOLUTION, /* the pipeline's half resolution becomes "full" while this variant is in its slot */
     /* What the preset `reference` has, and what error is traced back to: each slot has one of the first two. */
     GLINT_ROW_REFERENCE,      /* this variant is its slot's reference */
     GLINT_ROW_REFERENCE_NONE, /* the slot's reference is to leave it out; help: why */

@@ -76,7 +76,9 @@ struct glint_survey_pixels {
 struct glint_survey_cubemap {
     uint32_t number; /* of the capture's cube maps */
     uint8_t open;    /* faces with a texel that has no distance */
-    uint8_t sky;     /* faces with a texel that lets the sky through */
+    uint8_t sky;     /* faces that rays may come to with a texel that lets the sky through */
+    uint8_t crossed; /* faces that rays may come to, */
+    uint8_t nearby;  /* and those within a tenth of a face's width */
 };
 enum { GLINT_SURVEY_CUBEMAPS = 16 };
 struct glint_survey {
@@ -98,8 +100,12 @@ struct glint_survey {
     uint64_t stencil_bits[8];              /* pixels by the bits of their id */
     float light[2], transparent_roughness; /* luminance of the lit picture; largest roughness */
     uint32_t looked_at;                    /* active cube maps, by the device; 0: none, so that anything is possible */
+    uint32_t followed; /* of how many it is known which faces rays may come to; 0: of none, and any may be */
     struct glint_survey_cubemap active[GLINT_SURVEY_CUBEMAPS]; /* in their order */
 };
+/* How many faces of the active cube maps that were looked at have some bit set. */
+enum glint_survey_face { GLINT_SURVEY_OPEN, GLINT_SURVEY_SKY, GLINT_SURVEY_CROSSED, GLINT_SURVEY_NEARBY };
+uint32_t glint_survey_faces(const struct glint_survey *survey, enum glint_survey_face kind);
 /* Reads the G-buffer. */
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err);
 
