@@ -163,6 +163,7 @@ static char *draw_panels(struct drawing *d) {
              end < story->count && story->records[end].pass == first->pass && story->records[end].ray == first->ray;)
             end++;
         const struct told told = {first, end - i};
+        draw_picture(d, &told, LEFT - 52, AREA + 52);
         draw_screen(d, &told);
         draw_cubes(d, &told);
     }
@@ -174,6 +175,7 @@ bool probe_draw(const char *path, const struct probe *probe, struct glint_error 
     struct drawing d = {.probe = probe};
     char *text = NULL;
     size_t size;
+    if (probe->own.picture.texels && !(d.uri = draw_encode(probe, err))) return false;
     d.points = calloc(DRAW_POINTS, sizeof *d.points);
     char *body = d.points ? draw_panels(&d) : NULL;
     const bool empty = body && d.top == 0;
@@ -191,5 +193,6 @@ bool probe_draw(const char *path, const struct probe *probe, struct glint_error 
     free(text);
     free(body);
     free(d.points);
+    json_decref(d.uri);
     return ok;
 }

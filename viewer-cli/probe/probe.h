@@ -27,7 +27,8 @@ struct probe_side {
     struct probe_value *values; /* in the order of passes, the capture's first */
     size_t value_count;
     struct probe_image depth_half, cubemap_distance, active_center;
-    uint32_t cubemaps[16]; /* number of the capture's cube map in each place */
+    struct probe_image picture; /* the last one that the pipeline made */
+    uint32_t cubemaps[16];      /* number of the capture's cube map in each place */
     uint32_t cubemap_count;
 };
 

@@ -63,6 +63,17 @@ static bool read_places(struct probe_side *side, struct glint_replay *replay, st
     return ok;
 }
 
+static bool read_picture(struct probe_side *side, struct glint_replay *replay, struct glint_error *err) {
+    const struct glint_row *last = NULL;
+    for (size_t i = 0; i < side->value_count; i++) {
+        const struct probe_value *value = &side->values[i];
+        if (value->pass && value->row->size == GLINT_SIZE_FULL && value->count >= 3 &&
+            strcmp(value->row->unit, "radiance") == 0)
+            last = value->row;
+    }
+    return !last || read_image(&side->picture, replay, last->name, err);
+}
+
 static bool read_side(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
                       struct glint_error *err) {
     const struct glint_pass_result *passes = glint_replay_results(replay, &side->pass_count);
@@ -73,7 +84,8 @@ static bool read_side(struct probe *probe, struct probe_side *side, struct glint
     if (!glint_replay_probe(replay, 0, &side->story, err) || !read_values(probe, side, replay, NULL, err)) return false;
     for (size_t p = 0; p < side->pass_count; p++)
         if (side->passes[p].ran && !read_values(probe, side, replay, side->passes[p].pass, err)) return false;
-    return read_places(side, replay, err) && read_image(&side->depth_half, replay, "depth_half", err) &&
+    return read_places(side, replay, err) && read_picture(side, replay, err) &&
+           read_image(&side->depth_half, replay, "depth_half", err) &&
            read_image(&side->cubemap_distance, replay, "cubemap_distance", err) &&
            read_image(&side->active_center, replay, "active_center", err);
 }
@@ -103,6 +115,7 @@ void probe_side_finish(struct probe_side *side) {
     free(side->depth_half.texels);
     free(side->cubemap_distance.texels);
     free(side->active_center.texels);
+    free(side->picture.texels);
     *side = (struct probe_side){0};
 }
 
