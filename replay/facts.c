@@ -27,6 +27,13 @@ static bool reflections(const struct question *q) {
     return opaque || q->survey->has_transparent;
 }
 
+/* Whether a list of what reflects leaves something out. */
+static bool sparse(const struct question *q) {
+    const double part = q->survey->pixels ? (double)q->shown->count / (double)q->survey->pixels : 0;
+    snprintf(q->reason, q->size, "%.3g %% of the pixels reflect, the limit is %.3g %%", 100 * part, 100 * q->value);
+    return part <= q->value;
+}
+
 /* "as smooth as 0.02 of 1000 pixels that reflect" */
 static void say_extreme(const struct question *q, const char *word, float roughness) {
     if (q->shown->count == 0) snprintf(q->reason, q->size, "0 of %" PRIu64 " pixels reflect", q->survey->pixels);
@@ -129,6 +136,7 @@ static const struct {
 } facts[] = {
     {"reflecting", reflecting, false, false},
     {"reflections", reflections, false, false}, /* of whatever surface */
+    {"sparse", sparse, true, false},
     {"smooth", smooth, true, false},
     {"rough", rough, true, false},
     {"cones", cones, false, false},

@@ -23,7 +23,9 @@ shared uint found;
 uint class_of(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return 0u;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (!reflects(texelFetch(depth_full, pixel, 0).x, surface.xyz) || !is_shown(pixel)) return 0u;
+    float depth_m = texelFetch(depth_full, pixel, 0).x;
+    bool shown = is_shown(pixel); // fetched before anything is looked at, so that no fetch waits for another one
+    if (!shown || !reflects(depth_m, surface.xyz)) return 0u;
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     bool smooth_one = roughness <= uintBitsToFloat(frame.work.z);
     bool rough_one = !smooth_one || roughness >= 0.999 * uintBitsToFloat(frame.work.w);

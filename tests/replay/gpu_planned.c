@@ -9,114 +9,18 @@
 
 #include <cmocka.h>
 
-#include "fixture.h"
 #include "glint/samples.h"
+#include "pair.h"
 #include "plain_capture.h"
-#include "state.h"
 
 enum { WIDTH = 56, HEIGHT = 32, FACE = 16, FRAMES = 2 };
-
-static void check(bool ok, const struct glint_error *err) {
-    if (!ok) fail_msg("%s", err->message);
-}
-
-/* ---- Two replays of one shot: as planned, and with everything ---- */
-
-/* Both stay for all tests, and so do their programs. */
-struct pair {
-    struct fixture *fixture;
-    struct glint_pipeline *pipeline;
-    struct glint_replay *planned, *whole;
-    struct glint_survey last;                 /* of the planned one */
-    void (*lie)(struct glint_survey *survey); /* to the plan, about what the frame holds; NULL: nothing */
-};
-
-static struct pair *pair_of(void **state) {
-    struct pair *pair = *state;
-    void *fixture = pair->fixture;
-    fixture_need_device(&fixture);
-    pair->lie = NULL;
-    return pair;
-}
-
-static void use_preset(struct pair *pair, const char *preset) {
-    struct glint_error err = {0};
-    glint_pipeline_destroy(&pair->pipeline);
-    pair->pipeline = glint_pipeline_create(preset, &err);
-    check(pair->pipeline != NULL, &err);
-    if (glint_pipeline_rays(pair->pipeline) > 1)
-        check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
-}
-
-static int set_up(void **state) {
-    static struct pair pair;
-    void *fixture = NULL;
-    struct glint_error err = {0};
-    if (fixture_setup_device(&fixture) != 0) return -1;
-    pair.fixture = fixture;
-    if (pair.fixture->device) {
-        pair.planned = glint_replay_create(pair.fixture->device, &err);
-        pair.whole = glint_replay_create(pair.fixture->device, &err);
-        if (!pair.planned || !pair.whole) return -1;
-    }
-    *state = &pair;
-    return 0;
-}
-
-static int tear_down(void **state) {
-    struct pair *pair = *state;
-    void *fixture = pair->fixture;
-    glint_replay_destroy(&pair->planned);
-    glint_replay_destroy(&pair->whole);
-    glint_pipeline_destroy(&pair->pipeline);
-    return fixture_teardown(&fixture);
-}
-
-/* The last picture that the pipeline makes, as it is stored. */
-static uint16_t *picture_of(struct glint_replay *replay, size_t *count) {
-    static const char *const pictures[] = {"composed_transparent", "composed_water", "composed"};
-    struct glint_error err = {0};
-    const struct glint_image *image = NULL;
-    for (size_t i = 0; i < 3 && !image; i++) image = glint_replay_find_image(replay, pictures[i]);
-    assert_non_null(image);
-    *count = (size_t)image->width * image->height * image->components;
-    uint16_t *bits = malloc(*count * sizeof *bits);
-    assert_non_null(bits);
-    check(glint_replay_read_image(replay, image, GLINT_F16, bits, &err), &err);
-    return bits;
-}
-
-/* Replays the frame with both, and counts the values that differ. *left_out receives how many passes the plan dropped. */
-static size_t differences(struct pair *pair, struct glint_capture *capture, size_t *left_out) {
-    struct glint_error err = {0};
-    check(glint_replay_load(pair->planned, capture, &err), &err);
-    check(glint_replay_load(pair->whole, capture, &err), &err);
-    if (pair->lie) {
-        const struct glint_plan_entry *entries;
-        size_t count;
-        check(glint_replay_plan(pair->planned, pair->pipeline, NULL, &entries, &count, &err), &err);
-        pair->lie(&pair->planned->survey);
-    }
-    check(glint_replay_run(pair->planned, pair->pipeline, NULL, NULL, NULL, &err), &err);
-    check(glint_replay_run(pair->whole, pair->pipeline, &(struct glint_replay_options){.all = true}, NULL, NULL, &err),
-          &err);
-    pair->last = pair->planned->survey;
-    size_t counts[2], passes, differ = 0;
-    const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);
-    for (size_t i = 0; i < passes; i++) *left_out += !results[i].ran;
-    uint16_t *bits[] = {picture_of(pair->planned, &counts[0]), picture_of(pair->whole, &counts[1])};
-    assert_int_equal(counts[0], counts[1]);
-    for (size_t i = 0; i < counts[0]; i++) differ += bits[0][i] != bits[1][i];
-    free(bits[0]), free(bits[1]);
-    return differ;
-}
 
 static size_t differences_of_file(struct pair *pair, const char *path, size_t *left_out) {
     struct glint_error err = {0};
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-    check(capture != NULL, &err);
-    const size_t differ = differences(pair, capture, left_out);
-    check(glint_replay_load(pair->planned, NULL, &err) && glint_replay_load(pair->whole, NULL, &err), &err);
+    pair_check(capture != NULL, &err);
+    const size_t differ = pair_differences(pair, capture, left_out);
+    pair_check(glint_replay_load(pair->planned, NULL, &err) && glint_replay_load(pair->whole, NULL, &err), &err);
     glint_capture_close(&capture);
     return differ;
 }
@@ -133,7 +37,7 @@ static const char *sampled(const struct fixture *fixture, const char *scene, int
                                                  .light_samples = 2};
     struct glint_error err = {0};
     snprintf(path, 256, "%s/%s.exr", fixture->folder, scene);
-    if (frame == 1) check(glint_sample_write(scene, path, &options, NULL, NULL, &err), &err);
+    if (frame == 1) pair_check(glint_sample_write(scene, path, &options, NULL, NULL, &err), &err);
     snprintf(path, 256, "%s/%s.%04d.exr", fixture->folder, scene, frame);
     return path;
 }
@@ -143,16 +47,16 @@ static const char *mirror(const struct fixture *fixture, char path[256]) {
     const struct glint_sample_options options = {.width = 160, .height = 90, .cube_size = 128, .light_samples = 2};
     struct glint_error err = {0};
     snprintf(path, 256, "%s/mirror.exr", fixture->folder);
-    check(glint_sample_write("desert_night", path, &options, NULL, NULL, &err), &err);
+    pair_check(glint_sample_write("desert_night", path, &options, NULL, NULL, &err), &err);
     return path;
 }
 
 /* Rays end in the cocoon. */
 static void fall_back(struct pair *pair) {
     struct glint_error err = {0};
-    check(glint_pipeline_set(pair->pipeline, "cubemap_trace.length_m=0.1", &err) &&
-              glint_pipeline_set(pair->pipeline, "cubemap_trace.exhausted=fallback", &err),
-          &err);
+    pair_check(glint_pipeline_set(pair->pipeline, "cubemap_trace.length_m=0.1", &err) &&
+                   glint_pipeline_set(pair->pipeline, "cubemap_trace.exhausted=fallback", &err),
+               &err);
 }
 
 /* Catches: a face that a ray, a filter or the cocoon reads and that was left out. */
@@ -163,7 +67,7 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
     mirror(pair->fixture, path);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         size_t left_out = 0;
-        use_preset(pair, presets[p]);
+        pair_use(pair, presets[p]);
         if (p == 0) fall_back(pair);
         assert_int_equal(differences_of_file(pair, path, &left_out), 0);
         const struct glint_survey *survey = &pair->last;
@@ -188,7 +92,7 @@ static void the_picture_of_a_plan_is_the_whole_picture(void **state) {
     for (size_t s = 0; s < scenes; s++) sampled(fixture, samples[s].name, 1, path);
     for (size_t p = 0; glint_preset(p); p++)
         for (size_t s = 0; s < scenes; s++) {
-            use_preset(pair, glint_preset(p));
+            pair_use(pair, glint_preset(p));
             for (int frame = 1; frame <= FRAMES; frame++) {
                 snprintf(path, sizeof path, "%s/%s.%04d.exr", fixture->folder, samples[s].name, frame);
                 const size_t differ = differences_of_file(pair, path, &left_out);
@@ -224,7 +128,8 @@ static void light_of(struct glint_capture *capture, double range[2]) {
     const size_t pixels = (size_t)WIDTH * HEIGHT;
     float *rgb = malloc(pixels * 3 * sizeof *rgb);
     assert_non_null(rgb);
-    check(glint_capture_read(capture, glint_capture_find(capture, "lit"), names, 3, GLINT_F32, rgb, 0, &err), &err);
+    pair_check(glint_capture_read(capture, glint_capture_find(capture, "lit"), names, 3, GLINT_F32, rgb, 0, &err),
+               &err);
     range[0] = INFINITY, range[1] = 0;
     for (size_t i = 0; i < pixels; i++) {
         const float *c = rgb + 3 * i;
@@ -248,9 +153,9 @@ static void the_device_counts_as_the_host_does(void **state) {
         struct glint_survey host;
         struct glint_capture *capture =
             glint_capture_open(sampled(pair->fixture, samples[s].name, 1, path), NULL, &err);
-        check(capture && glint_replay_load(pair->planned, capture, &err), &err);
-        check(glint_replay_survey(pair->planned, &device, NULL, &err), &err);
-        check(glint_survey_capture(capture, &host, &err), &err);
+        pair_check(capture && glint_replay_load(pair->planned, capture, &err), &err);
+        pair_check(glint_replay_survey(pair->planned, &device, NULL, &err), &err);
+        pair_check(glint_survey_capture(capture, &host, &err), &err);
         assert_true(device->whole && !host.whole);
         assert_int_equal(device->pixels, WIDTH * HEIGHT);
         assert_int_equal(device->sky, host.sky);
@@ -267,7 +172,7 @@ static void the_device_counts_as_the_host_does(void **state) {
         if (strcmp(samples[s].name, "still_life") == 0) assert_string_equal(glint_survey_motion(device), "none");
         if (strcmp(samples[s].name, "matte") == 0) assert_string_equal(glint_survey_motion(device), "camera");
         water += device->water, transparent += device->transparent, moved += device->moved, moving += device->moving;
-        check(glint_replay_load(pair->planned, NULL, &err), &err);
+        pair_check(glint_replay_load(pair->planned, NULL, &err), &err);
         glint_capture_close(&capture);
     }
     assert_true(water && transparent && moved && moving);
@@ -292,12 +197,6 @@ static void paint(const struct plain *plain, float *values) {
     }
 }
 
-static void cube(uint32_t number, const double direction[3], float out[5]) {
-    for (int k = 0; k < 3; k++) out[k] = (float)(1 + 0.5 * direction[k]) + (float)number;
-    out[3] = 1;
-    out[4] = 6;
-}
-
 static struct glint_capture *painted(const struct fixture *fixture, enum look look, uint32_t number) {
     struct glint_error err = {0};
     char path[256];
@@ -309,12 +208,12 @@ static struct glint_capture *painted(const struct fixture *fixture, enum look lo
                                 .spoil = paint,
                                 .cube_size = FACE,
                                 .cube_count = 1,
-                                .cube = cube};
+                                .cube = pair_cube};
     snprintf(path, sizeof path, "%s/painted.exr", fixture->folder);
     look_now = look;
-    check(plain_write(path, &plain, &err), &err);
+    pair_check(plain_write(path, &plain, &err), &err);
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-    check(capture != NULL, &err);
+    pair_check(capture != NULL, &err);
     return capture;
 }
 
@@ -327,17 +226,18 @@ static void a_plan_may_change_from_frame_to_frame(void **state) {
     static const char *const presets[] = {"mafia3", "mafia_de"};
     size_t faults = 0;
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
-        use_preset(pair, presets[p]);
+        pair_use(pair, presets[p]);
         size_t before = 0, changes = 0;
         for (uint32_t i = 0; i < sizeof shot / sizeof *shot; i++) {
             struct glint_capture *capture = painted(pair->fixture, shot[i], i + 1);
             size_t left_out = 0;
-            const size_t differ = differences(pair, capture, &left_out);
+            const size_t differ = pair_differences(pair, capture, &left_out);
             if (differ) print_error("%s, frame %u: %zu values differ\n", presets[p], i + 1, differ);
             faults += differ > 0;
             changes += left_out != before;
             before = left_out;
-            check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL), NULL);
+            pair_check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL),
+                       NULL);
             glint_capture_close(&capture);
         }
         assert_true(changes > 0);
@@ -411,7 +311,7 @@ static void a_wrong_rule_is_found(void **state) {
                  {"planar", "lake", "gtav", there_is_no_planar_map},
                  {"transparent", "glasshouse", "mafia_de", nothing_is_transparent}};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
-        use_preset(pair, rules[i].preset);
+        pair_use(pair, rules[i].preset);
         size_t left_out = 0;
         char path[256];
         pair->lie = rules[i].lie;
@@ -431,5 +331,5 @@ int main(void) {
         cmocka_unit_test(faces_that_no_ray_comes_to_are_left_out),
         cmocka_unit_test(the_picture_of_a_plan_is_the_whole_picture),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, pair_set_up, pair_tear_down);
 }

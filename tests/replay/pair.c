@@ -1,0 +1,102 @@
+#include "pair.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+void pair_check(bool ok, const struct glint_error *err) {
+    if (!ok) fail_msg("%s", err->message);
+}
+
+struct pair *pair_of(void **state) {
+    struct pair *pair = *state;
+    void *fixture = pair->fixture;
+    fixture_need_device(&fixture);
+    pair->lie = NULL;
+    return pair;
+}
+
+void pair_use(struct pair *pair, const char *preset) {
+    struct glint_error err = {0};
+    glint_pipeline_destroy(&pair->pipeline);
+    pair->pipeline = glint_pipeline_create(preset, &err);
+    pair_check(pair->pipeline != NULL, &err);
+    if (strcmp(preset, "reference") != 0) /* a list of tiles, however little it leaves out */
+        pair_check(glint_pipeline_set(pair->pipeline, "classify_tiles.most=1", &err), &err);
+    if (glint_pipeline_rays(pair->pipeline) > 1)
+        pair_check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
+}
+
+int pair_set_up(void **state) {
+    static struct pair pair;
+    void *fixture = NULL;
+    struct glint_error err = {0};
+    if (fixture_setup_device(&fixture) != 0) return -1;
+    pair.fixture = fixture;
+    if (pair.fixture->device) {
+        pair.planned = glint_replay_create(pair.fixture->device, &err);
+        pair.whole = glint_replay_create(pair.fixture->device, &err);
+        if (!pair.planned || !pair.whole) return -1;
+    }
+    *state = &pair;
+    return 0;
+}
+
+int pair_tear_down(void **state) {
+    struct pair *pair = *state;
+    void *fixture = pair->fixture;
+    glint_replay_destroy(&pair->planned);
+    glint_replay_destroy(&pair->whole);
+    glint_pipeline_destroy(&pair->pipeline);
+    return fixture_teardown(&fixture);
+}
+
+/* The last picture that the pipeline makes, as it is stored. */
+static uint16_t *picture_of(struct glint_replay *replay, size_t *count) {
+    static const char *const pictures[] = {"composed_transparent", "composed_water", "composed"};
+    struct glint_error err = {0};
+    const struct glint_image *image = NULL;
+    for (size_t i = 0; i < 3 && !image; i++) image = glint_replay_find_image(replay, pictures[i]);
+    assert_non_null(image);
+    *count = (size_t)image->width * image->height * image->components;
+    uint16_t *bits = malloc(*count * sizeof *bits);
+    assert_non_null(bits);
+    pair_check(glint_replay_read_image(replay, image, GLINT_F16, bits, &err), &err);
+    return bits;
+}
+
+size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t *left_out) {
+    struct glint_error err = {0};
+    pair_check(glint_replay_load(pair->planned, capture, &err), &err);
+    pair_check(glint_replay_load(pair->whole, capture, &err), &err);
+    if (pair->lie) {
+        const struct glint_plan_entry *entries;
+        size_t count;
+        pair_check(glint_replay_plan(pair->planned, pair->pipeline, NULL, &entries, &count, &err), &err);
+        pair->lie(&pair->planned->survey);
+    }
+    pair_check(glint_replay_run(pair->planned, pair->pipeline, NULL, NULL, NULL, &err), &err);
+    pair_check(
+        glint_replay_run(pair->whole, pair->pipeline, &(struct glint_replay_options){.all = true}, NULL, NULL, &err),
+        &err);
+    pair->last = pair->planned->survey;
+    size_t counts[2], passes, differ = 0;
+    const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);
+    for (size_t i = 0; i < passes; i++) *left_out += !results[i].ran;
+    uint16_t *bits[] = {picture_of(pair->planned, &counts[0]), picture_of(pair->whole, &counts[1])};
+    assert_int_equal(counts[0], counts[1]);
+    for (size_t i = 0; i < counts[0]; i++) differ += bits[0][i] != bits[1][i];
+    free(bits[0]), free(bits[1]);
+    return differ;
+}
+
+void pair_cube(uint32_t number, const double direction[3], float out[5]) {
+    for (int k = 0; k < 3; k++) out[k] = (float)(1 + 0.5 * direction[k]) + (float)number;
+    out[3] = 1;
+    out[4] = 6;
+}
