@@ -75,6 +75,7 @@ def flips(folder, image, places):
 
 
 def census_of(glint, a, b, stable):
+    """stable(): the folder of glint stability, which is asked where a ray ends otherwise."""
     told = difference(glint, a, b)
     rows = []
     for image in told["images"]:
@@ -82,7 +83,7 @@ def census_of(glint, a, b, stable):
             continue
         row = {key: image[key] for key in ("slot", "name", "unit", "pixels", "differing", "failed", "rms", "largest")}
         if image["unit"] == "end reason" and image["differing"]:
-            row["ties"] = flips(stable, image["name"], image["places"])
+            row["ties"] = flips(stable(), image["name"], image["places"])
         rows.append(row)
     return {"settings": told.get("settings", []), "images": rows}
 
@@ -98,8 +99,12 @@ def census(args):
                 continue
             capture, preset, precision = name.rsplit("-", 2)
             source = next(c for about in abouts for c in about["captures"] if pathlib.Path(c).stem == capture and pathlib.Path(c).exists())
-            stable = pathlib.Path(work) / name
-            run(args.glint, "stability", source, "-o", stable, "--preset", preset, "--precision", precision, "--seeds", SEEDS, "--json")
+
+            def stable(folder=pathlib.Path(work) / name, source=source, preset=preset, precision=precision):
+                if not folder.exists():
+                    run(args.glint, "stability", source, "-o", folder, "--preset", preset, "--precision", precision, "--seeds", SEEDS, "--json")
+                return folder
+
             made["runs"][name] = census_of(args.glint, path.parent, folders[1] / name, stable)
     pathlib.Path(args.output).write_text(json.dumps(made, indent=1) + "\n")
 
