@@ -39,6 +39,7 @@ static const struct way ways[] = {
     {{CUBES, "cocoon=max", "cubemap_select=score", "cubemap_trace.cocoon_start=surface", "cubemap_trace.mass_m=0"},
      {"cocoon.reach=0", "cocoon.maximum=samples", "cubemap_select.visibility=0", "cubemap_select.distance=0",
       "cubemap_select.direction=0", "cubemap_trace.random_scale=true"}},
+    {{CUBES, "cocoon=max", "cocoon.size=8"}, {"cocoon.cap_sky=false"}}, /* finer levels than the cocoon's */
     {{CUBES, "cubemap_trace=box"}, {"cubemap_trace.sky=false", "cubemap_trace.grow_m=0.3"}},
     {{CUBES, "cubemap_trace=exact"}, {"cubemap_trace.interpolate=false", "cubemap_trace.unseen=stop"}},
     {{"downsample=mips", "downsample.jitter=true", "screen_trace=dda", "blur=upscale_blur", "blur.width=1",
@@ -111,7 +112,8 @@ static void refinements_change_little(void **state) {
     } cases[] = {
         {{"downsample=none", "screen_trace=dda"}, "resolve.filter_color=false", "reflection_half"},
         {{"downsample=none", "screen_trace.dither=false"}, "screen_trace.interpolate=false", "screen_travelled"},
-        {{"downsample=none", "screen_trace=linear_binary"}, "screen_trace.dither=false", "screen_travelled"}};
+        {{"downsample=none", "screen_trace=linear_binary"}, "screen_trace.dither=false", "screen_travelled"},
+        {{CUBES, "cubemap_trace=exact"}, "cubemap_trace.interpolate=false", "travelled"}};
     room_load(gpu, false);
     for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
         float *values[2];

@@ -1,9 +1,26 @@
 /* The court: what is where, and how it is seen. */
 #include <math.h>
+#include <string.h>
 
 #include "court_parts.h"
 
 static const double size[3] = {8, 4, 6}, eye[3] = {1.2, 1.7, 5.2}, target[3] = {5.2, 0.9, 1.2}; /* as usual */
+
+static struct court_view view_of(const double of[4]) {
+    struct court_view v = {.half_height = tan(of[0] / 2)};
+    const double *towards = of + 1;
+    double length = 0;
+    memcpy(v.of, of, sizeof v.of);
+    for (int k = 0; k < 3; k++) length += (towards[k] - eye[k]) * (towards[k] - eye[k]);
+    for (int k = 0; k < 3; k++) v.ahead[k] = (towards[k] - eye[k]) / sqrt(length);
+    const double across = hypot(v.ahead[0], v.ahead[2]);
+    v.right[0] = -v.ahead[2] / across, v.right[2] = v.ahead[0] / across;
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        v.up[k] = v.right[i] * v.ahead[j] - v.right[j] * v.ahead[i];
+    }
+    return v;
+}
 
 struct court court_of(const struct court *court) {
     struct court c = *court;
@@ -23,6 +40,8 @@ struct court court_of(const struct court *court) {
         if (!c.axes[k]) c.axes[k] = k + 1;
         if (!aimed) c.target[k] = target[k];
     }
+    const double of[4] = {c.fov_y_rad, c.target[0], c.target[1], c.target[2]};
+    if (memcmp(of, c.view.of, sizeof of) != 0) c.view = view_of(of);
     return c;
 }
 
@@ -44,18 +63,13 @@ void court_eye(const struct court *court, bool previous, double out[3]) {
 }
 
 void court_camera_axes(const struct court *c, double right[3], double up[3], double ahead[3]) {
-    double length = 0, across;
-    for (int k = 0; k < 3; k++) length += (c->target[k] - eye[k]) * (c->target[k] - eye[k]);
-    for (int k = 0; k < 3; k++) ahead[k] = (c->target[k] - eye[k]) / sqrt(length);
-    across = hypot(ahead[0], ahead[2]);
-    right[0] = -ahead[2] / across, right[1] = 0, right[2] = ahead[0] / across;
-    up[0] = right[1] * ahead[2] - right[2] * ahead[1];
-    up[1] = right[2] * ahead[0] - right[0] * ahead[2];
-    up[2] = right[0] * ahead[1] - right[1] * ahead[0];
+    memcpy(right, c->view.right, sizeof c->view.right);
+    memcpy(up, c->view.up, sizeof c->view.up);
+    memcpy(ahead, c->view.ahead, sizeof c->view.ahead);
 }
 
 struct court_projection court_project(const struct court *c) {
-    const double b = 1 / tan(c->fov_y_rad / 2);
+    const double b = 1 / c->view.half_height;
     return (struct court_projection){
         {b * c->height / c->width, b},
         {c->shift[0] + 2 * c->jitter_px[0] / c->width, c->shift[1] - 2 * c->jitter_px[1] / c->height}};

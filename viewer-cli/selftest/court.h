@@ -34,9 +34,13 @@ struct court {
     /* Changes values as they are stored; NULL: not. */
     void (*change)(void *user, const char *part, const char *channel, float *plane, uint32_t width, uint32_t height);
     void *user;
+    /* Filled in, of the target and field of view that `of` holds: the camera's axes, half the height at depth 1. */
+    struct court_view {
+        double of[4], right[3], up[3], ahead[3], half_height;
+    } view;
 };
 
-/* Fills in what is 0. */
+/* Fills in what is 0, and the view. */
 struct court court_of(const struct court *court);
 bool court_write(const struct court *court, const char *path, struct glint_error *err);
 
