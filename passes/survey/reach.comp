@@ -33,19 +33,17 @@ bool crosses(vec3 from, vec3 towards, int face, float margin) {
     return span.x <= span.y + 1e-5;
 }
 
-void mark(int word, uint bits) {
-    if (bits != 0u) atomicOr(faces[word], bits);
-}
-
 void follow(vec3 origin, vec3 direction) {
     for (int place = 0; place < int(min(frame.counts.x, ACTIVE_MOST)); ++place) {
         vec3 from = origin - active_centers[place].xyz;
         bool all = !(length(from) > 1e-3 * (1.0 + length(origin))); // its direction is not known
+        from = normalize(from);
         for (int face = 0; face < 6; ++face) {
-            int bit = 6 * place + face;
+            int bit = 6 * place + face, word = bit >> 5;
             uint mask = 1u << (bit & 31);
-            if (all || crosses(normalize(from), direction, face, CROSSED)) mark(bit >> 5, mask);
-            if (all || crosses(normalize(from), direction, face, NEARBY)) mark(4 + (bit >> 5), mask);
+            if ((faces[word] & mask) != 0u || !(all || crosses(from, direction, face, NEARBY))) continue;
+            atomicOr(faces[4 + word], mask);
+            if (all || crosses(from, direction, face, CROSSED)) atomicOr(faces[word], mask);
         }
     }
 }
@@ -55,8 +53,8 @@ void main() {
     int lane = int(gl_LocalInvocationIndex);
     if (lane < 8) faces[lane] = 0u;
     barrier();
-    for (int row = 0; row < 64; ++row) {
-        ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane, row);
+    for (int row = lane >> 6; row < 64; row += 2) {
+        ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane & 63, row);
         if (!inside(pixel, ivec2(frame.size.xy)) || !is_shown(pixel)) continue;
         float depth_m = texelFetch(depth_full, pixel, 0).x;
         vec4 surface = texelFetch(normal_full, pixel, 0);

@@ -1,5 +1,6 @@
 /* Faces of the active cube maps that the ways of mirror rays cross, as the centres see them. */
 PASS("Faces that rays come to", "glint")
+WORKGROUP(8, 16)
 #line 102
 SLOT("What a frame holds, for the plan")
 READ(texture2D, depth_full)
