@@ -146,6 +146,41 @@ class Tests:
         assert (chain.width, chain.height) == (96, 36) and (level.width, level.height) == (32, 18)
         assert all(chain(64 + x, y) == level(x, y) for x in range(32) for y in range(18))
 
+    def test_a_run_s_picture_equals_oiiotool_s(self):
+        """The same file, configuration and view through another program: each rounds for itself. A configuration of the test's own
+        besides, whose view is one conversion between two spaces."""
+        capture, run, config = self.path("colour.exr"), self.path("colour"), self.path("own.ocio")
+        call(GLINT, "sample", "room", "-o", capture, "--size", "96x54", "--cube-size", "16")
+        call(GLINT, "replay", capture, "-o", run, "--outputs", "composed")
+        (exr,) = [os.path.join(run, name) for name in os.listdir(run) if name.endswith("-compose.exr")]
+        with open(config, "w", encoding="utf-8") as file:
+            file.write("""ocio_profile_version: 2
+roles: {default: linear, scene_linear: linear}
+file_rules:
+  - !<Rule> {name: Default, colorspace: default}
+displays:
+  television:
+    - !<View> {name: warm, colorspace: shown}
+colorspaces:
+  - !<ColorSpace> {name: linear}
+  - !<ColorSpace>
+    name: shown
+    from_scene_reference: !<GroupTransform>
+      children:
+        - !<MatrixTransform> {matrix: [1.1, 0.05, 0, 0, 0.02, 0.9, 0.03, 0, 0, 0.1, 0.7, 0, 0, 0, 0, 1]}
+        - !<ExponentWithLinearTransform> {gamma: [2.2, 2.2, 2.2, 1], offset: [0.04, 0.04, 0.04, 0], direction: inverse}
+""")
+        builtin = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../viewer-cli/glint.ocio")
+        for words, theirs in ((["--view", "ACES"], ["--colorconfig", builtin, exr, "--ociodisplay:from=lin_rec709", "sRGB", "ACES"]),
+                              (["--ocio", builtin, "--view", "sRGB"], ["--colorconfig", builtin, exr, "--ociodisplay:from=lin_rec709", "sRGB", "sRGB"]),
+                              (["--ocio", config, "--display", "television", "--view", "warm"], ["--colorconfig", config, exr, "--colorconvert", "linear", "shown"])):
+            a, b = self.path("ours.png"), self.path("theirs.png")
+            call(GLINT, "view", exr, *words, "-o", a)
+            call("oiiotool", *theirs, "-d", "uint8", "-o", b)
+            ours, other = Png(a).texels, Png(b).texels
+            assert len(ours) == len(other) == 96 * 54 and len(set(ours)) > 1000
+            assert max(abs(x - y) for p, q in zip(ours, other) for x, y in zip(p, q)) <= 1, words
+
     def test_percentiles_choose_the_range(self):
         path = self.make("wide.exr", "--pattern", "fill:left=0:right=100", "256x1", "1")
         png = self.path("half.png")

@@ -75,7 +75,9 @@ static bool encode(FILE *file, const struct frames *frames, uint8_t *const *more
         return glint_fail(err, GLINT_ERROR_IO, "%s: cannot write the PNG", path);
     }
     png_init_io(png, file);
-    png_set_compression_level(png, 4); /* half the time of 6, a few per cent larger */
+    /* Half the time of level 6, and of trying every filter on every row a third more; a few per cent larger. */
+    png_set_compression_level(png, 4);
+    png_set_filter(png, PNG_FILTER_TYPE_DEFAULT, PNG_FILTER_PAETH);
     png_set_IHDR(png, info, picture->width, picture->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);

@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "glint/replay.h"
+#include "threads.h"
 
-enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12 };
+enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12, WORKERS = 8 /* each holds an image */ };
 
 struct cell {
     const char *run, *image;
@@ -143,6 +144,33 @@ static size_t count_images(const struct glint_run *run, const char *const *image
     return count;
 }
 
+struct filling {
+    struct sheet *sheet;
+    const char *const *runs;
+    uint32_t run_count;
+    const struct glint_run *first;
+    const char *const *images;
+    const struct render_options *options;
+    struct glint_error errors[WORKERS];
+};
+
+static bool fill_row(void *user, uint32_t worker, size_t i) {
+    struct filling *f = user;
+    const char *image = f->images ? f->images[i] : glint_run_image(f->first, i)->name;
+    return draw_row(&f->sheet->cells[i * f->run_count], f->runs, f->run_count, image, f->options, &f->errors[worker]);
+}
+
+/* Rows are drawn at the same time, as many as there are cores for. */
+static bool fill_rows(struct filling *filling, size_t count, struct glint_error *err) {
+    uint32_t workers = glint_loop_workers(count, 0);
+    if (workers > WORKERS) workers = WORKERS;
+    if (glint_loop(count, workers, fill_row, filling)) return true;
+    for (uint32_t i = 0; i < workers; i++)
+        if (filling->errors[i].code != GLINT_OK)
+            return glint_fail(err, filling->errors[i].code, "%s", filling->errors[i].message);
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
 bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const char *const *images,
                 const struct render_options *options, struct glint_error *err) {
     struct glint_run *first = glint_run_open(runs[0], err);
@@ -156,9 +184,8 @@ bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, 
         uint32_t rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + columns - 1) / columns);
         ok = sheet_init(sheet, columns, rows, err);
     }
-    for (size_t i = 0; ok && i < count; i++)
-        ok = draw_row(&sheet->cells[i * run_count], runs, (uint32_t)run_count,
-                      images ? images[i] : glint_run_image(first, i)->name, options, err);
+    struct filling filling = {sheet, runs, (uint32_t)run_count, first, images, options, {{0}}};
+    ok = ok && fill_rows(&filling, count, err);
     glint_run_close(&first);
     return ok;
 }
