@@ -140,6 +140,13 @@ class Browser:
         with open(path, "wb") as file:
             file.write(base64.b64decode(data))
 
+    def picture(self, path, width, height):
+        """The window's upper left part, as PNG or JPEG by the file's name."""
+        kind = {"format": "jpeg", "quality": 82} if path.endswith(".jpg") else {"format": "png"}
+        data = self.call("Page.captureScreenshot", clip={"x": self.evaluate("scrollX"), "y": self.evaluate("scrollY"), "width": width, "height": height, "scale": 1}, **kind)["data"]
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(data))
+
     def close(self):
         self.process.kill()
         self.process.wait()

@@ -149,20 +149,21 @@ static void add_scale(json_t *blocks, const struct legend *legend, const char *u
     page_text(blocks, "text", text);
 }
 
-static bool add_stage(json_t *blocks, struct diff *diff, const struct diff_pair *pair, size_t share,
-                      size_t values_share, struct glint_error *err) {
+static bool add_stage(json_t *blocks, struct diff *diff, const struct diff_pair *pair, size_t part,
+                      struct glint_error *err) {
     struct diff_drawing d;
     char labels[2][64];
     json_t *pictures = page_stage(blocks, name_of(pair->a));
     bool ok = diff_draw(diff, pair, &d, err);
     diff_labels(diff, labels);
     for (int k = 0; ok && k < 3; k++) {
-        json_t *file = d.pictures[k].rgba ? page_picture(&d.pictures[k], share, err) : NULL;
+        json_t *file = d.pictures[k].rgba ? page_picture(&d.pictures[k], PAGE_PICTURE_BYTES / (3 * part), err) : NULL;
         if (!d.pictures[k].rgba) continue;
         ok = file != NULL;
         json_t *shown =
             json_pack("{s:o*, s:s, s:b}", "file", file, "caption", k < 2 ? labels[k] : "difference", "alone", k == 2);
-        if (k < 2 && !d.sources[k].cube) json_object_set_new(shown, "values", page_values(&d.sources[k], values_share));
+        if (k < 2 && !d.sources[k].cube)
+            json_object_set_new(shown, "values", page_values(&d.sources[k], PAGE_VALUE_BYTES / (2 * part)));
         json_array_append_new(pictures, shown);
     }
     if (ok) add_scale(blocks, &d.legends[0], pair->a->unit);
@@ -170,32 +171,32 @@ static bool add_stage(json_t *blocks, struct diff *diff, const struct diff_pair 
     return ok;
 }
 
-static bool add_image(json_t *document, struct diff *diff, size_t i, size_t share, size_t values_share,
-                      struct glint_error *err) {
+/* `part`: of what pictures and values may take it has 1/part. */
+static bool add_image(json_t *document, struct diff *diff, size_t i, size_t part, struct glint_error *err) {
     const struct diff_pair *pair = &diff->pairs[i];
     char title[300];
     snprintf(title, sizeof title, "%s%s%s", pair->a->slot, pair->a->slot[0] ? ": " : "", name_of(pair->a));
     json_t *blocks = page_section(document, title);
-    if (!add_stage(blocks, diff, pair, share, values_share, err)) return false;
+    if (!add_stage(blocks, diff, pair, part, err)) return false;
     if (pair->difference.differing) add_histogram(blocks, &pair->difference);
     return true;
 }
 
+/* The finished picture has half of the page, the others share the rest. */
 static bool add_images(json_t *document, struct diff *diff, bool picture_first, struct glint_error *err) {
     const size_t last = last_picture(diff);
     size_t shown = 0, stages = 1;
     for (size_t i = 0; i < diff->count; i++)
         stages += i != last && compared(&diff->pairs[i]) && diff->pairs[i].difference.differing;
     if (stages > STAGES) stages = STAGES;
-    const size_t share = PAGE_PICTURE_BYTES / (3 * stages), values_share = PAGE_VALUE_BYTES / (2 * stages);
     if (last == diff->count) return true;
-    if (picture_first && !add_image(document, diff, last, share, values_share, err)) return false;
+    if (picture_first && !add_image(document, diff, last, 2, err)) return false;
     for (size_t i = 0; i < diff->count && shown + 1 < stages; i++) {
         if (i == last || !compared(&diff->pairs[i]) || !diff->pairs[i].difference.differing) continue;
         shown++;
-        if (!add_image(document, diff, i, share, values_share, err)) return false;
+        if (!add_image(document, diff, i, 2 * (stages - 1), err)) return false;
     }
-    return picture_first || add_image(document, diff, last, share, values_share, err);
+    return picture_first || add_image(document, diff, last, 2, err);
 }
 
 bool diff_write_page(const char *path, struct diff *diff, const struct diff_page *page, struct glint_error *err) {
