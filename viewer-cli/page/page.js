@@ -339,7 +339,7 @@
         ...list(s.blocks).map(blockElement)));
     document.body.replaceChildren(
         element('header', null, toggle, element('h1', null, page.title), terms(list(page.facts), null),
-            sections.length > 2 ? element('nav', {'aria-label': 'sections'}, ...parts.map((s, i) => element('a', {href: `#s${i}`}, s.title))) : null),
+            sections.length > 2 ? element('nav', {'aria-label': 'sections'}, ...parts.map((s, i) => s.title ? element('a', {href: `#s${i}`}, s.title) : null)) : null),
         element('main', null, ...sections), view.dialog);
     const dark = matchMedia('(prefers-color-scheme: dark)');
     setLook(dark.matches ? 'dark' : 'light');

@@ -6,6 +6,7 @@
 
 #include "diff/diff.h"
 #include "progress.h"
+#include "view/sheet.h"
 #include "watch/watch.h"
 
 struct session {
@@ -51,7 +52,7 @@ static bool show(struct session *s, const char *fault, bool refresh, struct glin
     struct diff diff = {.options = {.limits = glint_difference_limits(), .heat = true}};
     char title[300], lead[2200], at[16];
     now_text(at);
-    snprintf(title, sizeof title, "%.250s, watched", s->watch->capture);
+    snprintf(title, sizeof title, "%.250s, watched", sheet_name(s->watch->capture));
     if (fault)
         snprintf(lead, sizeof lead, "Version %u, %s, does not run; this is version %u.\n%.2000s", s->number, at,
                  s->shown, fault);
