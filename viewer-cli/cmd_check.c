@@ -25,7 +25,8 @@ static const struct example examples[] = {
     {"glint check run --baseline approved", "exit 0 the same, 1 warning, 2 failure, as glint diff"},
     {"glint check run --baseline approved -fail 0.004 -failpercent 0.1 --html changed.html",
      "another driver: tolerances, and a page of what changed"},
-    {"glint check runs --baseline approved", "every run of a folder, as glint replay shots/*.exr -o runs made them"},
+    {"glint check runs --baseline approved",
+     "every run of a folder, as glint replay shots/room.0*.exr -o runs made them"},
     {0},
 };
 

@@ -61,7 +61,8 @@ static const struct example examples[] = {
     {"glint replay street.exr --against truth --metrics rmse,hdr_flip --ppd 40", "by these metrics, seen from nearer"},
     {"glint replay street.exr -o run --shader resolve=my.comp --watch",
      "edit my.comp, and see in run/watch.html what changes"},
-    {"glint replay shots/*.exr -o runs", "one run for each capture: runs/NAME; again: completes what was interrupted"},
+    {"glint replay shots/room.0*.exr -o runs",
+     "one run for each capture: runs/NAME; again: completes what was interrupted"},
     {0},
 };
 static const char *const precisions[] = {"half", "float", NULL};
