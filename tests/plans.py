@@ -46,7 +46,7 @@ def counts(given, capture, folder, *options):
     survey = told["survey"]
     return {"cubes": sum(w["texels"] for p, w in work if p.get("cached_work")),
             "rays": max((w.get("rays", 0) for _, w in work), default=0),
-            "texels": {p["slot"]: [w["texels"], w["of"]] for p, w in work},
+            "texels": {p["slot"]: [w["texels"], w["of"]] for p, w in work if p["ran"]},
             **({"reflecting": survey["reflecting"]["count"] / survey["pixels"]} if survey else {})}
 
 

@@ -16,9 +16,10 @@ void store(ivec2 pixel, Result result) {
 
 bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
     depth_m = texelFetch(depth_half, pixel, 0).x;
-    normal = texelFetch(normal_jittered, pixel, 0).xyz;
+    vec4 surface = texelFetch(normal_jittered, pixel, 0);
+    normal = surface.xyz;
     if (has_screen_rejected && texelFetch(screen_rejected, pixel, 0).x != 0u) return false;
-    return reflects(depth_m, normal);
+    return surface.w <= most_rough && reflects(depth_m, normal);
 }
 
 void main() {

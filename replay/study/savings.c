@@ -84,8 +84,10 @@ static bool measure(struct turns *t, struct glint_savings *savings, glint_progre
     first.repeat = t->rounds; /* of the surveys, which are made now */
     if (!glint_replay_plan(t->replay, t->pipeline, &first, &entries, &t->passes, err) || !make_room(t, err))
         return false;
-    const uint64_t frame_ns = t->replay->survey_time.median_ns;
-    savings->survey_ns = frame_ns + (t->replay->survey.looked_at ? t->replay->cubes.time.median_ns : 0);
+    const struct glint_replay *replay = t->replay;
+    const uint64_t frame_ns =
+        replay->survey_time.median_ns + (replay->survey.followed ? replay->followed_time.median_ns : 0);
+    savings->survey_ns = frame_ns + (replay->survey.looked_at ? replay->cubes.time.median_ns : 0);
     savings->passes = calloc(t->passes + 1, sizeof *savings->passes);
     if (!savings->passes) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (uint32_t round = 0; round < t->rounds; round++) /* who is first changes, too */

@@ -184,6 +184,7 @@ static void the_device_counts_as_the_host_does(void **state) {
 enum look { MATTE, MIRROR, GLOSSY, ROUGH, MIXED, LOOKS };
 
 static enum look look_now;
+static const float *fresnel_now;
 
 static void paint(const struct plain *plain, float *values) {
     const size_t pixels = (size_t)plain->width * plain->height;
@@ -205,6 +206,8 @@ static struct glint_capture *painted(const struct fixture *fixture, enum look lo
                                 .fov_y_degrees = 60,
                                 .floor = true,
                                 .frame = number,
+                                .cut = number % 8 == 0,
+                                .fresnel = fresnel_now,
                                 .spoil = paint,
                                 .cube_size = FACE,
                                 .cube_count = 1,
@@ -290,6 +293,12 @@ static void there_is_no_planar_map(struct glint_survey *s) {
 static void nothing_is_transparent(struct glint_survey *s) {
     s->has_transparent = false;
 }
+static void materials_say_nothing(struct glint_survey *s) {
+    s->has_fresnel = false;
+}
+static void there_was_no_frame_before(struct glint_survey *s) {
+    s->has_history = false;
+}
 
 /* Catches: a comparison that finds every plan right. */
 static void a_wrong_rule_is_found(void **state) {
@@ -323,12 +332,40 @@ static void a_wrong_rule_is_found(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
+/* Replays painted frames with both, and returns in how many values the last of them differs. */
+static size_t last_difference(struct pair *pair, uint32_t frames, void (*lie)(struct glint_survey *survey)) {
+    size_t differ = 0, left_out = 0;
+    use_preset(pair, "mafia3");
+    for (uint32_t i = 1; i <= frames; i++) {
+        struct glint_capture *capture = painted(pair->fixture, MIXED, i);
+        pair->lie = i == frames ? lie : NULL;
+        differ = differences(pair, capture, &left_out);
+        check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL), NULL);
+        glint_capture_close(&capture);
+    }
+    return differ;
+}
+
+/* Catches the same of rules about what no sample has, materials that say how they rise and histories that end. */
+static void a_wrong_rule_about_made_frames_is_found(void **state) {
+    struct pair *pair = pair_of(state);
+    static const float flat = 0.1f;
+    fresnel_now = &flat;
+    assert_int_equal(last_difference(pair, 1, NULL), 0);
+    assert_int_not_equal(last_difference(pair, 1, materials_say_nothing), 0);
+    fresnel_now = NULL;
+    assert_int_equal(last_difference(pair, 3, NULL), 0);
+    assert_int_not_equal(last_difference(pair, 3, there_was_no_frame_before), 0);
+    fixture_check_messages(pair->fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_device_counts_as_the_host_does),
         cmocka_unit_test(a_plan_may_change_from_frame_to_frame),
         cmocka_unit_test(a_wrong_rule_is_found),
         cmocka_unit_test(faces_that_no_ray_comes_to_are_left_out),
+        cmocka_unit_test(a_wrong_rule_about_made_frames_is_found),
         cmocka_unit_test(the_picture_of_a_plan_is_the_whole_picture),
     };
     return cmocka_run_group_tests(tests, pair_set_up, pair_tear_down);
