@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import statistics
+import subprocess
 import tempfile
 
 import pages
@@ -20,6 +21,8 @@ RECORDS = pages.HERE / "records/plans"
 SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "rain_street": "wet and rough, no mirror", "lake": "water, little else",
           "glasshouse": "panes", "still_life": "nothing moves", "room": "polished tiles", "street": "almost everything reflects"}
 SHARES, KINDS = (0, 1, 5, 25, 100), {"block": "one block", "scattered": "scattered"}
+RULES = ("downsample.least_weight=0.000977", "downsample.least_weight=0.03", "screen_trace.most_rough=0.5", "cubemap_trace.most_rough=0.5")
+RULED = ("street", "rain_street")
 READ = pages.HERE / "read.comp"
 
 
@@ -29,8 +32,8 @@ def time_of(told):
     return {"planned": told["planned_ms"], "whole": told["all_ms"], "ratio": told["ratio"]}
 
 
-def planned(given, capture):
-    told = json.loads(pages.run(given.glint, "plan", capture, "--measure", given.rounds, "--json"))
+def planned(given, capture, *options):
+    told = json.loads(pages.run(given.glint, "plan", capture, "--measure", given.rounds, "--json", *options))
     measured = told["measured"]
     return {"passes": {p["slot"]: {"runs": p["runs"], "why": p["reason"], "planned": p["saves"]["planned_ms"], "whole": p["saves"]["all_ms"]}
                        for p in told["passes"]},
@@ -56,6 +59,20 @@ def reading(given, capture):
     return next(p["time_ns"]["median"] for p in told["runs"][0]["passes"] if p["slot"] == "compose") / 1e6
 
 
+def ruled(given, capture, folder):
+    """What rules with an error save, and how far they take the picture from the one without them."""
+    base, other, found = pathlib.Path(folder) / "base", pathlib.Path(folder) / "other", {}
+    for rule in ("", *RULES):
+        into, options = (other, ["--set", rule]) if rule else (base, [])
+        row = {"rays": counts(given, capture, folder, *options)["rays"], "frame": planned(given, capture, *options)["frame"]["planned"]}
+        pages.run(given.glint, "replay", capture, "-o", into, "--outputs", "composed", *options)
+        if rule:
+            done = subprocess.run([given.glint, "diff", base, other, "--json"], capture_output=True, text=True)
+            row["rms"] = next(i["rms"] for i in json.loads(done.stdout)["images"] if i["name"] == "composed")
+        found[rule] = row
+    return found
+
+
 def make(given, folder, names):
     """Captures of scenes and of the series, as many at once as there are four cores for."""
     def one(name):
@@ -78,6 +95,8 @@ def record(given):
             if name in SCENES:
                 if not given.no_counts:
                     row["counts"] = {"planned": counts(given, capture, folder), "whole": counts(given, capture, folder, "--all")}
+                if name in RULED and not given.no_counts:
+                    row["rules"] = ruled(given, capture, folder)
                 if name == "matte":
                     row["read"] = reading(given, capture)
             told["scenes" if name in SCENES else "series"][name] = row
@@ -187,6 +206,15 @@ def follows(r):
     return pages.table(titles, rows)
 
 
+def rules(r):
+    rows = []
+    for scene in RULED:
+        found = r["scenes"][scene]["rules"]
+        rows += [[f"`{scene}`: `{rule}`", percent(1 - row["rays"] / found[""]["rays"]), percent(1 - row["frame"] / found[""]["frame"]), f"{row['rms']:.2g}"]
+                 for rule, row in found.items() if rule]
+    return pages.table(["rule", "rays saved on screen", "of the frame's time", "RMS difference of the picture"], rows)
+
+
 def page(given):
     records = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(RECORDS.glob("*.json"))]
     counted = next(r for r in records if "counts" in r["scenes"]["matte"])
@@ -200,7 +228,7 @@ def page(given):
     left = everything_ran(counted)
     every = "With `--all` every pass was dispatched over all of its texels, in every scene." if not left else f"**With `--all` left out**: {', '.join(left)}."
     text = pathlib.Path(__file__).with_name("plans.md.in").read_text(encoding="utf-8")
-    for key, value in {"WORKED": worked(counted), "EVERY": every, "DEVICES": "\n".join(parts)}.items():
+    for key, value in {"WORKED": worked(counted), "RULES": rules(counted), "EVERY": every, "DEVICES": "\n".join(parts)}.items():
         text = text.replace(f"@{key}@", value)
     (given.output / "plans.md").write_text(text, encoding="utf-8")
 
