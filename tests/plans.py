@@ -22,7 +22,7 @@ SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "ra
           "glasshouse": "panes", "still_life": "nothing moves", "room": "polished tiles", "street": "almost everything reflects"}
 SHARES, KINDS = (0, 1, 5, 25, 100), {"block": "one block", "scattered": "scattered"}
 RULES = ("downsample.least_weight=0.000977", "downsample.least_weight=0.03", "screen_trace.most_rough=0.5", "cubemap_trace.most_rough=0.5")
-RULED = ("street", "rain_street")
+RULED = ("street",)
 READ = pages.HERE / "read.comp"
 
 
@@ -242,7 +242,7 @@ def main():
     r.add_argument("-o", "--output", required=True)
     r.add_argument("--size", default="480x270")
     r.add_argument("--cube", default="128")
-    r.add_argument("--rounds", type=int, default=5)
+    r.add_argument("--rounds", type=int, default=3)
     r.add_argument("--no-counts", action="store_true")
     r.add_argument("--work", help="folder for temporary files")
     r.set_defaults(run=record)

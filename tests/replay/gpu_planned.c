@@ -335,12 +335,12 @@ static void a_wrong_rule_is_found(void **state) {
 /* Replays painted frames with both, and returns in how many values the last of them differs. */
 static size_t last_difference(struct pair *pair, uint32_t frames, void (*lie)(struct glint_survey *survey)) {
     size_t differ = 0, left_out = 0;
-    use_preset(pair, "mafia3");
+    pair_use(pair, "mafia3");
     for (uint32_t i = 1; i <= frames; i++) {
         struct glint_capture *capture = painted(pair->fixture, MIXED, i);
         pair->lie = i == frames ? lie : NULL;
-        differ = differences(pair, capture, &left_out);
-        check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL), NULL);
+        differ = pair_differences(pair, capture, &left_out);
+        pair_check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL), NULL);
         glint_capture_close(&capture);
     }
     return differ;
