@@ -96,6 +96,7 @@ static bool sky_seen(const struct question *q) {
                    sky = glint_survey_faces(q->survey, GLINT_SURVEY_SKY);
     const bool unknown = q->survey->looked_at == 0, seen = q->survey->sky > 0 || unknown || open > 0 || sky > 0;
     if (q->survey->has_fog) snprintf(q->reason, q->size, "fog takes the colour of the sky");
+    else if (unknown && q->survey->sky > 0) snprintf(q->reason, q->size, "%" PRIu64 " pixels are sky", q->survey->sky);
     else if (unknown) snprintf(q->reason, q->size, "the cube maps may show the sky");
     else
         snprintf(q->reason, q->size, "%" PRIu64 " pixels and %u of %u cube faces show the sky", q->survey->sky,

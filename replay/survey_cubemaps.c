@@ -126,19 +126,24 @@ static bool look(struct glint_replay *replay, const struct pipeline_pass *maker,
     return true;
 }
 
+/* Where pixels show the sky, cube maps do as a rule, and then no pass is spared by knowing it: only a whole survey asks. */
+static bool is_outdoors(const struct glint_survey *survey) {
+    return survey->brief && survey->sky > 0;
+}
+
 bool survey_cubemaps(struct glint_replay *replay, const struct glint_pipeline *pipeline, const struct graph *graph,
                      const struct glint_replay_options *options, uint32_t before, struct glint_error *err) {
     const size_t maker = graph_maker(graph, "active_index");
     double seconds[256];
     struct tables tables = {0};
-    if (!replay->device || !asks(graph) || maker == graph->pass_count || !graph->passes[maker].runs ||
-        graph->pass_count > sizeof seconds / sizeof *seconds)
+    const bool mirrors = all_mirrors(replay, pipeline, graph);
+    if (!replay->device || !asks(graph) || (is_outdoors(&replay->survey) && !mirrors) || maker == graph->pass_count ||
+        !graph->passes[maker].runs || graph->pass_count > sizeof seconds / sizeof *seconds)
         return true;
     bool ok = tables_init(&tables, graph, replay->capture, seconds, err);
     const struct glint_table *active = ok ? tables_find(&tables, "active_index") : NULL;
     if (active && active->texels.u && active->width <= GLINT_SURVEY_CUBEMAPS)
-        ok = look(replay, graph->passes[maker].entry, active, options, all_mirrors(replay, pipeline, graph), before,
-                  err);
+        ok = look(replay, graph->passes[maker].entry, active, options, mirrors, before, err);
     tables_finish(&tables);
     return ok;
 }

@@ -37,12 +37,12 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Percentiles of at most a million texels, evenly taken, of which `positive` takes those above 0. */
+/* Percentiles of at most 250,000 texels, evenly taken, of which `positive` takes those above 0. */
 static bool percentiles(const struct source *s, bool positive, const struct falsecolor_options *options, double *low,
                         double *high, struct glint_error *err) {
     const double first = options->percentiles_given ? options->percentiles[0] / 100 : 0.005,
                  last = options->percentiles_given ? options->percentiles[1] / 100 : 0.995;
-    size_t texels = (size_t)s->width * s->height, step = texels / 1000000 + 1, count = 0;
+    size_t texels = (size_t)s->width * s->height, step = texels / 250000 + 1, count = 0;
     float *values = malloc((texels / step + 1) * sizeof *values);
     if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < texels; i += step) {

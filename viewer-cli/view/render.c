@@ -44,13 +44,13 @@ static bool draw_color(struct picture *picture, const struct source *s, const st
     return ok;
 }
 
-static enum kind kind_shown(const struct source *source, const struct render_options *options) {
+enum kind render_kind(const struct source *source, const struct render_options *options) {
     return options->kind == KIND_AUTO ? kind_of(source) : options->kind;
 }
 
 bool render_range(const struct source *source, const struct render_options *options, double range[2],
                   struct glint_error *err) {
-    const enum kind kind = kind_shown(source, options);
+    const enum kind kind = render_kind(source, options);
     struct legend legend = {.kind = kind};
     if (kind == KIND_COLOR) return true;
     if (!falsecolor_prepare(&legend, source, kind, &options->falsecolor, err)) return false;
@@ -62,7 +62,7 @@ bool render_range(const struct source *source, const struct render_options *opti
 
 bool render_plain(struct picture *picture, struct legend *legend, const struct source *source,
                   const struct render_options *options, size_t *invalid, struct glint_error *err) {
-    const enum kind kind = kind_shown(source, options);
+    const enum kind kind = render_kind(source, options);
     const uint32_t *crop = options->crop;
     *invalid = 0;
     bool ok = kind == KIND_COLOR ? draw_color(picture, source, options, invalid, err)

@@ -17,6 +17,8 @@ struct render_options {
     bool no_legend;
 };
 
+/* What is asked for, or what the source calls for. */
+enum kind render_kind(const struct source *source, const struct render_options *options);
 /* Without zoom and legend. *invalid receives how many pixels of a colour image are NaN or infinite. */
 bool render_plain(struct picture *picture, struct legend *legend, const struct source *source,
                   const struct render_options *options, size_t *invalid, struct glint_error *err);

@@ -37,11 +37,46 @@ bool sheet_fit(struct picture *picture, const struct legend *legend, struct glin
            picture_zoom(picture, wide < high ? wide : high, err) && legend_add(picture, legend, err);
 }
 
+/* How many texels of colours become one, along each axis; blocks of a cube map stay within a face. */
+static uint32_t color_block(const struct source *source, const struct render_options *options) {
+    const uint32_t width = source->cube && !options->faces ? 4 * source->width : source->width;
+    uint32_t block = (width + CELL_PX - 1) / CELL_PX;
+    if (render_kind(source, options) != KIND_COLOR || options->has_crop) return 1;
+    while (source->cube && source->width % block) block--;
+    return block;
+}
+
+/* Means of light, before it becomes colours of a display: much less to convert, and a texel that is no number spoils its block,
+   so that it is seen. */
+static bool shrink_light(struct source *small, const struct source *source, uint32_t block, struct glint_error *err) {
+    *small = *source;
+    small->width = source->width / block ? source->width / block : 1;
+    small->height = source->height / block ? source->height / block : 1;
+    const size_t components = source->components, texels = (size_t)small->width * small->height;
+    const uint32_t rows = block < source->height ? block : source->height;
+    small->texels = calloc(texels * components, sizeof *small->texels);
+    if (!small->texels) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < texels; i++) {
+        float *mean = small->texels + i * components;
+        for (uint32_t k = 0; k < rows * block; k++) {
+            const size_t x = i % small->width * block + k % block, y = i / small->width * block + k / block;
+            const float *texel = source->texels + (y * source->width + x) * components;
+            for (size_t c = 0; c < components; c++) mean[c] += texel[c] / (float)(rows * block);
+        }
+    }
+    return true;
+}
+
 bool sheet_cell(struct picture *picture, const struct source *source, const char *run,
                 const struct render_options *options, struct glint_error *err) {
+    const uint32_t block = color_block(source, options);
+    struct source small = {0};
     struct legend legend;
     size_t invalid;
-    if (!render_plain(picture, &legend, source, options, &invalid, err)) return false;
+    bool ok = (block == 1 || shrink_light(&small, source, block, err)) &&
+              render_plain(picture, &legend, block > 1 ? &small : source, options, &invalid, err);
+    free(small.texels);
+    if (!ok) return false;
     if (run) legend_label(&legend, run);
     return sheet_fit(picture, &legend, err);
 }
