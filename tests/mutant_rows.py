@@ -36,6 +36,9 @@ HARMLESS = {
      "if (!fact_volumes) return end_on_proxy(origin, direction, start_m, best, within_sphere(origin - center, direction, default_m), 0u);",
      "if (false) return end_on_proxy(origin, direction, start_m, best, within_sphere(origin - center, direction, default_m), 0u);"):
         "a table of volumes that holds none is asked, and leads to the same sphere: the fact spares a fetch",
+    ("cubemap_trace/proxy.glsl", "return root < 0.0 ? -ALWAYS : along + vec2(-sqrt(root), sqrt(root));",
+     "return root < 0.0 ? ALWAYS : along + vec2(-sqrt(root), sqrt(root));"):
+        "a sphere that a ray never leaves is looked up by direction as one that it never meets",
     ("screen_trace/linear.glsl", "return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));",
      "return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 2.0));"):
         "gap is negative here, so that the quotient of a gap in front is below 1, and that of one behind is no more than 1",
@@ -72,4 +75,11 @@ MISSING = {
      "if (count == count_samples || !(again || refined < 0 || step_m < full_step_m)) --left;"): "how many strides a ray makes where refinements do not count",
     ("cubemap_trace/march.glsl", "if (!verify || (surfaces == surfaces_exact && (on_surface(front) || on_surface(behind)))) {", "if (!verify ) {"):
         "hits with surfaces=exact where only the samples beside the secant's place lie on what is seen",
+    ("blur/upscale_blur.comp", "return total > 0.0 ? sum / total : vec4(0.0);", "return  vec4(0.0);"):
+        "what a texel takes that has no surface of its own in the coarser level, nor an open side: on bars",
+    ("blur/upscale_blur.comp", "uint e = edges ? texelFetch(edge_levels, home, level + 1).x : 255u;",
+     "uint e = edges ? texelFetch(edge_levels, home, level + 1).x : 256u;"): "that without edges all sides are open when it upsamples",
+    ("cubemap_select/nearest.comp",
+     "best = nearest_active(position + mirror_direction(position, normal) * texelFetch(screen_travelled, pixel, 0).x);",
+     "best = nearest_active(position );"): "which cube map is nearest to where a ray stopped on screen, not to where it began",
 }

@@ -177,19 +177,52 @@ static void check_end(const struct glint_probe_record *end, const struct last *l
     same(last->step, "travelled_m", far, x, y, 0);
 }
 
+/* Images are floats here: a sum of six products is off by no more than so many roundings of its largest part. */
+enum { ROUNDINGS = 16 };
+static void near(double told, double found, double largest) {
+    if (!(fabs(told - found) <= ROUNDINGS * 0x1p-24 * largest)) fail_msg("told %.9g, found %.9g", told, found);
+}
+
+/* Where a ray starts, and what that is along the ray: turned into the world, the same. */
+struct start {
+    double from[3], along_m, far_m;
+};
+
+static struct start start_of(const struct glint_probe_record *record) {
+    static const char *const names[][3] = {{"x", "y", "z"}, {"direction_x", "direction_y", "direction_z"}};
+    struct start start = {0};
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        start.from[k] = (double)glint_probe_value(record, names[0][k]);
+        start.along_m += start.from[k] * (double)glint_probe_value(record, names[1][k]);
+        square += start.from[k] * start.from[k];
+    }
+    start.far_m = sqrt(square);
+    return start;
+}
+
+static void check_ray(const struct glint_probe_record *screen, const struct glint_probe_record *cube) {
+    const struct start view = start_of(screen), world = start_of(cube);
+    near(world.far_m, view.far_m, view.far_m);
+    near(world.along_m, view.along_m, view.far_m);
+}
+
 struct tally {
-    size_t stories, depths, screen_hits, cube_hits;
+    size_t stories, rays, depths, screen_hits, cube_hits;
 };
 
 static void check_story(const struct glint_probe_story *story, const struct images *images, const uint32_t pixel[2],
                         struct tally *tally) {
     struct last last = {0};
+    const struct glint_probe_record *ray = NULL;
     assert_int_equal(story->lost, 0);
     tally->stories += story->count > 0;
     for (size_t i = 0; i < story->count; i++) {
         const struct glint_probe_record *record = &story->records[i];
         const bool texel = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "cubemap_texel");
         check_depth(record, images);
+        if (glint_probe_is(record, "screen_ray")) ray = record;
+        if (glint_probe_is(record, "cubemap_ray") && ray) check_ray(ray, record), tally->rays++;
         if (texel || glint_probe_is(record, "screen_cell")) {
             const struct glint_probe_word word = glint_probe_word("decision", glint_probe_value(record, "decision"));
             assert_non_null(word.name);
@@ -214,6 +247,7 @@ static void test_stories(void **state) {
     struct gpu *gpu = *state;
     static uint32_t pixels[PIXELS][2];
     static struct images plain, probed;
+    size_t rays = 0;
     street(gpu);
     draw_pixels(pixels);
     for (size_t w = 0; w < WAYS; w++) {
@@ -236,18 +270,14 @@ static void test_stories(void **state) {
         print_message("# %s: %zu stories, %zu depths, hits %zu on screen, %zu in cube maps\n", ways[w][0],
                       tally.stories, tally.depths, tally.screen_hits, tally.cube_hits);
         assert_true(tally.stories == PIXELS && tally.cube_hits + tally.screen_hits > 0);
+        rays += tally.rays;
         free_images(&plain);
         free_images(&probed);
     }
+    assert_true(rays > 0);
 }
 
 /* ---- What later passes tell adds up to what they made ---- */
-
-/* Images are floats here: a sum of six products is off by no more than so many roundings of its largest part. */
-enum { ROUNDINGS = 16 };
-static void near(double told, double found, double largest) {
-    if (!(fabs(told - found) <= ROUNDINGS * 0x1p-24 * largest)) fail_msg("told %.9g, found %.9g", told, found);
-}
 
 static const struct glint_probe_record *of_slot(const struct glint_probe_story *story, const char *slot,
                                                 const char *kind, size_t *at) {
