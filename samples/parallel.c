@@ -27,8 +27,9 @@ static bool step(void *user, uint32_t worker, size_t i) {
 bool parallel_for(struct job *job, const char *what, double weight, uint32_t count,
                   void (*piece)(void *user, uint32_t i), void *user, struct glint_error *err) {
     struct stage stage = {job, what, weight, count, piece, user, 0};
-    if (!glint_loop(count, glint_loop_workers(count, job->threads), step, &stage))
-        return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted while %s", what);
+    const bool done = glint_loop(count, glint_loop_workers(count, job->threads), step, &stage);
     job->done += weight;
-    return true;
+    /* the last pieces may have been those of other threads */
+    if (done && (!job->progress || job->progress(job->user, what, job->done / job->total))) return true;
+    return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted while %s", what);
 }

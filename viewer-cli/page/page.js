@@ -41,7 +41,7 @@
         if (!Number.isFinite(v)) return '\u2013';
         if (decimals === undefined || decimals === null) return glintChart.number(v);
         const size = Math.abs(v);
-        if (size !== 0 && size < 5 * 10 ** -decimals && !Number.isInteger(v) || size >= 1e9) return glintChart.number(+v.toPrecision(2));
+        if (size !== 0 && size < 10 ** (1 - decimals) && !Number.isInteger(v) || size >= 1e9) return glintChart.number(+v.toPrecision(2));
         return v.toFixed(decimals).replace('-', '\u2212').replace(/\B(?=(\d{3})+(?!\d))/g, decimals ? '' : '\u202f');
     }
 
