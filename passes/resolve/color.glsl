@@ -101,17 +101,19 @@ vec4 cubemap_texel(Ray ray, vec4 at) {
 }
 
 // Where three faces meet, a sampler's weights of eight bits may sum up to 255/256, in a level and in its lookup: that is no sky.
-const float OPAQUE = 1.0 - 1.0 / 128.0;
+// What counts as opaque is reached evenly, so that no rounding decides.
+float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
 
 vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = active_centers[place].xyz;
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
-    if (!fact_sky_seen || color.a >= OPAQUE) return vec4(color.rgb, 1.0);
+    if (!fact_sky_seen) return vec4(color.rgb, 1.0);
+    color.a = opacity(color.a);
     if (color.a > 0.0 && ray.cone > 0.0 && !ray.endless) {
         // Whether it is the sky that is seen is the ray's to say, not the cone's: rays that end in the sky know nothing of the
         // surfaces beside it, and would not give back what the others took of it.
         float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
-        color *= own / color.a;
+        color *= opacity(own) / color.a;
     }
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
     return vec4(color.rgb, 1.0);
