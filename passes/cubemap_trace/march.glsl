@@ -198,7 +198,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, best, origin, direction);
     bool again = false; // the same step in the next cube map
     for (int i = 0, left = quality.steps; left > 0 && i < MOST_SAMPLES * quality.steps; ++i) {
-        if (count == count_samples || !(again || refined > 0 || step_m < full_step_m)) --left;
+        if (count == count_samples || !(again || step_m < full_step_m)) --left;
         again = false;
         result.steps++;
         result.fetches += fetches;
@@ -227,7 +227,8 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         vec3 at = from_center + direction * now.t;
         if (now.gap < mass_depth(at, now.distance_m, direction, step_m)) {
             behind = now;
-            if (quality.ratio > 1.0) full_step_m = max(full_step_m, step_m); // of steps that shrink the sum would be more than the length
+            // Of samples whose steps shrink the sum would be more than the length.
+            if (count == count_strides || quality.ratio > 1.0) full_step_m = max(full_step_m, step_m);
             if (++refined < quality.refinements) {
                 probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_closing);
                 now.t -= step_m;

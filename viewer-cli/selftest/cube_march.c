@@ -6,7 +6,7 @@
 #include "ends.h"
 #include "noise.h"
 
-const struct march_rules march_rules_default = {true, true, true, true, true, false, FALL_TO_DIRECTION};
+const struct march_rules march_rules_default = {true, true, true, true, true, false, false, false, FALL_TO_DIRECTION};
 static const double bias = 0.0005, mass_m = 0.1, mass_step = 3, clamp_part = 0.05, verify_part = 0.02;
 
 static double dot(const double *a, const double *b) {
@@ -144,10 +144,19 @@ static struct sample sample_at(struct marching *m, double t, uint32_t place) {
     struct sample s = {.t = t};
     for (int k = 0; k < 3; k++) at[k] = m->ray->origin[k] - m->cubes->center[place][k] + t * m->ray->direction[k];
     s.distance_m = sqrt(dot(at, at));
-    s.seen_m = seen_in(m->cubes, m->rules, place, at);
+    s.seen_m = m->rules->exact ? cube_seen(m->cubes, place, at) : seen_in(m->cubes, m->rules, place, at);
     s.gap = s.distance_m - s.seen_m + moved(m->cubes, s.distance_m + t, m->asked++);
     s.along = fabs(dot(at, m->ray->direction)) / s.distance_m;
     return s;
+}
+
+static bool on_surface(const struct sample *s) {
+    return s->seen_m < 3e38 && fabs(s->gap) <= verify_part * s->seen_m;
+}
+
+/* How far behind a surface is in it. */
+static double thickness(const struct march_rules *rules, const struct sample *s, double step) {
+    return rules->exact ? INFINITY : mass_m + mass_step * step * (rules->radial ? s->along : 1);
 }
 
 /* Where the line between the gaps is 0; a sample before the sky says nothing. */
@@ -169,16 +178,23 @@ static struct cube_end fall_back(const struct marching *m, double t, uint32_t st
 struct cube_end cube_march(const struct cubes *cubes, const struct cube_ray *ray, const struct march_rules *rules) {
     const struct sample none = {.t = ray->start_m, .gap = -INFINITY};
     struct marching m = {cubes, ray, rules, 10};
-    const double total = ray->rough ? 100 : 300, ratio = ray->rough ? 1.21 : 1.2;
-    const uint32_t steps = ray->rough ? 16 : 24, refinements = ray->rough ? 3 : 4;
+    const double ratio = rules->strides ? STRIDE_RATIO : ray->rough ? 1.21 : 1.2;
+    const uint32_t steps = rules->strides ? STRIDES : ray->rough ? 16 : 24, refinements = ray->rough ? 3 : 4;
+    const double total = rules->strides ? STRIDES_M : ray->rough ? 100 : 300;
     double step = total * (ratio - 1) / (pow(ratio, steps) - 1);
     struct sample front = none, behind = none, now = none;
     double full_step = 0; /* regained by doubling after something closed in on was no hit */
-    uint32_t place = ray->best, used = 0, refused = 0, refined = 0;
+    uint32_t place = ray->best, used = 0, refused = 0, refined = 0, i = 0, strides = 0;
+    bool again = false, emerged = false; /* since the cube map was changed */
     now.t = skipped(&m, now.t, step, place);
-    for (uint32_t i = 1; i <= steps; i++) {
+    while ((rules->strides ? strides : i) < steps) {
+        i++;
+        strides += !again && refined == 0 && step >= full_step;
+        again = false;
         now = sample_at(&m, now.t + step, place);
-        if (!(now.gap > bias * now.seen_m)) {
+        const bool in_front = !(now.gap > bias * now.seen_m);
+        emerged = emerged || in_front;
+        if (in_front || (rules->exact && !emerged && on_surface(&now))) {
             front = now;
             refused = 0; /* of the cube maps in turn, by which a place is not seen */
             if (refined > 0) continue;
@@ -190,7 +206,7 @@ struct cube_end cube_march(const struct cubes *cubes, const struct cube_ray *ray
             full_step = 0;
             continue;
         }
-        if (now.gap < mass_m + mass_step * step * (rules->radial ? now.along : 1)) {
+        if (now.gap < thickness(rules, &now, step)) {
             behind = now;
             full_step = fmax(full_step, step);
             if (++refined < refinements) {
@@ -199,9 +215,9 @@ struct cube_end cube_march(const struct cubes *cubes, const struct cube_ray *ray
                 continue;
             }
             const double t = secant(rules, &front, &behind);
+            const bool touched = rules->exact && (on_surface(&front) || on_surface(&behind));
             const struct sample end = sample_at(&m, t, place);
-            if (!rules->verify || (end.seen_m < 3e38 && fabs(end.gap) <= verify_part * end.seen_m))
-                return (struct cube_end){t, place, END_hit, i};
+            if (!rules->verify || touched || on_surface(&end)) return (struct cube_end){t, place, END_hit, i};
         }
         if (++refused >= cubes->longest) return fall_back(&m, now.t, i, END_shadow_region);
         used = (used + 1) % cubes->longest;
@@ -211,11 +227,12 @@ struct cube_end cube_march(const struct cubes *cubes, const struct cube_ray *ray
         now.t = skipped(&m, now.t, step, place);
         front = none;
         refined = 0;
+        emerged = false;
+        again = rules->step_back;
     }
-    if (refined > 0) return (struct cube_end){secant(rules, &front, &behind), place, END_hit, steps};
-    if (now.seen_m == INFINITY)
-        return (struct cube_end){INFINITY, cubes->has_sky ? CUBES_NO_PLACE : place, END_sky, steps};
-    return (struct cube_end){now.t, place, END_steps_exhausted, steps};
+    if (refined > 0) return (struct cube_end){secant(rules, &front, &behind), place, END_hit, i};
+    if (now.seen_m == INFINITY) return (struct cube_end){INFINITY, cubes->has_sky ? CUBES_NO_PLACE : place, END_sky, i};
+    return (struct cube_end){now.t, place, END_steps_exhausted, i};
 }
 
 /* ---- Where the ray goes behind ---- */

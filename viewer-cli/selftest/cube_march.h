@@ -34,9 +34,19 @@ struct cube_end {
     uint32_t place, reason, steps;
 };
 
+/* Strides alone count, and grow shorter: 1.5 m (1 - 0.9^8) / (1 - 0.9) in all. */
+#define STRIDES 8
+#define STRIDE_RATIO 0.9
+#define STRIDES_M 8.54299185
+#define CUBE_STRIDES                                                                                                   \
+    "cubemap_trace.count=strides cubemap_trace.steps_hq=8 cubemap_trace.first_step_m=1.5 "                             \
+    "cubemap_trace.length_m=8.54299185 "
+
 /* Parameters of cubemap_trace/march that cases change; the others are the defaults. */
 struct march_rules {
     bool bilinear, secant, verify, step_back, skip_volume, radial;
+    bool exact;   /* surfaces=exact */
+    bool strides; /* of CUBE_STRIDES */
     enum { FALL_TO_NOTHING, FALL_TO_DIRECTION } fallback;
 };
 extern const struct march_rules march_rules_default;

@@ -59,6 +59,7 @@ enum {
     FROM_MASS,    /* before the walls and some metres behind them */
     FROM_OUTSIDE, /* far outside */
     FROM_BEFORE,  /* before all blocks */
+    FROM_WALL,    /* along the screen, so that rays on screen go on until that ends */
     RAYS = 8,     /* times enum clutter_rays */
     SCENE = 128,  /* times enum scene */
     ROUGH = 1024,
@@ -68,7 +69,7 @@ enum {
 
 static void check(struct trial *trial, const struct trial_case *c, const struct march_rules *rules,
                   struct selftest_finding *finding) {
-    static const double depths_m[5][2] = {{0.2, 1.5}, {1e-6, 1e-3}, {1.5, 5}, {30, 60}, {0.1, 0.45}};
+    static const double depths_m[6][2] = {{0.2, 1.5}, {1e-6, 1e-3}, {1.5, 5}, {30, 60}, {0.1, 0.45}, {3, 3}};
     static void (*const scenes[4])(uint32_t, const double[3], float[5]) = {room, pillars, sky, speck};
     const enum scene scene = (enum scene)(c->number / SCENE % 4);
     const bool few = trial->test->quick && !rules; /* the double replay takes long for these */
@@ -102,6 +103,8 @@ static void check_march(struct trial *trial, const struct trial_case *c, struct 
                                       .step_back = !strstr(c->use, "step_back=false"),
                                       .skip_volume = !strstr(c->use, "skip_volume=false"),
                                       .radial = strstr(c->use, "mass=radial"),
+                                      .strides = strstr(c->use, "count=strides"),
+                                      .exact = strstr(c->use, "surfaces=exact"),
                                       .fallback =
                                           strstr(c->use, "fallback=black") ? FALL_TO_NOTHING : FALL_TO_DIRECTION};
     check(trial, c, &rules, finding);
@@ -136,7 +139,9 @@ static const struct trial_case items[] = {
     MARCH("beside a box that is empty", "from outside of inner volumes of six planes",    FROM_MASS + RAYS * RAYS_ANY + SCENE * ROOM + VOLUME * GLINT_VOLUME_BOX, CUBE_ALONE),
     MARCH("past a ball that is empty", "from outside of inner volumes of a sphere",       FROM_MASS + RAYS * RAYS_ANY + SCENE * PILLARS + VOLUME * GLINT_VOLUME_SPHERE, CUBE_ALONE),
     EXACT("blocks and holes",        "every jump between texels counts as a wall",         FROM_BEFORE + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE "cubemap_trace.tolerance=1"),
-    MARCH("after the screen",        "from where the screen's ray stopped",                FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, ""),
+    MARCH("shadows, by strides",     "ever shorter ones, regained where closing in came to nothing", FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE CUBE_STRIDES),
+    MARCH("shadows, exact surfaces", "whatever it goes behind without a jump is hit",      FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.surfaces=exact"),
+    MARCH("after the screen",        "from where the screen's ray stopped, and the cube map that is nearest there", FROM_WALL + RAYS * RAYS_ANY + SCENE * PILLARS, ""),
 };
 /* clang-format on */
 
