@@ -12,6 +12,7 @@
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
 #include "shared/tiles.glsl"
+#include "probe/tell.glsl"
 
 const uint DOWN = 0u, ALONG_ROWS = 1u, ALONG_COLUMNS = 2u, FINER = 3u, FINEST = 4u; // dispatch phases
 
@@ -41,6 +42,24 @@ vec4 finest(ivec2 pixel) {
     return vec4(color.rgb, travelled_m < LARGEST ? travelled_m / (travelled_m + away_m) : 1.0);
 }
 
+// Texels, told with the weight that they will have.
+vec4 level_texel(ivec2 texel, int level, float weight) {
+    vec4 color = texelFetch(levels, texel, level);
+    probe(PROBE_tap, vec4(IMAGE_reflection_levels, level, texel), vec4(weight, color.rgb), vec4(1.0));
+    return color;
+}
+
+vec4 across_texel(ivec2 texel, float weight) {
+    vec4 color = texelFetch(across, texel, 0);
+    probe(PROBE_tap, vec4(IMAGE_reflection_across, 0.0, texel), vec4(weight, color.rgb), vec4(1.0));
+    return color;
+}
+
+vec4 made(uint image, ivec2 texel, int level, vec4 color) {
+    probe(PROBE_made, vec4(image, level, texel), color);
+    return color;
+}
+
 // The mean of what is of the picked texel's surface.
 vec4 coarser(ivec2 texel, int level) {
     int finer = level - 1;
@@ -49,7 +68,7 @@ vec4 coarser(ivec2 texel, int level) {
     vec4 open = open_in_block(edges_in_block(min(block, max(last - 1, ivec2(0))), finer), picked_from(texel, level));
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i)
-        if (open[i] > 0.0) sum += open[i] * texelFetch(levels, min(block + ivec2(i & 1, i >> 1), last), finer);
+        if (open[i] > 0.0) sum += open[i] * level_texel(min(block + ivec2(i & 1, i >> 1), last), finer, open[i]);
     return sum / dot(open, vec4(1.0));
 }
 
@@ -57,7 +76,7 @@ vec4 coarser(ivec2 texel, int level) {
 vec4 along(ivec2 texel, ivec2 step, uint back, uint forth) {
     ivec2 size = textureSize(across, 0);
     bool rows = step.x == 1;
-    vec4 sum = rows ? texelFetch(levels, texel, 2) : texelFetch(across, texel, 0);
+    vec4 sum = rows ? level_texel(texel, 2, 1.0) : across_texel(texel, 1.0);
     float total = 1.0, scale = -2.0 / float(max(radius * radius, 1)); // σ is half the radius
     for (int way = -1; way <= 1; way += 2) {
         float open = 1.0;
@@ -67,7 +86,7 @@ vec4 along(ivec2 texel, ivec2 step, uint back, uint forth) {
             if (edges) open *= open_side(texelFetch(edge_levels, at - way * step, 2).x, way < 0 ? back : forth);
             if (open == 0.0) break;
             float weight = open * exp(scale * float(i * i));
-            sum += weight * (rows ? texelFetch(levels, at, 2) : texelFetch(across, at, 0));
+            sum += weight * (rows ? level_texel(at, 2, weight) : across_texel(at, weight));
             total += weight;
         }
     }
@@ -100,7 +119,7 @@ vec4 upscaled_from_beside(ivec2 texel, int level, out float found) {
         float open = open_side(e, ways[i]); // 0 at the picture's border
         if (open > 0.0) open *= of_home(at, level);
         if (open == 0.0) continue;
-        sum += open * texelFetch(levels, at >> 1, level + 1);
+        sum += open * level_texel(at >> 1, level + 1, open);
         found += open;
     }
     sum = found > 0.0 ? sum / found : sum;
@@ -118,7 +137,7 @@ vec4 upscaled_by_lobes(ivec2 texel, int level, out float found) {
         vec4 other = texelFetch(normal_levels, at, level + 1);
         if (!reflects(1.0, other.xyz)) continue;
         float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i < 2 ? 3.0 : 1.0) * lobe_agreement(own, other, roughness_part);
-        sum += weight * texelFetch(levels, at, level + 1);
+        sum += weight * level_texel(at, level + 1, weight);
         total += weight;
     }
     found = min(total, 1.0);
@@ -144,17 +163,21 @@ vec4 upscaled(ivec2 texel, int level, out float found) {
     if (open.y > 0.0)
         corner = max(corner, open.y * (edges ? open_side(texelFetch(edge_levels, below, level + 1).x, ways.x) : 1.0));
     vec4 weights = vec4(9.0, 3.0 * open, corner);
-    vec4 sum = weights.x * texelFetch(levels, home, level + 1);
-    if (weights.y > 0.0) sum += weights.y * texelFetch(levels, beside, level + 1);
-    if (weights.z > 0.0) sum += weights.z * texelFetch(levels, below, level + 1);
-    if (weights.w > 0.0) sum += weights.w * texelFetch(levels, clamp(home + side, ivec2(0), last), level + 1);
+    vec4 sum = weights.x * level_texel(home, level + 1, weights.x);
+    if (weights.y > 0.0) sum += weights.y * level_texel(beside, level + 1, weights.y);
+    if (weights.z > 0.0) sum += weights.z * level_texel(below, level + 1, weights.z);
+    if (weights.w > 0.0) sum += weights.w * level_texel(clamp(home + side, ivec2(0), last), level + 1, weights.w);
     return sum / dot(weights, vec4(1.0));
 }
 
 vec4 with_coarser(ivec2 texel, int level, vec4 own) {
     float part = clamp(log2(max(span(texel, level, own.a), 1.0)) - float(level), 0.0, 1.0), found = 0.0;
-    if (part == 0.0) return own;
+    if (part == 0.0) {
+        probe_layer(IMAGE_reflection_levels, own.rgb, IMAGE_mixture, vec3(0.0), vec3(0.0));
+        return own;
+    }
     vec4 coarse = upscaled(texel, level, found);
+    probe_layer(IMAGE_reflection_levels, own.rgb, IMAGE_mixture, coarse.rgb, vec3(part * found));
     return mix(own, coarse, part * found);
 }
 
@@ -169,15 +192,20 @@ void main() {
         imageStore(reflection_blurred, texel, vec4(0.0));
         return;
     }
+    probe_level(texel, dispatch_phase == ALONG_ROWS ? 2 : level);
     if (dispatch_phase == DOWN) {
-        imageStore(reflection_levels, texel, level == 0 ? finest(texel) : coarser(texel, level));
+        vec4 color = level == 0 ? finest(texel) : coarser(texel, level);
+        imageStore(reflection_levels, texel, made(IMAGE_reflection_levels, texel, level, color));
     } else if (dispatch_phase == ALONG_ROWS) {
-        imageStore(reflection_across, texel, along(texel, ivec2(1, 0), SIDE_LEFT, SIDE_RIGHT));
+        vec4 color = along(texel, ivec2(1, 0), SIDE_LEFT, SIDE_RIGHT);
+        imageStore(reflection_across, texel, made(IMAGE_reflection_across, texel, 0, color));
     } else if (dispatch_phase == ALONG_COLUMNS) {
-        imageStore(reflection_levels, texel, along(texel, ivec2(0, 1), SIDE_UP, SIDE_DOWN));
+        vec4 color = along(texel, ivec2(0, 1), SIDE_UP, SIDE_DOWN);
+        imageStore(reflection_levels, texel, made(IMAGE_reflection_levels, texel, level, color));
     } else if (dispatch_phase == FINER) {
         // Of this level it reads its own texel alone, so that it can be replaced.
-        imageStore(reflection_levels, texel, with_coarser(texel, level, texelFetch(levels, texel, level)));
+        vec4 color = with_coarser(texel, level, texelFetch(levels, texel, level));
+        imageStore(reflection_levels, texel, made(IMAGE_reflection_levels, texel, level, color));
     } else {
         vec4 own = texelFetch(levels, texel, 0);
         vec4 color = has_ray(texel, 0) ? with_coarser(texel, 0, own) : vec4(0.0);

@@ -9,6 +9,7 @@
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 #include "shared/tiles.glsl"
+#include "probe/tell.glsl"
 
 // How much of the reflection the surface sends to the viewer.
 vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
@@ -29,6 +30,8 @@ vec3 blended(ivec2 pixel, float depth_m, vec4 surface, vec3 below) {
     float alpha = texelFetch(contribution, has_contribution ? pixel * size / ivec2(frame.size.xy) : ivec2(0), 0).x;
     if (modulate) alpha *= length(color);
     vec3 part = weight(pixel, depth_m, surface) * clamp(intensity * alpha, 0.0, 1.0);
+    probe_pixel(pixel);
+    probe_layer(IMAGE_lit, below, IMAGE_reflection, color, part);
     return any(greaterThan(part, vec3(0.0))) ? mix(below, color, part) : below;
 }
 

@@ -7,6 +7,7 @@
 #include "lookup.pass.h"
 };
 #include "shared/camera.glsl"
+#include "probe/tell.glsl"
 
 const float LEAST_RISE = 1e-3; // a ray that a ripple sends down meets another one, and goes on about level
 
@@ -23,13 +24,16 @@ vec4 seen(vec3 position, vec3 ray) {
         if (!(end.w > 0.0)) return vec4(0.0);
         float depth_m = textureLod(sampler2D(planar_depth, nearest_clamp), end.xy / end.w, 0.0).x;
         float travelled_m = max((depth_m - start.w) / along.w, 0.0);
+        probe(PROBE_mirrored_depth, vec4(end.xy / end.w * vec2(textureSize(planar_depth, 0)), depth_m, travelled_m));
         end = along.w > 0.0 && travelled_m < LARGEST ? start + travelled_m * along : along;
     }
     if (!near) end = along;
     if (!(end.w > 0.0)) return vec4(0.0);
     vec2 uv = end.xy / end.w;
     bool shown = uv == clamp(uv, 0.0, 1.0);
-    return vec4(textureLod(sampler2D(planar_color, linear_clamp), uv, 0.0).rgb, shown ? 1.0 : 0.0);
+    vec3 color = textureLod(sampler2D(planar_color, linear_clamp), uv, 0.0).rgb;
+    probe(PROBE_sample, vec4(IMAGE_planar_color, uv * vec2(textureSize(planar_color, 0)), float(shown)), vec4(color, 0.0));
+    return vec4(color, shown ? 1.0 : 0.0);
 }
 
 void main() {
@@ -38,6 +42,7 @@ void main() {
     float depth_m = texelFetch(water_depth, pixel, 0).x;
     vec3 normal = texelFetch(water_normal, pixel, 0).xyz;
     vec4 color = vec4(0.0);
+    probe_pixel(pixel);
     if (reflects(depth_m, normal)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);

@@ -9,6 +9,7 @@
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
 #include "shared/tiles.glsl"
+#include "probe/tell.glsl"
 
 // 1 from `full` on, 0 up to `none`, which may lie on either side; equal: a step.
 float fade(float none, float full, float at) {
@@ -29,14 +30,26 @@ vec3 picture(vec2 uv, bool finished_picture) {
                              : textureLod(sampler2D(lit, linear_clamp), uv, 0.0)).rgb;
 }
 
+void probe_sample(vec2 uv, bool finished_picture, float weight, vec3 color) {
+    uint image = finished_picture ? IMAGE_scene : IMAGE_lit;
+    probe(PROBE_sample, vec4(image, uv * vec2(frame.size.xy), weight), vec4(color, 0.0));
+}
+
 // The mean over a square; what is not finite is left out.
 vec3 box(vec2 uv, float radius, bool finished_picture) {
-    if (radius < 0.5 || taps == 1) return picture(uv, finished_picture);
+    if (radius < 0.5 || taps == 1) {
+        vec3 color = picture(uv, finished_picture);
+        probe_sample(uv, finished_picture, 1.0, color);
+        return color;
+    }
     vec4 sum = vec4(0.0);
     for (int i = 0; i < taps * taps; ++i) {
         vec2 at = (vec2(i % taps, i / taps) + 0.5) / float(taps) * 2.0 - 1.0;
-        vec3 color = picture(uv + at * radius / vec2(frame.size.xy), finished_picture);
-        if (all(lessThan(abs(color), vec3(LARGEST)))) sum += vec4(color, 1.0);
+        vec2 place = uv + at * radius / vec2(frame.size.xy);
+        vec3 color = picture(place, finished_picture);
+        bool usable = all(lessThan(abs(color), vec3(LARGEST)));
+        probe_sample(place, finished_picture, float(usable), color);
+        if (usable) sum += vec4(color, 1.0);
     }
     return sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0);
 }
@@ -79,9 +92,12 @@ void main() {
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec3 normal = texelFetch(normal_jittered, pixel, 0).xyz;
     End end = End(vec4(0.0), vec4(0.0));
+    probe_texel(pixel);
     if (tile_works && reflects(depth_m, normal)) end = end_of(pixel, depth_m, normal);
     imageStore(reflection_half, pixel, end.color);
     float part = end.attenuation.x * end.attenuation.y * end.attenuation.z * end.attenuation.w;
-    imageStore(contribution, pixel, vec4(is_pick_shown(texelFetch(pick, pixel, 0).x) ? part : 0.0));
+    part = is_pick_shown(texelFetch(pick, pixel, 0).x) ? part : 0.0;
+    probe(PROBE_trust, end.attenuation, vec4(part));
+    imageStore(contribution, pixel, vec4(part));
     if (diagnostics) imageStore(attenuation, pixel, end.attenuation);
 }

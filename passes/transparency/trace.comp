@@ -8,6 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#include "probe/tell.glsl"
 
 // What a texel of another surface weighs: where all four are, they are better than nothing.
 const float ELSEWHERE = 1e-4;
@@ -29,7 +30,11 @@ vec3 mirrored(ivec2 pixel, float depth_m) {
         float texel_m = texelFetch(transparent_depth_half, texel, 0).x;
         vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
         bool same = depth_part >= 10.0 || abs(texel_m - depth_m) <= depth_part * depth_m;
-        if (color.a > 0.0) sum += side.x * side.y * (same ? 1.0 : ELSEWHERE) * vec4(color.rgb, 1.0);
+        float weight = side.x * side.y * (same ? 1.0 : ELSEWHERE);
+        if (color.a > 0.0) {
+            probe(PROBE_neighbour, vec4(texel, weight, color.r), vec4(color.gb, 0.0, 0.0));
+            sum += weight * vec4(color.rgb, 1.0);
+        }
     }
     return sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0);
 }
@@ -40,6 +45,7 @@ bool under_water(ivec2 pixel, float depth_m) {
 }
 
 vec3 seen(ivec2 pixel) {
+    probe_pixel(pixel);
     vec3 behind = has_composed_water ? texelFetch(composed_water, pixel, 0).rgb : texelFetch(composed, pixel, 0).rgb;
     vec4 own = texelFetch(transparent_color, pixel, 0);
     vec3 normal = texelFetch(transparent_normal, pixel, 0).xyz;
@@ -48,7 +54,10 @@ vec3 seen(ivec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = fresnel ? clamp(abs(dot(normalize(mat3(frame.world_from_view) * view), normalize(normal))), 0.0, 1.0) : 1.0;
-    return mix(mix(behind, own.rgb, own.a), mirrored(pixel, depth_m), clamp(intensity * reflected_share(cosine), 0.0, 1.0));
+    uint image = has_composed_water ? IMAGE_composed_water : IMAGE_composed;
+    vec3 through = told_mix(image, behind, IMAGE_transparent_color, own.rgb, own.a);
+    float share = clamp(intensity * reflected_share(cosine), 0.0, 1.0);
+    return told_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(pixel, depth_m), share);
 }
 
 void main() {

@@ -11,67 +11,11 @@
 
 #include "glint/probe.h"
 #include "gpu.h"
-
-enum { WIDTH = 160, HEIGHT = 90, FACE = 32, PIXELS = 1000, IMAGES_MAX = 160, WORDS = 6 };
-
-static void check(bool ok, const struct glint_error *err) {
-    if (!ok) fail_msg("%s", err->message);
-}
-
-/* ---- All images of a run, as floats or uints ---- */
-
-struct kept {
-    char name[96];
-    uint32_t width, height, components;
-    uint32_t *bits;
-};
-struct images {
-    struct kept list[IMAGES_MAX];
-    size_t count;
-};
-
-static void keep_images(struct gpu *gpu, struct images *images) {
-    struct glint_error err = {0};
-    images->count = glint_replay_image_count(gpu->replay);
-    assert_in_range(images->count, 1, IMAGES_MAX);
-    for (size_t i = 0; i < images->count; i++) {
-        const struct glint_image *image = glint_replay_image(gpu->replay, i);
-        struct kept *kept = &images->list[i];
-        *kept = (struct kept){.width = image->width, .height = image->height, .components = image->components};
-        snprintf(kept->name, sizeof kept->name, "%s", image->name);
-        kept->bits = calloc((size_t)image->width * image->height * image->components, sizeof *kept->bits);
-        assert_non_null(kept->bits);
-        const bool uint = image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;
-        check(glint_replay_read_image(gpu->replay, image, uint ? GLINT_U32 : GLINT_F32, kept->bits, &err), &err);
-    }
-}
-
-static void free_images(struct images *images) {
-    for (size_t i = 0; i < images->count; i++) free(images->list[i].bits);
-    images->count = 0;
-}
-
-static const struct kept *find(const struct images *images, const char *name) {
-    for (size_t i = 0; i < images->count; i++)
-        if (strcmp(images->list[i].name, name) == 0) return &images->list[i];
-    fail_msg("the run has no image %s", name);
-    return NULL;
-}
-
-static uint32_t bits_at(const struct kept *image, uint32_t x, uint32_t y, uint32_t component) {
-    assert_in_range(x, 0, image->width - 1);
-    assert_in_range(y, 0, image->height - 1);
-    return image->bits[((size_t)y * image->width + x) * image->components + component];
-}
-static uint32_t bits_of(float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
+#include "probed.h"
 
 /* ---- Runs ---- */
 
-static const char *const ways[][WORDS] = {
+static const char *const ways[][PROBED_WORDS] = {
     {"screen_trace=linear", "cubemap_trace=march"},
     {"screen_trace=linear_binary", "cubemap_trace=exact"},
     {"screen_trace=linear_facets", "cubemap_trace=box"},
@@ -85,52 +29,7 @@ static const char *const ways[][WORDS] = {
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-static void arrange(struct gpu *gpu, const char *const *words) {
-    gpu_reset(gpu);
-    for (size_t i = 0; i < WORDS && words[i]; i++) {
-        const char *dot = strchr(words[i], '.');
-        if (dot && dot < strchr(words[i], '=')) gpu_set(gpu, words[i]);
-        else gpu_use(gpu, words[i]);
-    }
-}
-
-static void replay(struct gpu *gpu, const uint32_t (*probes)[2], size_t count, struct images *images) {
-    struct glint_error err = {0};
-    const struct glint_replay_options options = {
-        .captured = true, .diagnostics = true, .probes = probes, .probe_count = count};
-    check(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
-    keep_images(gpu, images);
-}
-
-static void draw_pixels(uint32_t (*pixels)[2]) {
-    uint32_t state = 1;
-    for (size_t i = 0; i < PIXELS; i++)
-        for (int k = 0; k < 2; k++) {
-            state = state * 1664525u + 1013904223u;
-            pixels[i][k] = (state >> 8) % (k ? HEIGHT : WIDTH);
-        }
-}
-
 /* ---- What a story must agree with ---- */
-
-static void same(const struct glint_probe_record *record, const char *value, const struct kept *image, uint32_t x,
-                 uint32_t y, uint32_t component) {
-    const uint32_t told = bits_of(glint_probe_value(record, value)), found = bits_at(image, x, y, component);
-    if (told != found)
-        fail_msg("%s.%s is 0x%08x, but %s holds 0x%08x at %u,%u", record->kind->name, value, told, image->name, found,
-                 x, y);
-}
-
-static uint32_t number(const struct glint_probe_record *record, const char *value) {
-    return (uint32_t)glint_probe_value(record, value);
-}
-
-/* The image of a level: its own name, or NAME.levelN. */
-static const struct kept *level_of(const struct images *images, const char *name, uint32_t level) {
-    char text[128];
-    snprintf(text, sizeof text, level ? "%s.level%u" : "%s", name, level);
-    return find(images, text);
-}
 
 static void check_depth(const struct glint_probe_record *record, const struct images *images) {
     const uint32_t x = number(record, "texel_x"), y = number(record, "texel_y");
@@ -175,12 +74,6 @@ static void check_end(const struct glint_probe_record *end, const struct last *l
     if (!is_hit(end, "end reason", "end") || !last->step) return;
     assert_true(is_hit(last->step, "decision", "decision"));
     same(last->step, "travelled_m", far, x, y, 0);
-}
-
-/* Images are floats here: a sum of six products is off by no more than so many roundings of its largest part. */
-enum { ROUNDINGS = 16 };
-static void near(double told, double found, double largest) {
-    if (!(fabs(told - found) <= ROUNDINGS * 0x1p-24 * largest)) fail_msg("told %.9g, found %.9g", told, found);
 }
 
 /* Where a ray starts, and what that is along the ray: turned into the world, the same. */
@@ -238,29 +131,20 @@ static void check_story(const struct glint_probe_story *story, const struct imag
     }
 }
 
-static void street(struct gpu *gpu) {
-    gpu_sample(gpu, "street", "street",
-               &(struct glint_sample_options){.width = WIDTH, .height = HEIGHT, .cube_size = FACE});
-}
-
 static void test_stories(void **state) {
     struct gpu *gpu = *state;
     static uint32_t pixels[PIXELS][2];
     static struct images plain, probed;
     size_t rays = 0;
-    street(gpu);
+    probed_scene(gpu, "street");
     draw_pixels(pixels);
     for (size_t w = 0; w < WAYS; w++) {
         struct tally tally = {0};
         struct glint_error err = {0};
         arrange(gpu, ways[w]);
-        replay(gpu, NULL, 0, &plain);
-        replay(gpu, (const uint32_t(*)[2])pixels, PIXELS, &probed);
-        assert_int_equal(plain.count, probed.count);
-        for (size_t i = 0; i < plain.count; i++) {
-            const struct kept *a = &plain.list[i], *b = find(&probed, a->name);
-            assert_memory_equal(a->bits, b->bits, (size_t)a->width * a->height * a->components * sizeof *a->bits);
-        }
+        probed_run(gpu, NULL, false, &plain);
+        probed_run(gpu, pixels, false, &probed);
+        same_images(&plain, &probed);
         for (size_t i = 0; i < PIXELS; i++) {
             struct glint_probe_story story;
             check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
@@ -278,21 +162,6 @@ static void test_stories(void **state) {
 }
 
 /* ---- What later passes tell adds up to what they made ---- */
-
-static const struct glint_probe_record *of_slot(const struct glint_probe_story *story, const char *slot,
-                                                const char *kind, size_t *at) {
-    for (; *at < story->count; ++*at)
-        if (glint_probe_is(&story->records[*at], kind) && strcmp(story->records[*at].pass->slot, slot) == 0)
-            return &story->records[(*at)++];
-    return NULL;
-}
-
-static double held(const struct kept *image, const uint32_t at[2], uint32_t component) {
-    const uint32_t bits = bits_at(image, at[0], at[1], component);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
 
 /* The weighted mean of what was mixed in is the image, where anything was. */
 static size_t check_mixture(const struct glint_probe_story *story, const char *slot, const struct kept *image,
@@ -342,15 +211,12 @@ static void test_sums(void **state) {
     static uint32_t pixels[PIXELS][2];
     static struct images images;
     size_t blurred = 0, upscaled = 0, colored = 0, composed = 0;
-    street(gpu);
+    probed_scene(gpu, "street");
     draw_pixels(pixels);
-    static const char *const words[WORDS] = {"screen_trace=dda", "blur=plus", "upscale=best_match",
-                                             "resolve.fog=false"};
+    static const char *const words[PROBED_WORDS] = {"screen_trace=dda", "blur=plus", "upscale=best_match",
+                                                    "resolve.fog=false"};
     arrange(gpu, words);
-    const struct glint_replay_options options = {
-        .captured = true, .float_precision = true, .probes = (const uint32_t(*)[2])pixels, .probe_count = PIXELS};
-    check(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
-    keep_images(gpu, &images);
+    probed_run(gpu, pixels, true, &images);
     for (size_t i = 0; i < PIXELS; i++) {
         struct glint_probe_story story;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
@@ -371,7 +237,7 @@ static void test_errors(void **state) {
     struct glint_error err = {0};
     struct glint_probe_story story;
     static const uint32_t outside[][2] = {{3, 3}, {WIDTH, 3}}, one[][2] = {{3, 3}};
-    street(gpu);
+    probed_scene(gpu, "street");
     gpu_reset(gpu);
     struct glint_replay_options options = {.probes = outside, .probe_count = 2};
     assert_false(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));

@@ -188,7 +188,9 @@ void probe_group_text(const struct probe_side *side, const struct glint_probe_re
     else if (strcmp(group->unit, "place") == 0) snprintf(text, size, "%s", probe_cubemap(side, value));
     else {
         size_t used = 0;
-        for (size_t i = 0; i < group->count && used < size; i++) {
+        const float *values = &record->values[group->first];
+        const bool alike = strcmp(group->name, "share") == 0 && values[0] == values[1] && values[0] == values[2];
+        for (size_t i = 0; i < (alike ? 1 : group->count) && used < size; i++) {
             const double v = (double)record->values[group->first + i];
             const bool pixels = strcmp(group->unit, "px") == 0, whole = strcmp(group->unit, "m") != 0 && v == floor(v);
             used += (size_t)snprintf(text + used, size - used, i ? "," : "");

@@ -1,0 +1,352 @@
+/* Probed pixels of the passes that mix: with the weights that they tell, what they tell of adds up to what they made; each colour
+   told is what its image holds; telling changes nothing. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "probed.h"
+
+static const char *const rgb[] = {"r", "g", "b"}, *const below[] = {"below_r", "below_g", "below_b"};
+
+static double told(const struct glint_probe_record *record, const char *name) {
+    return (double)glint_probe_value(record, name);
+}
+
+static const struct kept *image_of(const struct glint_probe_record *record, const struct images *images) {
+    const struct glint_probe_word of = glint_probe_word("image", glint_probe_value(record, "image"));
+    const float level = glint_probe_value(record, "level"); /* NaN: the record has none */
+    assert_non_null(of.name);
+    return level_of(images, of.name, level > 0 ? (uint32_t)level : 0);
+}
+
+/* The weighted mean of colours. */
+struct mean {
+    double sum[3], total, largest;
+    size_t count;
+};
+
+static void mean_add(struct mean *mean, const struct glint_probe_record *record, double part) {
+    const double weight = told(record, "weight");
+    for (int c = 0; c < 3; c++) {
+        mean->sum[c] += weight * told(record, rgb[c]);
+        mean->largest = fmax(mean->largest, fabs(weight * told(record, rgb[c])));
+    }
+    mean->total += weight * part;
+    mean->count++;
+}
+
+static void mean_is(const struct mean *mean, const struct glint_probe_record *record) {
+    assert_true(mean->total > 0);
+    for (int c = 0; c < 3; c++)
+        near(mean->sum[c] / mean->total, told(record, rgb[c]), mean->largest * (double)mean->count / mean->total);
+}
+
+/* The colour between texels. Devices may interpolate with weights of eight bits, so that each axis may be off by one in 256 of
+   what the texels are apart. */
+static void check_between(const struct glint_probe_record *record, const struct images *images, double x, double y) {
+    const struct kept *image = image_of(record, images);
+    const double corner[2] = {floor(x - 0.5), floor(y - 0.5)}, part[2] = {x - 0.5 - corner[0], y - 0.5 - corner[1]};
+    for (uint32_t c = 0; c < 3; c++) {
+        double sum = 0, low = INFINITY, high = -INFINITY;
+        for (int k = 0; k < 4; k++) {
+            const double u = fmin(fmax(corner[0] + (k & 1), 0), image->width - 1);
+            const double v = fmin(fmax(corner[1] + (k >> 1), 0), image->height - 1);
+            const double texel = held(image, (uint32_t[]){(uint32_t)u, (uint32_t)v}, c);
+            sum += (k & 1 ? part[0] : 1 - part[0]) * (k >> 1 ? part[1] : 1 - part[1]) * texel;
+            low = fmin(low, texel), high = fmax(high, texel);
+        }
+        const double tolerance = (high - low) * 2 / 256 + fabs(high) * 0x1p-20;
+        if (!(fabs(sum - told(record, rgb[c])) <= tolerance))
+            fail_msg("%s at %g,%g is %.9g, told %.9g", image->name, x, y, sum, told(record, rgb[c]));
+    }
+}
+
+/* What a layer makes of its two colours. */
+struct layered {
+    double color[3], largest;
+};
+static struct layered layered(const struct glint_probe_record *layer) {
+    static const char *const share[] = {"share_r", "share_g", "share_b"};
+    struct layered made = {0};
+    for (int c = 0; c < 3; c++) {
+        const double s = told(layer, share[c]);
+        assert_true(s >= 0 && s <= 1);
+        made.color[c] = (1 - s) * told(layer, below[c]) + s * told(layer, rgb[c]);
+        made.largest = fmax(made.largest, fmax(fabs(told(layer, below[c])), fabs(told(layer, rgb[c]))));
+    }
+    return made;
+}
+
+static void layered_is(const struct layered *made, const struct kept *image, const uint32_t at[2]) {
+    for (uint32_t c = 0; c < 3; c++) near(made->color[c], held(image, at, c), made->largest);
+}
+
+static void same_rgb(const struct glint_probe_record *record, const char *const names[3], const struct kept *image,
+                     uint32_t x, uint32_t y) {
+    for (uint32_t c = 0; c < 3; c++) same(record, names[c], image, x, y, c);
+}
+
+/* One pixel's story and all images of its run. */
+struct told_pixel {
+    const struct glint_probe_story *story;
+    const struct images *images;
+    const uint32_t *pixel, *texel;
+};
+static const struct glint_probe_record *next(const struct told_pixel *p, const char *slot, const char *kind,
+                                             size_t *at) {
+    return of_slot(p->story, slot, kind, at);
+}
+
+/* ---- Passes: how many mixtures of several parts were told ---- */
+
+static size_t check_blurred(const struct told_pixel *p) {
+    struct mean mean = {0};
+    size_t at = 0;
+    const struct glint_probe_record *record;
+    while ((record = next(p, "resolve", "sample", &at))) {
+        check_between(record, p->images, told(record, "x"), told(record, "y"));
+        mean_add(&mean, record, 1);
+    }
+    for (uint32_t c = 0; c < 3 && mean.count; c++)
+        near(mean.sum[c] / mean.total, held(find(p->images, "reflection_half"), p->texel, c),
+             mean.largest * (double)mean.count / mean.total);
+    at = 0;
+    assert_non_null(record = next(p, "resolve", "trust", &at));
+    static const char *const parts[] = {"viewer", "edge", "back_face", "foreground"};
+    for (uint32_t k = 0; k < 4; k++)
+        same(record, parts[k], find(p->images, "attenuation"), p->texel[0], p->texel[1], k);
+    same(record, "contribution", find(p->images, "contribution"), p->texel[0], p->texel[1], 0);
+    return mean.count > 1;
+}
+
+static size_t check_contribution(const struct told_pixel *p) {
+    size_t at = 0;
+    const struct glint_probe_record *layer = next(p, "compose", "layer", &at);
+    if (!layer) return 0;
+    const struct layered made = layered(layer);
+    same_rgb(layer, rgb, find(p->images, "reflection"), p->pixel[0], p->pixel[1]);
+    same_rgb(layer, below, find(p->images, "lit"), p->pixel[0], p->pixel[1]);
+    layered_is(&made, find(p->images, "composed"), p->pixel);
+    return told(layer, "share_r") > 0;
+}
+
+static size_t check_kf2(const struct told_pixel *p) {
+    return check_blurred(p) + check_contribution(p);
+}
+
+/* The chain is looked at between texels and levels, with weights of eight bits again: three axes. */
+static size_t check_mips(const struct told_pixel *p) {
+    struct mean mean = {0};
+    double weights = 0, high = 0;
+    size_t at = 0;
+    for (const struct glint_probe_record *tap; (tap = next(p, "blur", "tap", &at));) {
+        const uint32_t x = number(tap, "texel_x"), y = number(tap, "texel_y");
+        same_rgb(tap, rgb, image_of(tap, p->images), x, y);
+        same(tap, "part", image_of(tap, p->images), x, y, 3);
+        mean_add(&mean, tap, told(tap, "part"));
+        weights += told(tap, "weight");
+        for (int c = 0; c < 3; c++) high = fmax(high, told(tap, rgb[c]));
+    }
+    if (!mean.count) return 0;
+    near(weights, 1, (double)mean.count);
+    for (uint32_t c = 0; c < 3 && mean.total > 0; c++) {
+        const double found = held(find(p->images, "reflection_blurred"), p->texel, c);
+        /* Both sums are off by so much, and the quotient by both. */
+        const double tolerance = 3.0 / 256 * (high + fabs(found)) / mean.total + fabs(found) * 0x1p-20;
+        if (!(fabs(mean.sum[c] / mean.total - found) <= tolerance))
+            fail_msg("told %.9g, found %.9g", mean.sum[c] / mean.total, found);
+    }
+    return mean.count > 1;
+}
+
+/* Taps that a level's texel is made of, or that a layer lies over another with: those of images that nobody writes again hold
+   what was told. */
+static size_t check_levels(const struct told_pixel *p) {
+    enum { TAPS = 64 };
+    const struct glint_probe_record *taps[TAPS], *layer = NULL;
+    struct mean mean = {0};
+    size_t mixtures = 0, levels = 0;
+    for (size_t i = 0; i < p->story->count; i++) {
+        const struct glint_probe_record *record = &p->story->records[i];
+        if (strcmp(record->pass->slot, "blur") != 0) continue;
+        if (glint_probe_is(record, "tap")) {
+            assert_in_range(mean.count, 0, TAPS - 1);
+            taps[mean.count] = record;
+            mean_add(&mean, record, told(record, "part"));
+            continue;
+        }
+        const bool over = glint_probe_is(record, "layer");
+        for (size_t t = 0; t < mean.count; t++) {
+            const struct kept *image = image_of(taps[t], p->images);
+            if (over || strcmp(image->name, "reflection_across") == 0 || told(taps[t], "level") == 0)
+                same_rgb(taps[t], rgb, image, number(taps[t], "texel_x"), number(taps[t], "texel_y"));
+        }
+        if (mean.count && !(over && told(record, "share_r") == 0)) mean_is(&mean, record);
+        mixtures += mean.count > 1;
+        mean = (struct mean){0};
+        if (over) layer = record;
+        else if (layer) {
+            const struct layered made = layered(layer);
+            for (int c = 0; c < 3; c++) near(made.color[c], told(record, rgb[c]), made.largest);
+            same_rgb(record, rgb, image_of(record, p->images), number(record, "texel_x"), number(record, "texel_y"));
+            layer = NULL;
+            levels++;
+        }
+    }
+    if (layer) {
+        const struct layered made = layered(layer);
+        layered_is(&made, find(p->images, "reflection_blurred"), p->texel);
+    }
+    assert_in_range(levels, 0, 1);
+    return mixtures;
+}
+
+static size_t check_planar(const struct told_pixel *p) {
+    size_t at = 0;
+    const struct glint_probe_record *record;
+    const struct kept *map = find(p->images, "planar_depth"), *mirrored = find(p->images, "planar_reflection");
+    while ((record = next(p, "planar", "mirrored_depth", &at))) {
+        const double x = told(record, "at_x"), y = told(record, "at_y");
+        bool found = false; /* by a place that is known to one in 256 of a texel */
+        for (int k = 0; k < 4; k++) {
+            const double u = fmin(fmax(floor(x + (k & 1 ? 1 : -1) / 256.0), 0), map->width - 1);
+            const double v = fmin(fmax(floor(y + (k >> 1 ? 1 : -1) / 256.0), 0), map->height - 1);
+            const double depth_m = held(map, (uint32_t[]){(uint32_t)u, (uint32_t)v}, 0);
+            found |= depth_m == told(record, "depth_m");
+        }
+        if (!found) fail_msg("planar_depth at %g,%g does not hold %g", x, y, told(record, "depth_m"));
+    }
+    at = 0;
+    if (!(record = next(p, "planar", "sample", &at))) return 0;
+    check_between(record, p->images, told(record, "x"), told(record, "y"));
+    same_rgb(record, rgb, mirrored, p->pixel[0], p->pixel[1]);
+    same(record, "weight", mirrored, p->pixel[0], p->pixel[1], 3);
+    return 1;
+}
+
+/* The water over the bottom; the planar map over the surroundings; that over this. */
+static size_t check_water(const struct told_pixel *p) {
+    const struct glint_probe_record *record, *layers[3];
+    size_t at = 0, count = 0;
+    while ((record = next(p, "water", "bottom", &at)))
+        same(record, "thickness_m", find(p->images, "water_normal"), number(record, "texel_x"),
+             number(record, "texel_y"), 3);
+    for (at = 0; (record = next(p, "water", "layer", &at)); layers[count++] = record) assert_in_range(count, 0, 2);
+    if (count == 0) return 0;
+    assert_int_equal(count, 3);
+    at = 0;
+    const struct glint_probe_record *sample = next(p, "water", "sample", &at);
+    if (sample) check_between(sample, p->images, told(sample, "x"), told(sample, "y"));
+    for (int c = 0; c < 3; c++) {
+        const double bottom = sample ? told(sample, rgb[c]) : held(find(p->images, "composed"), p->pixel, (uint32_t)c);
+        assert_true(told(layers[0], rgb[c]) == bottom);
+    }
+    same_rgb(layers[0], below, find(p->images, "water_color"), p->pixel[0], p->pixel[1]);
+    same_rgb(layers[1], rgb, find(p->images, "planar_reflection"), p->pixel[0], p->pixel[1]);
+    const struct layered through = layered(layers[0]), mirrored = layered(layers[1]), all = layered(layers[2]);
+    for (int c = 0; c < 3; c++) {
+        near(through.color[c], told(layers[2], below[c]), through.largest);
+        near(mirrored.color[c], told(layers[2], rgb[c]), mirrored.largest);
+    }
+    layered_is(&all, find(p->images, "composed_water"), p->pixel);
+    return 1;
+}
+
+static size_t check_lake(const struct told_pixel *p) {
+    return check_planar(p) + check_water(p);
+}
+
+static size_t check_transparency(const struct told_pixel *p) {
+    const struct glint_probe_record *record, *layers[2];
+    struct mean mean = {0};
+    size_t at = 0, count = 0;
+    while ((record = next(p, "transparency", "neighbour", &at))) {
+        same_rgb(record, rgb, find(p->images, "transparent_reflection"), number(record, "texel_x"),
+                 number(record, "texel_y"));
+        mean_add(&mean, record, 1);
+    }
+    for (at = 0; (record = next(p, "transparency", "layer", &at)); layers[count++] = record)
+        assert_in_range(count, 0, 1);
+    if (count == 0) return 0;
+    assert_int_equal(count, 2);
+    if (mean.count) mean_is(&mean, layers[1]);
+    same_rgb(layers[0], rgb, find(p->images, "transparent_color"), p->pixel[0], p->pixel[1]);
+    same_rgb(layers[0], below, find(p->images, "composed"), p->pixel[0], p->pixel[1]);
+    const struct layered through = layered(layers[0]), all = layered(layers[1]);
+    for (int c = 0; c < 3; c++) near(through.color[c], told(layers[1], below[c]), through.largest);
+    layered_is(&all, find(p->images, "composed_transparent"), p->pixel);
+    return mean.count > 1;
+}
+
+/* ---- Pipelines ---- */
+
+static const struct way {
+    const char *scene;
+    size_t (*check)(const struct told_pixel *pixel);
+    const char *words[PROBED_WORDS];
+} ways[] = {
+    {"street", check_kf2, {"screen_trace=dda", "resolve=blurred", "compose=contribution"}},
+    {"street", check_mips, {"screen_trace=dda", "blur=mips"}},
+    {"street", check_levels, {"downsample=mips", "screen_trace=dda", "blur=upscale_blur", "blur.width=4"}},
+    {"lake", check_lake, {"planar=lookup", "water=combine"}},
+    {"glasshouse",
+     check_transparency,
+     {"transparent_downsample=nearest", "transparent_screen_trace=linear", "transparent_cubemap_trace=march",
+      "transparent_resolve=hit", "transparency=trace"}},
+};
+
+static void mixtures(struct gpu *gpu, const struct way *way) {
+    static uint32_t pixels[PIXELS][2];
+    static struct images plain, probed;
+    struct glint_error err = {0};
+    size_t told_of = 0;
+    probed_scene(gpu, way->scene);
+    arrange(gpu, way->words);
+    draw_pixels(pixels);
+    probed_run(gpu, NULL, false, &plain);
+    probed_run(gpu, pixels, false, &probed);
+    same_images(&plain, &probed);
+    free_images(&plain);
+    free_images(&probed);
+    probed_run(gpu, pixels, true, &probed); /* what is stored is what was computed */
+    for (size_t i = 0; i < PIXELS; i++) {
+        struct glint_probe_story story;
+        const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
+        check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
+        assert_int_equal(story.lost, 0);
+        told_of += way->check(&(struct told_pixel){&story, &probed, pixels[i], texel});
+        free(story.records);
+    }
+    free_images(&probed);
+    print_message("# %zu mixtures\n", told_of);
+    assert_true(told_of > 50);
+}
+
+static void test_blurred(void **state) {
+    mixtures(*state, &ways[0]);
+}
+static void test_mips(void **state) {
+    mixtures(*state, &ways[1]);
+}
+static void test_levels(void **state) {
+    mixtures(*state, &ways[2]);
+}
+static void test_lake(void **state) {
+    mixtures(*state, &ways[3]);
+}
+static void test_transparency(void **state) {
+    mixtures(*state, &ways[4]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_blurred), cmocka_unit_test(test_mips),
+                                       cmocka_unit_test(test_levels), cmocka_unit_test(test_lake),
+                                       cmocka_unit_test(test_transparency)};
+    return cmocka_run_group_tests_name("gpu_probe_mixtures", tests, gpu_set_up, gpu_tear_down);
+}
