@@ -31,15 +31,11 @@ static bool row_is_dispatch(const struct glint_row *row) {
            row->kind == GLINT_ROW_DISPATCH_LIST;
 }
 
-/* The layers of a level that a dispatch may leave others out for, by the row WITHIN behind its own; NULL: all are needed. */
+/* The layers of a level that a dispatch works on; NULL: all. */
 static struct face_run *needed_layers(const struct run *run, const struct step *step, const struct glint_row *row,
                                       uint32_t level, uint32_t *count) {
-    const struct glint_pass *pass = step->pass->pass;
-    const struct glint_row *within = row + 1;
     uint8_t faces[GLINT_SURVEY_CUBEMAPS];
-    if (within == pass->rows + pass->row_count || within->kind != GLINT_ROW_WITHIN || !run_limits(run, pass) ||
-        !run_faces(run, level, within->first, faces))
-        return NULL;
+    if (!run_dispatches_faces(run, step->pass->pass, row, level, faces)) return NULL;
     struct face_run *layers = calloc(FACE_RUNS_MAX, sizeof *layers);
     if (layers) *count = face_runs(faces, run->sizes.active, layers);
     return layers;

@@ -118,6 +118,7 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
         goto done;
     }
     replay_whole_work(replay, pipeline, options, inputs, work);
+    replay_count_faces(replay, pipeline, options, inputs, &graph);
     for (size_t i = 0; i < graph.pass_count; i++) {
         replay->plan[i] = (struct glint_plan_entry){.pass = graph.passes[i].pass,
                                                     .runs = graph.passes[i].runs,

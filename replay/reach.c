@@ -35,7 +35,7 @@ static bool knows_ways(const struct run *run) {
 bool run_captures_faces(const struct run *run, size_t i, uint8_t faces[GLINT_SURVEY_CUBEMAPS]) {
     const struct graph_image *image = &run->graph.images[i];
     return knows_ways(run) && image->source == SOURCE_CAPTURE && size_is_array(image->row->size) &&
-           graph_follows_rays(&run->graph, image->name) && run_faces(run, 0, 2, faces);
+           graph_follows_rays(&run->graph, image->name) && run_faces(run, 0, 1, faces);
 }
 
 bool run_limits(const struct run *run, const struct glint_pass *pass) {
@@ -48,14 +48,27 @@ bool run_limits(const struct run *run, const struct glint_pass *pass) {
     return within && knows_ways(run);
 }
 
-/* survey/reach.comp takes a face as larger by a 64th of its width, or a tenth. */
+/* survey/reach.comp takes a face as larger by a texel, or by a tenth of its width. */
 bool run_faces(const struct run *run, uint32_t level, int texels, uint8_t faces[GLINT_SURVEY_CUBEMAPS]) {
     const uint32_t width = run->sizes.cube_face >> level;
     const struct glint_survey_cubemap *active = run->replay->survey.active;
-    const bool crossed = (uint32_t)texels * 64 <= width;
+    const bool crossed = texels == 0 || (texels == 1 && level == 0 && width >= 4);
     for (uint32_t i = 0; i < run->sizes.active && i < GLINT_SURVEY_CUBEMAPS; i++)
         faces[i] = crossed ? active[i].crossed : active[i].nearby;
-    return (uint32_t)texels * 10 <= width;
+    return crossed || (uint32_t)texels * 10 <= width;
+}
+
+bool run_dispatches_faces(const struct run *run, const struct glint_pass *pass, const struct glint_row *row,
+                          uint32_t level, uint8_t faces[GLINT_SURVEY_CUBEMAPS]) {
+    const struct glint_row *within = row + 1;
+    return within < pass->rows + pass->row_count && within->kind == GLINT_ROW_WITHIN && run_limits(run, pass) &&
+           run_faces(run, level, within->first, faces);
+}
+
+uint32_t count_faces(const uint8_t *faces, uint32_t active) {
+    uint32_t count = 0;
+    for (uint32_t layer = 0; layer < 6 * active; layer++) count += faces[layer / 6] >> layer % 6 & 1;
+    return count;
 }
 
 uint32_t face_runs(const uint8_t *faces, uint32_t active, struct face_run *runs) {

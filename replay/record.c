@@ -100,6 +100,11 @@ static json_t *warnings(const struct run *run) {
     return list;
 }
 
+static json_t *faces_record(const struct glint_cube_faces *faces) {
+    return json_pack("{s[II]s[II]}", "uploaded", (json_int_t)faces->uploaded, (json_int_t)faces->uploaded_of,
+                     "filtered", (json_int_t)faces->filtered, (json_int_t)faces->filtered_of);
+}
+
 json_t *run_record(const struct run *run) {
     const struct glint_replay_options *options = run->options;
     json_t *root = json_object(), *passes = json_array();
@@ -118,6 +123,7 @@ json_t *run_record(const struct run *run) {
     json_object_set_new(root, "inputs", options->inputs ? json_string(options->inputs) : json_null());
     json_object_set_new(root, "history", options->history ? json_string(options->history) : json_null());
     json_object_set_new(root, "active_cubemaps", json_integer((json_int_t)run->sizes.active));
+    json_object_set_new(root, "cube_faces", faces_record(&run->replay->faces));
     json_object_set_new(root, "all", json_boolean(options->all));
     json_object_set_new(root, "survey",
                         run->replay->surveyed && !options->all ? survey_record(run->replay) : json_null());

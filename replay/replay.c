@@ -110,6 +110,7 @@ static bool store_results(struct run *run, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     }
     replay_whole_work(replay, run->pipeline, run->options, run->inputs, work);
+    run_count_faces(run, &replay->faces);
     for (size_t p = 0; p < count; p++) {
         const struct graph_pass *pass = &run->graph.passes[p];
         struct glint_pass_result *result = &replay->results[p];

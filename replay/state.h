@@ -53,6 +53,7 @@ struct glint_replay {
     size_t probe_count;
     uint32_t probe_reduction;
     struct glint_plan_entry *plan;
+    struct glint_cube_faces faces; /* of the last plan or run */
     struct glint_pass_result *results;
     size_t *result_places; /* in the whole pipeline's order, counted from 1 */
     size_t result_count;
@@ -183,6 +184,10 @@ bool run_restore(struct run *run, struct step *step);
    so that it may leave some out; which of an image's faces are taken from the capture, false: all. */
 bool run_limits(const struct run *run, const struct glint_pass *pass);
 bool run_captures_faces(const struct run *run, size_t i, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);
+/* The faces of a level that a row DISPATCH works on, by the row WITHIN behind it; false: all. */
+bool run_dispatches_faces(const struct run *run, const struct glint_pass *pass, const struct glint_row *row,
+                          uint32_t level, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);
+uint32_t count_faces(const uint8_t *faces, uint32_t active);
 /* The faces that lie within so many texels of a level of the rays; false: it is not known of that many. */
 bool run_faces(const struct run *run, uint32_t level, int texels, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);
 bool graph_follows_rays(const struct graph *graph, const char *image);
@@ -218,6 +223,12 @@ bool run_count_tiles(struct run *run, struct glint_error *err); /* adds those of
 uint64_t pass_rays(const struct graph_pass *pass, const struct glint_pipeline *pipeline);
 void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                        const struct glint_replay_options *options, struct glint_run *inputs, struct whole_work *work);
+/* Of faces that are uploaded and filtered, those of this run, whose sizes are known; the others are replay_whole_work's. */
+void run_count_faces(const struct run *run, struct glint_cube_faces *faces);
+/* The same of a plan. */
+void replay_count_faces(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                        const struct glint_replay_options *options, struct glint_run *inputs,
+                        const struct graph *graph);
 /* Adds to the passes of a record what lists and end reasons of the last run say. */
 bool replay_count_work(struct glint_replay *replay, json_t *root, struct glint_error *err);
 

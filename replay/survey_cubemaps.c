@@ -34,7 +34,7 @@ static bool find_key(const struct glint_replay *replay, const struct glint_table
     return true;
 }
 
-enum { SQUARES = 6 * COCOON_SIZE * COCOON_SIZE /* of a cube map */, BLOCK = 64, BLOCK_WORDS = 8 };
+enum { SQUARES = 6 * COCOON_SIZE * COCOON_SIZE /* of a cube map */, NEARBY_WORDS = 4 /* where they begin */ };
 
 static uint8_t faces_of(const uint32_t *squares) {
     uint8_t faces = 0;
@@ -75,20 +75,15 @@ static uint8_t six_bits(const uint32_t *words, uint32_t place) {
 static bool follow_rays(struct glint_replay *replay, const struct pipeline_pass *maker, uint32_t count,
                         const struct glint_replay_options *options, struct glint_error *err) {
     static const char *const outputs[] = {"ray_ways", NULL};
-    const struct glint_part_info *gbuffer = glint_capture_find(replay->capture, "gbuffer");
-    const size_t blocks = (size_t)((gbuffer->width + BLOCK - 1) / BLOCK) * ((gbuffer->height + BLOCK - 1) / BLOCK);
     struct pipeline_pass passes[] = {*maker, {.pass = glint_pass_find("survey", "reach")}};
     struct glint_survey *survey = &replay->survey;
-    uint32_t *list = survey_run(replay, passes, 2, outputs, options, &replay->followed_time, err);
-    if (!list) return false;
-    for (uint32_t i = 0; i < count; i++) survey->active[i].crossed = survey->active[i].nearby = 0;
-    for (size_t b = 0; b < blocks; b++)
-        for (uint32_t i = 0; i < count; i++) {
-            const uint32_t *words = list + LIST_WIDTH + b * BLOCK_WORDS;
-            survey->active[i].crossed |= six_bits(words, i);
-            survey->active[i].nearby |= six_bits(words + BLOCK_WORDS / 2, i);
-        }
-    free(list);
+    uint32_t *words = survey_run(replay, passes, 2, outputs, options, &replay->followed_time, err);
+    if (!words) return false;
+    for (uint32_t i = 0; i < count; i++) {
+        survey->active[i].crossed = six_bits(words, i);
+        survey->active[i].nearby = six_bits(words + NEARBY_WORDS, i);
+    }
+    free(words);
     survey->followed = count;
     return true;
 }

@@ -6,13 +6,17 @@
 
 #include "shared/tile_list.h"
 
+static bool is_dispatch(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS;
+}
+
 /* Of all dispatches when nothing is left out. */
 static uint64_t texels_of(const struct run *run, const struct graph_pass *entry, struct glint_error *err) {
     const struct glint_pass *pass = entry->pass;
     uint64_t texels = 0;
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r];
-        if (row->kind != GLINT_ROW_DISPATCH && row->kind != GLINT_ROW_DISPATCH_LEVELS) continue;
+        if (!is_dispatch(row)) continue;
         struct graph_image image = {.name = row->name, .source = SOURCE_MADE};
         struct image_desc desc;
         uint32_t first = 0, last = 0;
@@ -38,25 +42,90 @@ uint64_t pass_rays(const struct graph_pass *pass, const struct glint_pipeline *p
     return pass->rank == RANK_RAY ? glint_pipeline_rays(pipeline) : 1;
 }
 
+static uint64_t faces_of_size(const struct run *run, enum glint_size_class size) {
+    return size_is_array(size) ? 6 * (uint64_t)run->sizes.active : run->sizes.sky_face ? 6 : 0;
+}
+
+/* The faces of an image that a pass makes: those of the dispatches over it, or of all where it goes with another image. The
+   coarsest level takes most of them. */
+static uint64_t faces_made(const struct run *run, const struct graph_pass *entry, const struct glint_row *made) {
+    const struct glint_pass *pass = entry->pass;
+    uint8_t faces[GLINT_SURVEY_CUBEMAPS] = {0};
+    bool own = false;
+    for (size_t r = 0; r < pass->row_count; r++)
+        own |= is_dispatch(&pass->rows[r]) && strcmp(pass->rows[r].name, made->name) == 0;
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (!is_dispatch(row) || (own && strcmp(row->name, made->name) != 0)) continue;
+        const struct graph_image image = {
+            .name = row->name, .row = pass_output(pass, row->name), .source = SOURCE_MADE};
+        struct image_desc desc;
+        uint8_t more[GLINT_SURVEY_CUBEMAPS];
+        uint32_t first, last = 0;
+        if (!image.row || !run_describe_image(run, &image, &desc, NULL)) return faces_of_size(run, made->size);
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(entry, row, &desc, &first, &last)) continue;
+        if (!run_dispatches_faces(run, pass, row, last, more)) return faces_of_size(run, made->size);
+        for (uint32_t i = 0; i < run->sizes.active && i < GLINT_SURVEY_CUBEMAPS; i++) faces[i] |= more[i];
+    }
+    return count_faces(faces, run->sizes.active);
+}
+
+void run_count_faces(const struct run *run, struct glint_cube_faces *faces) {
+    uint8_t some[GLINT_SURVEY_CUBEMAPS];
+    faces->uploaded = faces->filtered = 0;
+    for (size_t i = 0; i < run->graph.image_count; i++) {
+        const struct graph_image *image = &run->graph.images[i];
+        if (image->source == SOURCE_CAPTURE && size_is_cube(image->row->size))
+            faces->uploaded += run_captures_faces(run, i, some) ? count_faces(some, run->sizes.active)
+                                                                : faces_of_size(run, image->row->size);
+    }
+    for (size_t p = 0; p < run->graph.pass_count; p++) {
+        const struct graph_pass *pass = &run->graph.passes[p];
+        for (size_t r = 0; pass->runs && r < pass->pass->row_count; r++)
+            if (pass->pass->rows[r].kind == GLINT_ROW_WRITE && size_is_cube(pass->pass->rows[r].size))
+                faces->filtered += faces_made(run, pass, &pass->pass->rows[r]);
+    }
+}
+
+/* Sizes of what a graph will work on, without a device. */
+static bool size_up(struct run *run) {
+    double seconds[256];
+    struct glint_error ignored = {0};
+    return run->graph.pass_count <= sizeof seconds / sizeof *seconds &&
+           tables_init(&run->tables, &run->graph, run->replay->capture, seconds, &ignored) && run_sizes(run, &ignored);
+}
+
+void replay_count_faces(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                        const struct glint_replay_options *options, struct glint_run *inputs,
+                        const struct graph *graph) {
+    struct run run = {.replay = replay, .pipeline = pipeline, .options = options, .inputs = inputs, .graph = *graph};
+    if (size_up(&run)) run_count_faces(&run, &replay->faces);
+    tables_finish(&run.tables);
+    free(run.active);
+}
+
 void replay_whole_work(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                        const struct glint_replay_options *options, struct glint_run *inputs, struct whole_work *work) {
     struct glint_replay_options all = *options;
     struct glint_error ignored = {0};
-    double seconds[256];
     struct run run = {.replay = replay, .pipeline = pipeline, .options = &all, .inputs = inputs};
+    struct glint_cube_faces faces = {0};
     all.all = true;
     all.outputs = NULL;
-    const bool ok = pipeline->count <= sizeof seconds / sizeof *seconds &&
-                    replay_graph(replay, pipeline, &all, inputs, &run.graph, &ignored) &&
-                    tables_init(&run.tables, &run.graph, replay->capture, seconds, &ignored) &&
-                    run_sizes(&run, &ignored);
+    const bool ok = replay_graph(replay, pipeline, &all, inputs, &run.graph, &ignored) && size_up(&run);
     for (size_t p = 0; ok && p < run.graph.pass_count; p++)
         work[p] = (struct whole_work){texels_of(&run, &run.graph.passes[p], &ignored) *
                                           pass_rays(&run.graph.passes[p], pipeline),
                                       run.graph.passes[p].cached_work};
+    if (ok) run_count_faces(&run, &faces);
+    replay->faces = (struct glint_cube_faces){.uploaded_of = faces.uploaded, .filtered_of = faces.filtered};
     tables_finish(&run.tables);
     graph_finish(&run.graph);
     free(run.active);
+}
+
+const struct glint_cube_faces *glint_replay_cube_faces(const struct glint_replay *replay) {
+    return &replay->faces;
 }
 
 /* Tiles at the picture's border are cut off there. */

@@ -47,7 +47,7 @@ def counts(given, capture, folder, *options):
     told = json.loads((run / "run.json").read_text())
     work = [(p, p["work"]) for p in told["passes"] if "work" in p]
     survey = told["survey"]
-    return {"cubes": sum(w["texels"] for p, w in work if p.get("cached_work")),
+    return {"cubes": sum(w["texels"] for p, w in work if p.get("cached_work")), "faces": told["cube_faces"],
             "rays": max((w.get("rays", 0) for _, w in work), default=0),
             "texels": {p["slot"]: [w["texels"], w["of"]] for p, w in work if p["ran"]},
             **({"reflecting": survey["reflecting"]["count"] / survey["pixels"]} if survey else {})}
@@ -128,6 +128,12 @@ def times(r):
                                 for scene, row in r["scenes"].items()])
 
 
+def faces(counts, kind):
+    """Of counts: faces of cube maps; "–" in records from before they were counted."""
+    done, of = counts["faces"][kind] if "faces" in counts else (0, 0)
+    return f"{done} of {of}" if of else "–"
+
+
 def worked(r):
     """What does not depend on the device; of the record that counted."""
     rows = []
@@ -136,8 +142,8 @@ def worked(r):
         left = [f"`{slot}`" for slot in row["passes"] if slot not in ran(row)]
         part = [f"`{slot}` {percent(done, of)}" for slot, (done, of) in p["texels"].items() if 0 < done < of]
         rows.append([f"`{scene}`", percent(p["reflecting"]), f"{p['rays']} of {w['rays']} ({percent(p['rays'], w['rays'])})",
-                     f"{percent(p['cubes'], w['cubes'])}", ", ".join(left) or "none", ", ".join(part) or "none"])
-    return pages.table(["scene", "pixels that reflect", "rays traced of `--all`", "cube texels filtered of `--all`", "passes left out", "passes in part"], rows)
+                     f"{percent(p['cubes'], w['cubes'])}", faces(p, "uploaded"), faces(p, "filtered"), ", ".join(left) or "none", ", ".join(part) or "none"])
+    return pages.table(["scene", "pixels that reflect", "rays traced of `--all`", "cube texels filtered of `--all`", "cube faces uploaded", "filtered", "passes left out", "passes in part"], rows)
 
 
 def everything_ran(r):
@@ -166,6 +172,9 @@ def bounds(r, cpu):
     if "counts" in desert:
         part = desert["counts"]["planned"]["cubes"] / desert["counts"]["whole"]["cubes"]
         lines.append(f"`desert_night` filters {percent(part)} of the cube maps' texels; at most half: {verdict(part <= 0.5)}.")
+    if "faces" in desert.get("counts", {}).get("planned", {}):
+        done, of = (sum(pair[i] for pair in desert["counts"]["planned"]["faces"].values()) for i in (0, 1))
+        lines.append(f"`desert_night` skips {percent(of - done, of)} of the cube faces, uploaded and filtered; at least half: {verdict(2 * done <= of)}.")
     return "\n".join(f"- {line}" for line in lines)
 
 

@@ -70,6 +70,7 @@ struct answer {
     const struct glint_plan_entry *entries;
     size_t count;
     struct glint_savings savings;
+    const struct glint_cube_faces *faces;
 };
 
 static double milliseconds(uint64_t ns) {
@@ -111,6 +112,10 @@ static void print_plan(const struct answer *answer) {
     }
     table_print(table, stdout);
     table_destroy(&table);
+    if (answer->faces->uploaded_of)
+        printf("\nfaces of cube maps: %llu of %llu are uploaded, %llu of %llu filtered\n",
+               (unsigned long long)answer->faces->uploaded, (unsigned long long)answer->faces->uploaded_of,
+               (unsigned long long)answer->faces->filtered, (unsigned long long)answer->faces->filtered_of);
     if (!savings->passes) return;
     putchar('\n');
     print_times("all passes", &savings->all);
@@ -139,8 +144,11 @@ static enum status print_plan_json(const char *capture, const struct glint_pipel
                                           "all_ms", milliseconds(savings->passes[i].whole_ns)));
         json_array_append_new(list, row);
     }
+    const struct glint_cube_faces *faces = answer->faces;
     json_t *root =
-        json_pack("{s:s, s:s, s:o}", "capture", capture, "preset", glint_pipeline_name(pipeline), "passes", list);
+        json_pack("{s:s, s:s, s:o, s:{s:[II], s:[II]}}", "capture", capture, "preset", glint_pipeline_name(pipeline),
+                  "passes", list, "cube_faces", "uploaded", (json_int_t)faces->uploaded, (json_int_t)faces->uploaded_of,
+                  "filtered", (json_int_t)faces->filtered, (json_int_t)faces->filtered_of);
     if (savings->passes)
         json_object_set_new(root, "measured",
                             json_pack("{s:i, s:f, s:o, s:o}", "rounds", (int)savings->rounds, "survey_ms",
@@ -183,7 +191,7 @@ static bool measure(const struct arguments *a, struct glint_pipeline *pipeline, 
 static enum status plan(const struct arguments *a, struct glint_pipeline *pipeline, struct glint_replay *replay) {
     const struct glint_replay_options options = pipeline_args_options(&a->pipeline);
     struct glint_error err = {0};
-    struct answer answer = {0};
+    struct answer answer = {.faces = glint_replay_cube_faces(replay)};
     enum status status = STATUS_DONE;
     if ((a->rounds && !measure(a, pipeline, replay, &answer, &err)) ||
         !glint_replay_plan(replay, pipeline, &options, &answer.entries, &answer.count, &err))

@@ -36,7 +36,7 @@
 // frame.flags.x is 1; what a pass did not make then, because its frame had nothing to do for it, holds the image's "nothing"
 // value. Otherwise they are stand-ins of one texel with that value.
 // ALONG_RAYS(image, normals): of these cube maps the pass looks up what lies on the ways of the rays of `normals`, as the centres
-// see them, and no farther than two texels beside them. In the pass that makes `image`: that holds normals, for mirrors those of
+// see them, and no farther than a texel beside them. In the pass that makes `image`: that holds normals, for mirrors those of
 // `normals`. WITHIN(texels), behind a DISPATCH: faces that no way comes that near to may be left out then.
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;

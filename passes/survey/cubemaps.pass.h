@@ -8,6 +8,6 @@ WRITE(uimage2DArray, cubemap_open, R8UI, "1", COCOON, "open", 0, "1: some texels
 WRITE(uimage2DArray, cubemap_sky, R8UI, "1", COCOON, "sky", 0, "1: some let the sky through; 0 on faces that no ray comes to")
 DISPATCH(cubemap_open)
 DISPATCH(cubemap_sky)
-WITHIN(2)
+WITHIN(1)
 ALONG_RAYS(cubemap_color, normal_full)
 REFERENCE_NONE("it makes no image of the picture")

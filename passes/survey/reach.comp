@@ -11,9 +11,10 @@
 #include "shared/shown.glsl"
 #include "shared/work_list.glsl"
 
-// How much larger a face is taken than it is: what of its neighbours lies within a 64th of a face's width, and within a tenth,
-// counts as its own (replay/reach.c). A 32nd of the half width e: 1 / (1 - e) - 1, and something for rounded normals.
-const float CROSSED = 1.0 / 28.0, NEARBY = 0.26;
+// How much larger a face is taken than it is: what of its neighbours lies within a texel of it, and within a tenth of its width,
+// counts as its own (replay/reach.c). Of a part e of the half width that is 1 / (1 - e) - 1, and something for rounded normals.
+const float ROUNDED = 0.0035, NEARBY = 0.26;
+float margin_of(float e) { return 1.0 / (1.0 - min(e, 0.9)) - 1.0 + ROUNDED; }
 shared uint faces[8];
 
 // The way of a ray from its surface to infinity, as a centre sees it: (1 - x) · from + x · towards, x from 0 to 1. It crosses
@@ -34,6 +35,7 @@ bool crosses(vec3 from, vec3 towards, int face, float margin) {
 }
 
 void follow(vec3 origin, vec3 direction) {
+    float beside = margin_of(2.0 / float(frame.counts.z));
     for (int place = 0; place < int(min(frame.counts.x, ACTIVE_MOST)); ++place) {
         vec3 from = origin - active_centers[place].xyz;
         bool all = !(length(from) > 1e-3 * (1.0 + length(origin))); // its direction is not known
@@ -41,30 +43,46 @@ void follow(vec3 origin, vec3 direction) {
         for (int face = 0; face < 6; ++face) {
             int bit = 6 * place + face, word = bit >> 5;
             uint mask = 1u << (bit & 31);
-            if ((faces[word] & mask) != 0u || !(all || crosses(from, direction, face, NEARBY))) continue;
+            if ((faces[word] & mask) != 0u || !(all || crosses(from, direction, face, max(beside, NEARBY)))) continue;
             atomicOr(faces[4 + word], mask);
-            if (all || crosses(from, direction, face, CROSSED)) atomicOr(faces[word], mask);
+            if (all || crosses(from, direction, face, beside)) atomicOr(faces[word], mask);
         }
     }
 }
 
+// A pixel's ray, if the picture shows it.
+void follow_pixel(ivec2 pixel) {
+    if (!inside(pixel, ivec2(frame.size.xy)) || !is_shown(pixel)) return;
+    float depth_m = texelFetch(depth_full, pixel, 0).x;
+    vec4 surface = texelFetch(normal_full, pixel, 0);
+    if (!reflects(depth_m, surface.xyz)) return;
+    vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
+    vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    if (surface.w > 0.0) for (int word = 0; word < 8; ++word) faces[word] = 0xFFFFFFFFu; // from a lobe: anywhere
+    else follow(origin, mirror_direction(origin, surface.xyz));
+}
+
+// Each workgroup joins one word of all tiles.
+void join_tiles(uvec2 tiles) {
+    uint own = 0u, word = workgroup_index(), lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
+    if (word >= 8u) return;
+    for (uint tile = gl_LocalInvocationIndex; tile < tiles.x * tiles.y; tile += lanes)
+        own |= texelFetch(partial, LIST_ITEMS + int(8u * tile + word)).x;
+    if (own != 0u) atomicOr(faces[word], own);
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) imageStore(ray_ways, ivec2(word, 0), uvec4(faces[word]));
+}
+
 void main() {
     load_active_centers();
-    int lane = int(gl_LocalInvocationIndex);
-    if (lane < 8) faces[lane] = 0u;
+    uint lane = gl_LocalInvocationIndex;
+    if (lane < 8u) faces[lane] = 0u;
     barrier();
-    for (int row = lane >> 6; row < 64; row += 2) {
-        ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane & 63, row);
-        if (!inside(pixel, ivec2(frame.size.xy)) || !is_shown(pixel)) continue;
-        float depth_m = texelFetch(depth_full, pixel, 0).x;
-        vec4 surface = texelFetch(normal_full, pixel, 0);
-        if (!reflects(depth_m, surface.xyz)) continue;
-        vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
-        vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        if (surface.w > 0.0) for (int word = 0; word < 8; ++word) faces[word] = 0xFFFFFFFFu; // from a lobe: anywhere
-        else follow(origin, mirror_direction(origin, surface.xyz));
+    if (dispatch_phase == 0u) {
+        follow_pixel(ivec2(gl_GlobalInvocationID.xy));
+        barrier();
+        if (lane < 8u) imageStore(tile_ways, LIST_ITEMS + int(8u * workgroup_index() + lane), uvec4(faces[lane]));
+    } else {
+        join_tiles((frame.size.xy + gl_WorkGroupSize.xy - 1u) / gl_WorkGroupSize.xy);
     }
-    barrier();
-    if (lane < 8) imageStore(ray_ways, LIST_ITEMS + 8 * int(workgroup_index()) + lane, uvec4(faces[lane]));
-    if (gl_GlobalInvocationID.xy == uvec2(0u)) imageStore(ray_ways, LIST_COUNT, uvec4(8u * gl_NumWorkGroups.x * gl_NumWorkGroups.y));
 }

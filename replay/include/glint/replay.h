@@ -198,6 +198,12 @@ const char *glint_survey_motion(const struct glint_survey *survey);
 bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                        const struct glint_replay_options *options, const struct glint_plan_entry **entries,
                        size_t *count, struct glint_error *err);
+/* Faces of cube maps, counted once for each image that holds them, in the last plan or run: what is taken from the capture, and
+   what passes make of it when a cube map changes (levels, cocoon); and how many that is when nothing is left out. */
+struct glint_cube_faces {
+    uint64_t uploaded, uploaded_of, filtered, filtered_of;
+};
+const struct glint_cube_faces *glint_replay_cube_faces(const struct glint_replay *replay);
 bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                       const struct glint_replay_options *options, glint_progress progress, void *user,
                       struct glint_error *err);
@@ -245,7 +251,7 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
 void glint_run_close(struct glint_run **run);
 /* The whole of run.json, as text: "format" (1), "capture" {path, xxh3_128}, "tool" {name, version}, "device" {name, type,
    driver, driver_version, times_are}, "frame", "preset", "rays", "first_ray", "resolution" {full, half}, "precision", "diagnostics", "inputs", "history",
-   "all", "survey" (null when none was asked), "active_cubemaps", "bad_values": [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …], "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
+   "all", "survey" (null when none was asked), "active_cubemaps", "cube_faces" ("uploaded" and "filtered": how many, of how many), "bad_values": [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …], "seconds" by phase, "peak_memory_bytes", "warnings", and "passes": {slot, variant, ran, reason,
    cached, cached_work, dispatches, work {texels, of, lists {name: items}, rays}, host, shader, parameters {name: value}, time_ns {n, min, median, max}, images: {name, file, part, channels,
    unit, meaning, width, height, format}}. work: how many texels a pass was dispatched over (of a list its items), of how many when
    nothing is left out; with diagnostics also how many rays a tracer followed. */
