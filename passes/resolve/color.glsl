@@ -80,7 +80,7 @@ vec4 paraboloid_texel(Ray ray, vec4 at) {
     vec3 d = normalize(at.xyz) * paraboloid_axes(frame.up.xyz), uv = paraboloid_uv(d, float(frame.counts.z));
     float level = 0.0;
     if (ray.cone > 0.0 && cone_cubemap) {
-        float spread = ray.endless ? 1.0 : min(ray.travelled_m / max(length(at.xyz), 1e-12), 1e12);
+        float spread = ray.endless ? 1.0 : ray.travelled_m / length(at.xyz);
         level = paraboloid_level(cone_tangent(ray.cone) * spread, d.z, float(frame.counts.z), texel_scale);
     }
     uv.z += 2.0 * at.w;

@@ -217,6 +217,41 @@ static void odd_sizes_pick_inside(void **state) {
     free(pick);
 }
 
+/* A mirror along the right border and the lower one, and elsewhere what reflects nothing to speak of. */
+static bool is_mirror(uint32_t x, uint32_t y) {
+    return x == 6 || y == 4;
+}
+static void mirror_at_the_border(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        values[PLAIN_METALNESS * pixels + i] = 1;
+        for (uint32_t k = 0; k < 3; ++k)
+            values[(PLAIN_ALBEDO_R + k) * pixels + i] = is_mirror(i % plain->width, i / plain->width) ? 1 : 0.01f;
+    }
+}
+
+/* Of mixed blocks the pixel that begins in the middle says what a reflection is worth; of an odd picture's last blocks, of which that
+   is none, the border's. */
+static void odd_borders_are_worth_what_their_pixels_are(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    plain_capture(gpu_path(gpu, "odd", path),
+                  &(struct plain){.width = 7, .height = 5, .fov_y_degrees = 10, .spoil = mirror_at_the_border});
+    gpu_load(gpu, "odd");
+    gpu_reset(gpu);
+    gpu_use(gpu, "downsample=bilinear");
+    gpu_set(gpu, "downsample.least_weight=0.5");
+    gpu_run(gpu);
+    uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
+    assert_true(width == 4 && height == 3);
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            const bool worth = is_mirror(x < 3 ? 2 * x + 1 : 6, y < 2 ? 2 * y + 1 : 4);
+            assert_int_equal(pick[y * width + x], worth ? 4 : 4 + 8);
+        }
+    free(pick);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blinn_phong_is_the_slides),
@@ -227,6 +262,7 @@ int main(void) {
         cmocka_unit_test(the_pick_alternates_or_is_the_first),
         cmocka_unit_test(the_minority_of_an_edge_is_discarded),
         cmocka_unit_test(odd_sizes_pick_inside),
+        cmocka_unit_test(odd_borders_are_worth_what_their_pixels_are),
     };
     return cmocka_run_group_tests_name("gpu_downsample_pick", tests, gpu_set_up, gpu_tear_down);
 }

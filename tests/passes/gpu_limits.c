@@ -1,5 +1,5 @@
 /* Where something ends: rays before the near plane, facets that are too steep or very near, cells that a ray may look at,
-   colours between which nothing is mixed, cones wider than the picture. */
+   colours between which nothing is mixed, cones wider than the picture, the sky beside what a ray sees. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -180,6 +180,72 @@ static void a_cone_wider_than_the_picture_sees_all_of_it(void **state) {
     free(color), free(depth_m), free(travelled_m), free(finished);
 }
 
+/* White, 10 m away; to the right of a border the sky, in which cube maps are black. */
+enum { HALF_SKY = 32 }; /* texels */
+enum { FINITE, ENDLESS, UNFILTERED, KINDS };
+static const double border = 0.125; /* x where z is 1, between two texels */
+static void half_sky(uint32_t number, const double d[3], float out[5]) {
+    const bool is_sky = d[0] > border * d[2];
+    (void)number;
+    for (int k = 0; k < 4; ++k) out[k] = is_sky ? 0 : 1;
+    out[4] = is_sky ? INFINITY : 10;
+}
+static void dim(const double d[3], float out[3]) {
+    (void)d;
+    for (int k = 0; k < 3; ++k) out[k] = 0.25F;
+}
+
+static void trace_to_half_sky(struct gpu *gpu, int kind) {
+    static const char *const words[] = {"downsample.jitter=true",   "downsample.share=0",
+                                        "downsample.cone_factor=1", "downsample.horizon=false",
+                                        "screen_trace.length_m=0",  "resolve.fog=false"};
+    struct plain plain = {.roughness = kind == UNFILTERED ? 0 : 0.3F,
+                          .cube_size = HALF_SKY,
+                          .cube_count = 1,
+                          .cube = half_sky,
+                          .sky = dim};
+    if (kind == ENDLESS) plain.cubes[0].center[0] = -1000;
+    load(gpu, &plain);
+    for (size_t i = 0; i < sizeof words / sizeof *words; ++i) gpu_set(gpu, words[i]);
+    gpu_use(gpu, "cubemap_mips=prefilter");
+    if (kind == ENDLESS) gpu_use(gpu, "cubemap_trace=lookup");
+    if (kind == UNFILTERED) gpu_set(gpu, "resolve.filter_color=false");
+    gpu_run(gpu);
+}
+
+/* Whether the sky is seen is the ray's to say: a ray that ends on white brings white, however much sky its cone holds, and so does
+   a mirror's whose colour is one texel's. A ray without an end has its direction alone, and no place that the cube map, a
+   kilometre to the left, might see elsewhere: there its cone says. */
+static void rays_take_no_sky_that_they_do_not_see(void **state) {
+    struct gpu *gpu = *state;
+    for (int kind = FINITE; kind < KINDS; ++kind) {
+        trace_to_half_sky(gpu, kind);
+        float *color = gpu_floats(gpu, "reflection_half", NULL, NULL), *cone = gpu_floats(gpu, "cone_half", NULL, NULL),
+              *travelled_m = gpu_floats(gpu, "travelled", NULL, NULL);
+        int count = 0, beside = 0;
+        double worst = 0;
+        for (int i = 0; i < PIXELS; ++i) {
+            const double slope = tan(3.14159265358979323846 / 6) / (0.5 * HEIGHT), tangent = tan((double)cone[i]);
+            const double x = slope * (i % WIDTH + 0.5 - 0.5 * WIDTH), y = slope * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
+            const double along = (double)travelled_m[i] / sqrt(x * x + y * y + 1), texel = 2.0 / HALF_SKY;
+            /* From the wall, 5 m away, back past the camera. */
+            const double at = kind == ENDLESS ? x : x * (5 + along) / (along - 5);
+            if (kind != ENDLESS && !(travelled_m[i] < 3e38F)) continue;
+            /* Beside the border by the cone, by all texels that are filtered, by what tells texels apart. */
+            if (at > border - (kind == ENDLESS ? tangent : kind == FINITE ? 2 * texel : texel / 16)) continue;
+            ++count;
+            beside += at > border - (kind == FINITE ? 0.5 * tangent : texel / 2);
+            worst = fmax(worst, fabs((double)color[4 * i] - 1));
+        }
+        print_message("# %d rays see white, %d of them near the sky: off by %.2g\n", count, beside, worst);
+        assert_true(count > 100 && (kind == ENDLESS || beside > 20));
+        /* The weights of white and of alpha are the same, and the last of 128 parts counts as opaque. Of a lobe that falls to a tenth at
+           its rim, a tenth lies beyond. */
+        assert_true(worst <= (kind == ENDLESS ? 0.1 : 1.0 / 128 + 1e-6));
+        free(color), free(travelled_m), free(cone);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_from_before_the_near_plane_go_nowhere),
@@ -188,6 +254,7 @@ int main(void) {
         cmocka_unit_test(rough_surfaces_alone_have_fewer_cells),
         cmocka_unit_test(an_unfiltered_colour_is_a_pixels),
         cmocka_unit_test(a_cone_wider_than_the_picture_sees_all_of_it),
+        cmocka_unit_test(rays_take_no_sky_that_they_do_not_see),
     };
     return cmocka_run_group_tests_name("gpu_limits", tests, gpu_set_up, gpu_tear_down);
 }

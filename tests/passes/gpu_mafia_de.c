@@ -238,6 +238,68 @@ static void nothing_leaks_over_edges(void **state) {
     }
 }
 
+static void sharing(struct gpu *gpu, const struct plain *plain, const char *colors) {
+    load(gpu, plain);
+    gpu_use(gpu, "blur=upscale_blur");
+    gpu_set(gpu, "blur.width=8"); /* lobes are wider than any level's texels: all is taken from the coarser ones */
+    gpu_shader(gpu, "resolve", "stand_in.comp");
+    gpu_set(gpu, colors);
+}
+
+/* Blind to edges, every texel is what the next level has there, bilinearly: three quarters of the nearest, along either axis. */
+static void blind_levels_are_upscaled_bilinearly(void **state) {
+    struct gpu *gpu = *state;
+    enum { N = SIZE / 2, COARSE = N / 2 };
+    sharing(gpu, &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.7f, .fov_y_degrees = 60},
+            "resolve.texel_scale=1");
+    gpu_set(gpu, "blur.edges=false");
+    gpu_run(gpu);
+    float *coarse = gpu_floats(gpu, "reflection_levels.level1", NULL, NULL),
+          *fine = gpu_floats(gpu, "reflection_blurred", NULL, NULL);
+    double worst = 0, spread = 0;
+    for (int y = 0; y < N; ++y)
+        for (int x = 0; x < N; ++x) {
+            double expected = 0;
+            for (int i = 0; i < 4; ++i) {
+                const int cx = x / 2 + (i & 1) * (x % 2 ? 1 : -1), cy = y / 2 + (i >> 1) * (y % 2 ? 1 : -1);
+                const int at_x = cx < 0        ? 0
+                                 : cx < COARSE ? cx
+                                               : COARSE - 1,
+                          at_y = cy < 0        ? 0
+                                 : cy < COARSE ? cy
+                                               : COARSE - 1;
+                expected += (i & 1 ? 0.25 : 0.75) * (i >> 1 ? 0.25 : 0.75) * (double)coarse[4 * (at_y * COARSE + at_x)];
+            }
+            worst = fmax(worst, fabs((double)fine[4 * (y * N + x)] - expected));
+            spread = fmax(spread, fabs((double)coarse[4 * (y / 2 * COARSE + x / 2)] - expected));
+        }
+    print_message("# off by %.2g, the nearest texel by %.2g\n", worst, spread);
+    assert_true(worst < 2 * 8 * 0x1p-24 && spread > 1e-3); /* eight roundings of values below 2 */
+    free(coarse), free(fine);
+}
+
+static void slanted_bars(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i)
+        values[PLAIN_ROUGHNESS * pixels + i] = (i % plain->width / 2 + i / plain->width / 2) % 5 ? 0.6f : 0.9f;
+}
+
+/* The colours are the roughness. Along bars of one texel there are texels whose block the coarser level picked from beside the
+   bar, and blocks around that it picked from the bar: what is taken of these has its colour. */
+static void bars_keep_their_colours(void **state) {
+    struct gpu *gpu = *state;
+    enum { N = SIZE / 2 };
+    sharing(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = slanted_bars},
+            "resolve.texel_scale=5");
+    gpu_run(gpu);
+    float *color = gpu_floats(gpu, "reflection_blurred", NULL, NULL);
+    double worst = 0;
+    for (int i = 0; i < N * N; ++i) worst = fmax(worst, fabs((double)color[4 * i] - ((i % N + i / N) % 5 ? 0.6 : 0.9)));
+    print_message("# off by %.2g\n", worst);
+    assert_true(worst < 1e-5); /* means of up to 49 equal values, three times */
+    free(color);
+}
+
 /* The colours are the normals: floor and wall meet in a corner, where each is near the other's plane, so that normals alone
    tell them apart. A pixel takes its own surface's colour wherever one of the four texels around it has it. */
 static void corners_keep_their_colours(void **state) {
@@ -336,11 +398,13 @@ static void hits_find_their_colour_in_the_previous_frame(void **state) {
         gpu_set(gpu, reject ? "resolve.reject=true" : "resolve.reject=false");
         gpu_run(gpu);
         float *before = gpu_floats(gpu, "reflection_half", NULL, NULL);
-        uint32_t *source = gpu_uints(gpu, "previous_source", NULL, NULL);
+        uint32_t *source = gpu_uints(gpu, "previous_source", NULL, NULL),
+                 *finished = gpu_uints(gpu, "screen_finished", NULL, NULL);
         static uint32_t rejected[120 * 68];
         double sum[4] = {0}, count[4] = {0};
         for (int i = 0; i < 120 * 68; ++i) {
             if (reject) rejected[i] = source[i];
+            assert_int_equal(source[i] != 0, finished[i] != 0); /* of rays that ended on screen alone */
             if (!source[i]) continue;
             double apart = fabs(luminance(now + 4 * i) - luminance(before + 4 * i)) /
                            (luminance(now + 4 * i) + luminance(before + 4 * i) + 0.05);
@@ -353,7 +417,7 @@ static void hits_find_their_colour_in_the_previous_frame(void **state) {
                       reject ? "rejected" : "all taken", count[1], found[reject][0], count[2], count[3],
                       found[reject][2]);
         assert_true(count[1] > 1000 && count[3] > 20);
-        free(now), free(before), free(source);
+        free(now), free(before), free(source), free(finished);
     }
     /* A moved picture is resampled, and textures have one sample a pixel; what was hidden shows something else. */
     assert_true(found[0][2] > 2 * found[0][0] && found[1][0] == found[0][0]);
@@ -400,6 +464,8 @@ int main(void) {
         cmocka_unit_test(edges_are_open_in_part),
         cmocka_unit_test(noise_of_rough_surfaces_falls_and_mirrors_keep_theirs),
         cmocka_unit_test(nothing_leaks_over_edges),
+        cmocka_unit_test(blind_levels_are_upscaled_bilinearly),
+        cmocka_unit_test(bars_keep_their_colours),
         cmocka_unit_test(corners_keep_their_colours),
         cmocka_unit_test(bright_samples_are_held_at_what_is_around),
         cmocka_unit_test(hits_find_their_colour_in_the_previous_frame),
