@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """docs/mutants.md: whether the self-test and the device tests notice when passes/ is wrong.
 
+mutants.py draw -o RECORD                      makes the mutants, for a machine that has no compiler of shaders
 mutants.py run BUILD -o RECORD [--jobs N]      tries each mutant; goes on where a record of the same sources and programs ends
 mutants.py check BUILD -o RECORD               the same, and speaks TAP (./dev test --all)
 mutants.py page RECORD... -o PAGE              the page of those records
@@ -279,18 +280,31 @@ def device_of(build):
     return next(d["name"] for n, d in enumerate(devices) if not wanted or wanted == str(n) or wanted.lower() in d["name"].lower())
 
 
-def begun(build, path, programs, jobs):
-    """The record to go on with: the one that is there when nothing has changed since, else a new one."""
+def with_mutants(path):
+    """The record at `path` when it is of these sources, else a new one, with what noticed the same mutants before."""
     record = json.loads(path.read_text()) if path.exists() else {}
-    version, sources = version_of(build, programs), mutate.Tree(ROOT / "passes").digest()
-    if (record.get("sources"), record.get("programs"), record.get("device")) == (sources, version, device_of(build)):
+    if record.get("sources") == mutate.Tree(ROOT / "passes").digest():
         return record
     known = {identity(m): m for m in record.get("mutants", [])}
-    record = {**drawn(Bar("making mutants"), known), "programs": version, "device": device_of(build), "control": control(programs, jobs)}
+    record = drawn(Bar("making mutants"), known)
     for m in record["mutants"]:
         before = known.get(identity(m), {})
-        if before.get("verdict") == "killed":
-            m.update(before_by=before["by"], before_failed=before["failed"])
+        m.update({f"before_{k}": before[k] for k in ("by", "failed") if before.get("verdict") == "killed"})
+    save(record, path)
+    return record
+
+
+def begun(build, path, programs, jobs):
+    """The record to go on with: without verdicts, unless they are of these programs and this device."""
+    record, of = with_mutants(path), {"programs": version_of(build, programs), "device": device_of(build)}
+    if record.items() >= of.items():
+        return record
+    for m in record["mutants"]:
+        if m.get("verdict") == "killed":
+            m.update(before_by=m["by"], before_failed=m["failed"])
+        for k in OUTCOME:
+            m.pop(k, None)
+    record.update(of, control=control(programs, jobs))
     save(record, path)
     return record
 
@@ -323,6 +337,7 @@ def run(build, path, jobs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("draw").add_argument("-o", "--record", required=True)
     for name in ("run", "check"):
         command = commands.add_parser(name)
         command.add_argument("build")
@@ -334,6 +349,9 @@ def main():
     arguments = parser.parse_args()
     if arguments.command == "page":
         mutants_page.write(arguments.records, arguments.page)
+        return
+    if arguments.command == "draw":
+        with_mutants(pathlib.Path(arguments.record))
         return
     record = run(arguments.build, arguments.record, arguments.jobs)
     killed = sum(m["verdict"] == "killed" for m in record["mutants"])
