@@ -79,7 +79,8 @@ bool run_sizes(struct run *run, struct glint_error *err) {
     const struct glint_part_info **parts;
     size_t count;
     if (!cubemap_parts(capture, &parts, &count, err)) return false;
-    if (count) sizes->cube_face = parts[0]->width;
+    for (size_t i = 0; i < count; i++)
+        if (parts[i]->width > sizes->cube_face) sizes->cube_face = parts[i]->width;
     free(parts);
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];

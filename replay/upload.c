@@ -114,6 +114,20 @@ static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, 
                                 false);
 }
 
+/* Cube maps share one array: of a smaller one each texel there is the one that its centre lies in. */
+static bool enlarge(struct channels *channels, uint32_t face, struct glint_error *err) {
+    const size_t own = channels->part->width, count = channels->count;
+    float *data = malloc(6 * (size_t)face * face * count * sizeof *data), *to = data;
+    if (!data) return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", channels->part->name);
+    for (size_t y = 0; y < 6 * (size_t)face; y++)
+        for (size_t x = 0; x < face; x++, to += count)
+            memcpy(to, channels->data + ((2 * y + 1) * own / (2 * face) * own + (2 * x + 1) * own / (2 * face)) * count,
+                   count * sizeof *data);
+    free(channels->data);
+    channels->data = data;
+    return true;
+}
+
 /* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
 static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role,
                         struct channels *channels, uint32_t first, uint32_t layers, struct glint_error *err) {
@@ -121,17 +135,18 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
     struct glint_capture *capture = replay->capture;
     double start = now_seconds();
     VkDeviceSize offset = 0;
+    uint32_t width = part->width, rows = part->height;
     channels->part = part;
     for (size_t i = 0; i < run->graph.image_count; i++) {
         const struct graph_image *image = &run->graph.images[i];
         if (image->source != SOURCE_CAPTURE || !run_writes(run, i) || !comes_with(image, role, false)) continue;
         const struct image_desc *desc = &run->images[i]->desc;
-        if (part->width != desc->width || part->height != desc->height * layers)
+        width = desc->width, rows = desc->height * layers;
+        if (layers == 1 && (part->width != width || part->height != rows))
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %u x %u, found %u x %u",
-                              glint_capture_path(capture), part->name, desc->width, desc->height * layers, part->width,
-                              part->height);
+                              glint_capture_path(capture), part->name, width, rows, part->width, part->height);
         if (!channels->data && !channels_add_row(channels, image->row, err)) return false;
-        offset += ((VkDeviceSize)part->width * part->height * format_bytes(desc->format) + 15) & ~(VkDeviceSize)15;
+        offset += ((VkDeviceSize)width * rows * format_bytes(desc->format) + 15) & ~(VkDeviceSize)15;
     }
     for (size_t c = 0; !channels->data && c < channels->count; c++) /* optional ones that this part lacks */
         if (!glint_part_has_channel(part, channels->names[c])) {
@@ -139,6 +154,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
             channels->names[c--] = channels->names[--channels->count];
         }
     if (!channels->data && channels->count && !channels_read(channels, capture, err)) return false;
+    if (channels->data && part->width != width && !enlarge(channels, width, err)) return false;
     replay->seconds[PHASE_READ] += now_seconds() - start;
     start = now_seconds();
     if (!replay_staging(replay, offset, err) || !device_begin(replay->device, err)) return false;
@@ -154,13 +170,13 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
                                   .row = image->row};
         place_components(&packing, channels, image->row);
         run->images[i]->key = 0; /* until all of it is there */
-        pack(&packing, part->width, part->height);
+        pack(&packing, width, rows);
         struct bad_values *bad = &run->images[i]->levels[0].bad;
         if (first == 0) *bad = (struct bad_values){0};
         packing.bad.first += image_values(&run->images[i]->desc, 0) / image_layers(&run->images[i]->desc) * first;
         bad_values_add(bad, &packing.bad);
         record_layers(run, i, offset, first, layers);
-        offset += ((VkDeviceSize)part->width * part->height * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
+        offset += ((VkDeviceSize)width * rows * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
     }
     bool ok = submit(run, err);
     replay->seconds[PHASE_UPLOAD] += now_seconds() - start;

@@ -281,6 +281,73 @@ static void devices_are_listed_and_chosen_by_index_or_name(void **state) {
     glint_device_destroy(&device);
 }
 
+/* What a cube map of `own` texels along a face holds, in `face` of them: where its middle lies, that texel. */
+static float *cubemap_texels(uint32_t own, uint32_t face) {
+    float *texels = malloc(6 * (size_t)face * face * 5 * sizeof *texels), *to = texels;
+    assert_non_null(texels);
+    for (uint32_t f = 0; f < 6; f++)
+        for (uint32_t y = 0; y < face; y++)
+            for (uint32_t x = 0; x < face; x++, to += 5) {
+                const double u = floor((x + 0.5) / face * own), v = floor((y + 0.5) / face * own);
+                const double a = (u + 0.5) / own * 2 - 1, b = (v + 0.5) / own * 2 - 1;
+                to[0] = (float)(0.1 * f), to[1] = (float)(u / own), to[2] = (float)(v / own), to[3] = f != 2;
+                to[4] = f == 2 ? INFINITY : (float)(3 * sqrt(1 + a * a + b * b));
+            }
+    return texels;
+}
+
+/* Of a capture whose cube maps have these sizes, each stored in as many texels as `stored` says. */
+static void replay_cubemaps(struct fixture *fixture, const uint32_t own[3], const uint32_t stored[3],
+                            struct snapshot *snapshot) {
+    static const char *const channel_names[] = {"R", "G", "B", "A", "distance.Z"};
+    static const char *const names[] = {"cubemap.000", "cubemap.001", "cubemap.002"};
+    struct glint_error err = {0};
+    struct glint_channel channels[3][5];
+    struct glint_cubemap cubemaps[3];
+    struct glint_part parts[3];
+    float *texels[3];
+    char path[128];
+    for (int i = 0; i < 3; i++) {
+        texels[i] = cubemap_texels(own[i], stored[i]);
+        for (int c = 0; c < 5; c++)
+            channels[i][c] =
+                (struct glint_channel){channel_names[c], GLINT_F32, texels[i] + c, 5 * sizeof(float), 0, NULL};
+        cubemaps[i] = (struct glint_cubemap){.center = {i - 1.0, 1.5, -2.0 - i}};
+        parts[i] = (struct glint_part){.name = names[i],
+                                       .width = stored[i],
+                                       .height = 6 * stored[i],
+                                       .channels = channels[i],
+                                       .channel_count = 5,
+                                       .cubemap = &cubemaps[i]};
+    }
+    snprintf(path, sizeof path, "%s/sizes.exr", fixture->folder);
+    const struct fixture_options options = {.no_cubemaps = true, .extra = parts, .extra_count = 3};
+    if (!fixture_write_capture(path, &options, &err)) fail_msg("%s", err.message);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    assert_true(glint_replay_load(fixture->replay, capture, &err));
+    fixture_run(fixture, &(struct glint_replay_options){.no_cache = true});
+    snapshot_take(snapshot, fixture->replay);
+    assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
+    glint_capture_close(&capture);
+    for (int i = 0; i < 3; i++) free(texels[i]);
+}
+
+static void cube_maps_of_different_sizes_are_taken_at_the_largest(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    const uint32_t own[] = {8, 24, 10}, largest[] = {24, 24, 24};
+    struct snapshot mixed, alike, fine;
+    replay_cubemaps(fixture, own, own, &mixed);
+    replay_cubemaps(fixture, own, largest, &alike);
+    assert_true(snapshot_compare(&mixed, &alike) > 10);
+    replay_cubemaps(fixture, largest, largest, &fine); /* and they are looked at */
+    size_t i = 0;
+    while (i < mixed.count && strcmp(mixed.images[i].name, "composed") != 0) i++;
+    assert_true(i < mixed.count && memcmp(mixed.images[i].data, fine.images[i].data, mixed.images[i].bytes) != 0);
+    snapshot_free(&mixed), snapshot_free(&alike), snapshot_free(&fine);
+    fixture_check_messages(fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(devices_are_listed_and_chosen_by_index_or_name),
@@ -295,6 +362,7 @@ int main(void) {
         cmocka_unit_test(float_precision_widens_every_half_image),
         cmocka_unit_test(a_matte_frame_drops_all_but_the_last_pass),
         cmocka_unit_test(a_frame_without_cube_maps_still_runs),
+        cmocka_unit_test(cube_maps_of_different_sizes_are_taken_at_the_largest),
         cmocka_unit_test(an_interrupted_run_can_be_taken_up_again),
         cmocka_unit_test(a_pipeline_of_nothing_runs),
         cmocka_unit_test(missing_inputs_name_the_pass_that_makes_them),
