@@ -60,13 +60,15 @@ void probe_cell(View view, vec3 direction, float t, int level, float beyond) {
 }
 
 // Where the direction from the centre has turned by so many texels; +inf when what is left to turn is less. With s along
-// the ray from its foot, tan(angle) = s/aside; the addition theorem of the tangent.
+// the ray from its foot, tan(angle) = s/aside; the addition theorem of the tangent. No farther than once more the distance
+// from the centre: where hardly more than that is left to turn it would be kilometres, in which halving finds no place.
 float next_t(View view, vec3 direction, float t, float texels) {
     vec3 from_center = at(view, direction, t);
     float k = texels * texel_angle(from_center, float(frame.counts.z)), s = view.from_foot + t;
     float turn = view.aside - s * k;
     if (!(turn > 0.0)) return INFINITE;
-    return max(t + k * dot(from_center, from_center) / turn, t * (1.0 + 1e-6) + 1e-6);
+    float distance_m = length(from_center);
+    return max(t + distance_m * min(k * distance_m / turn, 1.0), t * (1.0 + 1e-6) + 1e-6);
 }
 
 // A vector with the axes of a face: across it to the right and down, and out of it.

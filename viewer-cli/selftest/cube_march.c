@@ -142,7 +142,9 @@ struct sample {
 static struct sample sample_at(struct marching *m, double t, uint32_t place) {
     double at[3];
     struct sample s = {.t = t};
-    for (int k = 0; k < 3; k++) at[k] = m->ray->origin[k] - m->cubes->center[place][k] + t * m->ray->direction[k];
+    for (uint32_t k = 0; k < 3; k++) /* every place is rounded for itself */
+        at[k] = m->ray->origin[k] - m->cubes->center[place][k] + t * m->ray->direction[k] +
+                moved(m->cubes, t, 3000 + 3 * m->asked + k);
     s.distance_m = sqrt(dot(at, at));
     s.seen_m = m->rules->exact ? cube_seen(m->cubes, place, at) : seen_in(m->cubes, m->rules, place, at);
     s.gap = s.distance_m - s.seen_m + moved(m->cubes, s.distance_m + t, m->asked++);
@@ -257,28 +259,48 @@ static bool crosses(const struct cubes *cubes, const struct cube_ray *ray, doubl
     return gap_at(cubes, ray, t - by) <= 0 && gap_at(cubes, ray, t + by) >= 0;
 }
 
-struct cube_end cube_exact(const struct cubes *cubes, const struct cube_ray *ray, double found, double by) {
-    double from[3], front = ray->start_m;
+/* Where the ray's direction from the centre next comes to a line through texels' middles or between texels, so that up to
+   there what it sees changes without a jump; or where its distance has doubled. */
+static double next_line(const struct cubes *cubes, const double from[3], const double along[3], double t) {
+    double at[3];
+    for (int k = 0; k < 3; k++) at[k] = from[k] + t * along[k];
+    double next = t + sqrt(dot(at, at)) + 1e-6;
+    const int out = fabs(at[2]) >= fmax(fabs(at[0]), fabs(at[1])) ? 2 : fabs(at[1]) >= fabs(at[0]);
+    for (int k = 0; k < 3; k++) {
+        const double rate = along[k] * at[out] - at[k] * along[out], part = at[k] / at[out] * cubes->size;
+        if (k == out || rate == 0) continue;
+        const double line = (rate > 0 ? floor(part + 1e-9) + 1 : ceil(part - 1e-9) - 1) / cubes->size;
+        const double meets = (line * from[out] - from[k]) / (along[k] - line * along[out]);
+        if (meets > t) next = fmin(next, meets);
+    }
+    return next;
+}
+
+/* Behind for an angle about the centre that no step of half a texel, 1/size or less, passes over; or to the end. */
+static double goes_behind(const struct cubes *cubes, const struct cube_ray *ray) {
+    const double far_m = 1e4, longest = 1.01 / cubes->size;
+    double from[3], front = ray->start_m, since = INFINITY, line;
     for (int k = 0; k < 3; k++) from[k] = ray->origin[k] - cubes->center[ray->best][k];
     const double foot = -dot(from, ray->direction), aside = sqrt(fmax(dot(from, from) - foot * foot, 0));
-    /* Quarters of the narrowest texel in the angle about the centre, from where the ray is nearest to it:
-       t = foot + aside tan(angle). A step of the tracer is half a texel, up to 3.5 of these. */
-    const double part = 0.5 / cubes->size / sqrt(3), first = atan2(front - foot, aside), last = 2 * atan(1.0);
-    const uint32_t count = aside > 0 ? (uint32_t)((last - first) / part) : 0;
-    struct cube_end end = {INFINITY, cubes->has_sky ? CUBES_NO_PLACE : ray->best, END_sky, 0};
-    uint32_t in_a_row = 0;
-    double behind = 0;
-    for (uint32_t i = 1; i <= count + 1 && in_a_row < 5; i++) {
-        const double next = i <= count ? foot + aside * tan(first + i * part) : 1e4;
-        if (!(next > front)) continue;
-        if (gap_at(cubes, ray, next) > 0) {
-            if (in_a_row++ == 0) behind = next;
-        } else {
-            front = next;
-            in_a_row = 0;
+    for (double t = front; t < far_m; t = line) {
+        line = fmin(next_line(cubes, from, ray->direction, t), far_m);
+        for (int i = 0; i < 3; i++) {
+            const double next = t + (0.001 + 0.499 * i) * (line - t);
+            if (gap_at(cubes, ray, next) <= 0) {
+                front = next;
+                since = INFINITY;
+                continue;
+            }
+            if (since == INFINITY) since = crossing(cubes, ray, front, next);
+            if (atan2(next - foot, aside) - atan2(since - foot, aside) > longest) return since;
         }
     }
-    if (in_a_row) end = (struct cube_end){crossing(cubes, ray, front, behind), ray->best, END_hit, 0};
-    if (found < end.t && crosses(cubes, ray, found, by)) end = (struct cube_end){found, ray->best, END_hit, 0};
-    return end;
+    return since;
+}
+
+struct cube_end cube_exact(const struct cubes *cubes, const struct cube_ray *ray, double found, double by) {
+    const double t = goes_behind(cubes, ray);
+    if (found < t && crosses(cubes, ray, found, by)) return (struct cube_end){found, ray->best, END_hit, 0};
+    if (t < INFINITY) return (struct cube_end){t, ray->best, END_hit, 0};
+    return (struct cube_end){INFINITY, cubes->has_sky ? CUBES_NO_PLACE : ray->best, END_sky, 0};
 }

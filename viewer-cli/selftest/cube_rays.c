@@ -8,7 +8,8 @@
 
 #include "walk.h"
 
-enum { WAYS = 24 };
+/* Ways in which rounding may have gone. On a border between faces each sample of a march may have been of either. */
+enum { WAYS = 24, WAYS_MARCHED = 1000 };
 static const double direction_rounding = 5e-7, gap_rounding = 5e-7;
 
 const double room_low[3] = {-2.5, -3, -4}, room_high[3] = {7.5, 3.4, 5};
@@ -110,8 +111,9 @@ static bool same(const struct cube_end *a, const struct cube_end *b, bool steps)
 
 static double outside(const struct cube_rays *task, const struct traced *traced, const struct walk_ray *ray, uint32_t i,
                       const struct cube_end *found) {
+    const uint32_t ways = task->rules ? WAYS_MARCHED : WAYS;
     double low = INFINITY, high = -INFINITY;
-    for (uint32_t way = 1; way <= WAYS && !(low <= found->t && found->t <= high); way++) {
+    for (uint32_t way = 1; way <= ways && !(low <= found->t && found->t <= high); way++) {
         const struct cube_end other = replayed(task, traced, ray, i, way);
         if (!same(&other, found, task->rules)) continue;
         low = fmin(low, other.t);

@@ -64,7 +64,8 @@ enum {
     SCENE = 128,  /* times enum scene */
     ROUGH = 1024,
     OWN_SKY = 2048,
-    VOLUME = 4096 /* times enum glint_volume */
+    VOLUME = 4096, /* times enum glint_volume */
+    FACES = 32768  /* times their width; 0: the usual one */
 };
 
 static void check(struct trial *trial, const struct trial_case *c, const struct march_rules *rules,
@@ -79,13 +80,14 @@ static void check(struct trial *trial, const struct trial_case *c, const struct 
                              .rough = c->number & ROUGH,
                              .width = few ? QUICK_WIDE : WIDE,
                              .height = few ? QUICK_HIGH : HIGH,
-                             .cube_size = scene == SPECK ? COARSE_CUBE
-                                          : rules        ? CUBE
-                                                         : FINE_CUBE,
+                             .cube_size = c->number / FACES ? (uint32_t)(c->number / FACES)
+                                          : scene == SPECK  ? COARSE_CUBE
+                                          : rules           ? CUBE
+                                                            : FINE_CUBE,
                              .cube_count = rules ? CUBES_MOST : 1,
                              .cube = scenes[scene],
                              .sky = c->number & OWN_SKY ? blue : NULL,
-                             .volume = (enum glint_volume)(c->number / VOLUME)};
+                             .volume = (enum glint_volume)(c->number / VOLUME % 8)};
     memcpy(task.depths_m, depths_m[c->number % RAYS], sizeof task.depths_m);
     if (task.volume == GLINT_VOLUME_HULL) task.depths_m[0] = task.depths_m[1] = 1.5; /* its face */
     trial_use(trial, c->use);
@@ -112,7 +114,10 @@ static void check_march(struct trial *trial, const struct trial_case *c, struct 
 
 /* clang-format off */
 #define MARCH(name, what, number, use) {name ", marched", what, CUBE_UNIT, 5e-6, CUBE_REASON, check_march, CUBE_MARCH use, number, false}
-#define EXACT(name, what, number, use) {name ", exactly", what, CUBE_UNIT, 5e-6, CUBE_REASON, check_exact, CUBE_EXACT use, number, false}
+#define EXACTLY(name, what, number, use, slow) {name ", exactly", what, CUBE_UNIT, 5e-6, CUBE_REASON, check_exact, CUBE_EXACT use, number, slow}
+#define EXACT(name, what, number, use) EXACTLY(name, what, number, use, false)
+#define BLOCKS(name, number, slow) EXACTLY("blocks and holes" name, "every jump between texels counts as a wall", FROM_BEFORE + RAYS * RAYS_ANY + SCENE * PILLARS + number, CUBE_ALONE "cubemap_trace.tolerance=1", slow)
+#define BLOCKS_AT(size, slow) BLOCKS(", faces of " #size, FACES * size, slow)
 #define BOTH(name, what, number) MARCH(name, what, number, CUBE_ALONE), EXACT(name, what, number, CUBE_ALONE)
 
 static const struct trial_case items[] = {
@@ -138,7 +143,10 @@ static const struct trial_case items[] = {
     MARCH("in a ball that is empty", "inner volumes of a sphere",                          FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS + VOLUME * GLINT_VOLUME_SPHERE, CUBE_ALONE),
     MARCH("beside a box that is empty", "from outside of inner volumes of six planes",    FROM_MASS + RAYS * RAYS_ANY + SCENE * ROOM + VOLUME * GLINT_VOLUME_BOX, CUBE_ALONE),
     MARCH("past a ball that is empty", "from outside of inner volumes of a sphere",       FROM_MASS + RAYS * RAYS_ANY + SCENE * PILLARS + VOLUME * GLINT_VOLUME_SPHERE, CUBE_ALONE),
-    EXACT("blocks and holes",        "every jump between texels counts as a wall",         FROM_BEFORE + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE "cubemap_trace.tolerance=1"),
+    MARCH("edges and corners, faces of 17", "odd ones: a texel's middle lies on them",     FROM_CENTER + RAYS * RAYS_CORNERS + SCENE * ROOM + FACES * 17, CUBE_ALONE),
+    EXACT("along the view's axes, faces of 48", "rays that have hardly more to turn than a step", FROM_AROUND + RAYS * RAYS_AXES + SCENE * ROOM + FACES * 48, CUBE_ALONE),
+    BLOCKS("", 0, false), BLOCKS_AT(3, false), BLOCKS_AT(17, false), BLOCKS_AT(33, true), BLOCKS_AT(48, true),
+    BLOCKS_AT(56, true), BLOCKS_AT(64, false), BLOCKS_AT(65, true), BLOCKS_AT(72, true), BLOCKS_AT(80, true),
     MARCH("shadows, by strides",     "ever shorter ones, regained where closing in came to nothing", FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE CUBE_STRIDES),
     MARCH("shadows, exact surfaces", "whatever it goes behind without a jump is hit",      FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.surfaces=exact"),
     MARCH("after the screen",        "from where the screen's ray stopped, and the cube map that is nearest there", FROM_WALL + RAYS * RAYS_ANY + SCENE * PILLARS, ""),

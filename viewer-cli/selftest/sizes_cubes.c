@@ -32,8 +32,9 @@ static void check_exact(struct trial *trial, const struct trial_case *c, struct 
 #define MARCH(text, size, slow) {"faces of " text ", marched", "a room, from all over it, in four cube maps; one of 2048", CUBE_UNIT, 5e-6, CUBE_REASON, check_march, CUBE_MARCH CUBE_ALONE, size, slow}
 #define EXACT(text, size, slow) {"faces of " text ", exactly", "a room, from all over it, in one cube map", CUBE_UNIT, 5e-6, CUBE_REASON, check_exact, CUBE_EXACT CUBE_ALONE, size, slow}
 static const struct trial_case items[] = {
-    MARCH("1", 1, false), MARCH("2", 2, false), MARCH("17", 17, false), MARCH("512", 512, true), MARCH("2048", 2048, true),
-    EXACT("512", 512, true), EXACT("2048", 2048, true),
+    MARCH("1", 1, false), MARCH("2", 2, false), MARCH("17", 17, false), MARCH("65", 65, true), MARCH("72", 72, true), MARCH("512", 512, true), MARCH("2048", 2048, true),
+    EXACT("17", 17, false), EXACT("33", 33, true), EXACT("48", 48, true), EXACT("56", 56, true), EXACT("64", 64, true), EXACT("65", 65, true),
+    EXACT("72", 72, true), EXACT("80", 80, true), EXACT("512", 512, true), EXACT("2048", 2048, true),
 };
 /* clang-format on */
 
