@@ -57,7 +57,8 @@ static bool open_file(struct glint_exr *exr, struct glint_error *err) {
     if (exr->stream.fd < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
     if (fstat(exr->stream.fd, &info)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
     if (!S_ISREG(info.st_mode))
-        return glint_fail(err, GLINT_ERROR_IO, "%s: expected a regular file, found another kind", exr->path);
+        return glint_fail(err, GLINT_ERROR_IO, "%s: expected an EXR file, found %s", exr->path,
+                          S_ISDIR(info.st_mode) ? "a folder" : "another kind of file");
     exr->stream.bytes = (uint64_t)info.st_size;
     if (exr->stream.bytes > exr->limits.file_bytes)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: file of %llu bytes, the limit is %llu", exr->path,

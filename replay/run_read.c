@@ -1,10 +1,13 @@
 /* Run folders, read back. A run folder may come from a stranger: names are checked before they become paths. */
 #include "glint/replay.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <jansson.h>
 
@@ -86,6 +89,15 @@ static bool parse(struct glint_run *run, struct glint_error *err) {
     return true;
 }
 
+static bool is_run(const char *folder, const char *path, struct glint_error *err) {
+    struct stat info;
+    if (stat(folder, &info)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
+    if (!S_ISDIR(info.st_mode))
+        return glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, which is a folder, found a file", folder);
+    return access(path, F_OK) == 0 ||
+           glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, found a folder without run.json", folder);
+}
+
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err) {
     struct glint_run *run = calloc(1, sizeof *run);
     char path[4096];
@@ -95,7 +107,8 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err) {
         return NULL;
     }
     snprintf(path, sizeof path, "%s/run.json", folder);
-    if (!(run->text = file_text(path, 1 << 24, err)) || !parse(run, err)) glint_run_close(&run);
+    if (!is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse(run, err))
+        glint_run_close(&run);
     return run;
 }
 

@@ -1,27 +1,40 @@
-"""Runs every command of README.md as it is printed, in order, in a folder of its own: readme.py GLINT [README] [FOLDER].
+"""Runs every command of README.md as it is printed, in order: readme.py GLINT.
 
-Command blocks are indented by four spaces; lines of them that begin with "glint " or "$ glint " are commands, and what follows a # is a
-remark. `./dev readme` calls this."""
+Command blocks are indented by four spaces; what follows a # is a remark. `./dev` runs in the clone, all else in FOLDER, with the
+program that `./dev install` has put there; lines under a command that begins with $ are what it prints. GLINT only makes what a
+reader has before. What an interruption or a failure leaves is gone on with by the next call, unless the tree has changed.
+`./dev readme` calls this."""
+import hashlib
 import json
 import os
-import shlex
+import re
 import shutil
 import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+FOLDER = os.path.join(ROOT, "build-release/readme")
+LEFT = {"./dev test": "the suite runs by itself"}
+# Exit statuses that say what was found, where the README says that something is.
+TELLING = {"diff": (0, 2), "lint": (0, 1)}
 
 
 def commands(text):
+    """Each command, and what the README says it prints."""
+    found = []
     for line in text.splitlines():
-        if line.startswith("    "):
-            line = line[4:].removeprefix("$ ").split("  #")[0].split(" # ")[0].strip()
-            if line.startswith("glint "):
-                yield line
+        if not line.startswith("    "):
+            continue
+        line = line[4:]
+        bare = line.removeprefix("$ ").split("  #")[0].split(" # ")[0].strip()
+        if re.match(r"(glint|\./dev|cp) ", bare):
+            found.append((bare, [] if line.startswith("$ ") else None))
+        elif found and found[-1][1] is not None:
+            found[-1][1].append(line.rstrip())
+    return found
 
 
 def box(low, high):
@@ -78,11 +91,11 @@ def write_scene(path):
                    struct.pack("<I4s", len(binary), b"BIN\0") + binary)
 
 
-def prepare(folder, glint):
-    """What a reader has: a scene; a copy of a shader; an engine's capture whose normals are in view space, which nothing in it says."""
-    write_scene(os.path.join(folder, "scene.glb"))
-    shutil.copy(os.path.join(ROOT, "passes/resolve/hit.comp"), os.path.join(folder, "my_resolve.comp"))
-    frame = os.path.join(folder, "frame.exr")
+def prepare(glint):
+    """What a reader has: a scene, a clone; an engine's capture whose normals are in view space, which nothing in it says."""
+    write_scene(os.path.join(FOLDER, "scene.glb"))
+    os.symlink(os.path.join(ROOT, "passes"), os.path.join(FOLDER, "passes"))
+    frame = os.path.join(FOLDER, "frame.exr")
     subprocess.run([glint, "sample", "street", "-o", frame, "--size=240x135", "--cube-size=64", "--encoding=normal_space=view"], check=True, capture_output=True)
     with open(frame, "rb") as file:
         data = file.read()
@@ -91,36 +104,84 @@ def prepare(folder, glint):
         file.write(data.replace(b"glint.normalSpace\0", b"glint.normalSpacE\0"))
 
 
-def run(line, folder, path):
+def run(line, prints):
     """Whether it did what a reader expects: comparisons may say that things differ, and whoever watches presses Ctrl-C."""
     start = time.monotonic()
-    words = shlex.split(line)
-    allowed = (0, 1, 2) if words[1] in ("diff", "check", "lint") else (0,)
-    process = subprocess.Popen(words if "*" not in line else ["bash", "-c", line], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                               env={**os.environ, "PATH": f"{path}:{os.environ['PATH']}"})
+    words = line.split()
+    prefix = os.path.join(FOLDER, "installed")
+    process = subprocess.Popen(["bash", "-c", "exec " + line], cwd=ROOT if words[0] == "./dev" else FOLDER, text=True, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, env={**os.environ, "PREFIX": prefix, "PATH": f"{prefix}/bin:{os.environ['PATH']}"})
     said = []
     for text in process.stdout:
         said.append(text)
         if "--watch" in words and "Ctrl-C" in text:
             process.send_signal(signal.SIGINT)
-    ok = process.wait() in allowed
-    print(f"{'ok    ' if ok else 'FAILED'} {time.monotonic() - start:7.1f} s  {line}" + ("" if ok else "\n" + "".join(said)[-1500:]), flush=True)
+    said = "".join(said)
+    missing = [text for text in prints or [] if text not in said]
+    ok = process.wait() in TELLING.get(words[1], (0,)) and not missing
+    why = "" if ok else f"\nexit {process.returncode}\n{said[-1500:]}" + "".join(f"\nnot printed: {text}" for text in missing)
+    print(f"{'ok    ' if ok else 'FAILED'} {time.monotonic() - start:7.1f} s  {line}{why}", flush=True)
     return ok
+
+
+def tree_key(lines):
+    """What commands were run of, and on: another tree starts anew."""
+    parts = [subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True).stdout for words in (("rev-parse", "HEAD"), ("diff", "HEAD"))]
+    return hashlib.sha256(b"".join(parts) + json.dumps(lines).encode()).hexdigest()
+
+
+class Record:
+    """Which commands are done."""
+
+    def __init__(self, key, make):
+        self.path = os.path.join(FOLDER, "done.json")
+        self.state = {"key": key, "done": []}
+        try:
+            with open(self.path, encoding="utf-8") as file:
+                kept = json.load(file)
+        except (OSError, ValueError):
+            kept = {}
+        if kept.get("key") == key:
+            self.state = kept
+            return
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        os.makedirs(FOLDER)
+        make()
+        self.write()
+
+    def write(self):
+        with open(self.path + ".new", "w", encoding="utf-8") as file:
+            json.dump(self.state, file)
+        os.rename(self.path + ".new", self.path)
+
+    def add(self, i):
+        self.state["done"].append(i)
+        self.write()
 
 
 def main():
     glint = os.path.abspath(sys.argv[1])
-    readme = sys.argv[2] if len(sys.argv) > 2 else os.path.join(ROOT, "README.md")
-    with open(readme, encoding="utf-8") as file:
-        lines = list(commands(file.read()))
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else temporary
-        os.makedirs(folder, exist_ok=True)
-        prepare(folder, glint)
-        failed = [line for line in lines if not run(line, folder, os.path.dirname(glint))]
-    print(f"{len(lines) - len(failed)} of {len(lines)} commands of README.md did what they are printed for")
-    return len(failed) > 0
+    with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as file:
+        lines = commands(file.read())
+    record = Record(tree_key(lines), lambda: prepare(glint))
+    failed = 0
+    for i, (line, prints) in enumerate(lines):
+        if line in LEFT:
+            print(f"left             {line}: {LEFT[line]}")
+        elif i in record.state["done"]:
+            print(f"done before      {line}")
+        elif run(line, prints):
+            record.add(i)
+        else:
+            failed += 1
+    print(f"{failed} of {len(lines)} commands of README.md failed" if failed else f"{len(lines)} commands of README.md did what they are printed for")
+    if not failed:
+        os.remove(record.path)
+    return failed > 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit("interrupted; the next call goes on from here")

@@ -111,11 +111,10 @@ static bool check_one(const struct arguments *a, const struct check_pair *pair, 
         const struct counts none = {0};
         if ((ok = check_approve(pair->run, pair->baseline, err))) say_approved(a, pair, &none, list ? json : NULL);
     } else {
-        char note[64];
-        snprintf(note, sizeof note, "%s",
-                 pair->has_run ? "there is no baseline; --approve makes it one" : "there is no run of this name");
+        const char *note =
+            pair->has_run ? "there is no baseline; --approve makes it one" : "there is no run of this name";
         json_object_set_new(json, "note", json_string(note));
-        command_note(&cmd_check, "%s: %s", pair->has_run ? pair->run : pair->baseline, note);
+        command_note(&cmd_check, "%s against %s: %s", pair->run, pair->baseline, note);
     }
     json_object_set_new(json, "status", json_integer(*status));
     if (list) json_array_append(list, json);

@@ -147,18 +147,19 @@ const struct command cmd_probe = {
     .name = "probe",
     .arguments = "F X,Y [-o FILE.svg]",
     .summary = "one pixel's ray, step by step",
-    .description = "Replays the capture and tells what every pass did for one pixel: what the G-buffer holds there, "
-                   "the ray that was "
-                   "drawn for it, every look at the depth buffer and at cube maps with what it was compared with and "
-                   "what followed, "
-                   "where the colour comes from, what blur, history and upscaling made of it. The steps are told by "
-                   "the shaders that "
-                   "computed the picture, switched to tell; the picture's bits stay what they are.\n"
-                   "X,Y counts pixels from the top left corner. Most passes work at half resolution: the story is that "
-                   "of the texel "
-                   "that the pixel lies in, whose ray may be another pixel's of the block. At the end stands what the "
-                   "tracers that "
-                   "step over nothing find for the same ray.",
+    .description =
+        "Replays the capture and tells what every pass did for one pixel: what the G-buffer holds there, the ray that "
+        "was "
+        "drawn for it, every look at the depth buffer and at cube maps with what it was compared with and what "
+        "followed, "
+        "where the colour comes from, and which texels blur, history and upscaling mixed in, or which layers water and "
+        "glass laid over it, each with its weight. The steps are told by the shaders that computed the picture, "
+        "switched "
+        "to tell; the picture's bits stay what they are.\n"
+        "X,Y counts pixels from the top left corner; glint diff names the pixel that differs most. Most passes work at "
+        "half resolution: the story is that of the texel that the pixel lies in, whose ray may be another pixel's of "
+        "the "
+        "block. At the end stands what the tracers that step over nothing find for the same ray.",
     .options = options,
     .parse = parse,
     .examples = examples,

@@ -40,7 +40,8 @@ static bool add_folder(struct check_pairs *pairs, const char *run, const char *b
     struct dirent **entries = NULL;
     const int count = scandir(second ? baseline : run, &entries, NULL, alphasort);
     bool ok = count >= 0 || (second && errno == ENOENT) ||
-              glint_fail(err, GLINT_ERROR_IO, "%s: %s", second ? baseline : run, strerror(errno));
+              glint_fail(err, GLINT_ERROR_IO, "%s: %s", second ? baseline : run,
+                         errno == ENOTDIR ? "expected a run, or a folder of runs, found a file" : strerror(errno));
     for (int i = 0; i < count; i++) {
         const char *name = entries[i]->d_name;
         const bool hidden = name[0] == '.' || name[strlen(name) - 1] == '~';
