@@ -123,6 +123,35 @@ static void a_drawing_has_every_step(void **state) {
     free(text);
 }
 
+/* What was mixed, with each part's weight: samples where the ray ends, and the reflection over the picture. */
+static void mixtures_are_told_and_drawn(void **state) {
+    (void)state;
+    make_capture();
+    char *text = glint_ok("probe", CAPTURE, "40,45", "--preset=kf2", "--alone", "-o", in_folder("kf2.svg"));
+    assert_contains(text, "mixes in a place of the picture");
+    assert_contains(text, "how far the reflection is to be trusted");
+    assert_contains(text, "image reflection, share 0.");
+    char *svg = read_text(in_folder("kf2.svg"));
+    assert_contains(svg, "resolve/blurred: mixes in");
+    assert_contains(svg, "compose/contribution: lays a colour over another");
+    assert_contains(svg, "above: reflection, ");
+    assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
+    free(svg);
+    free(text);
+    text = glint_ok("probe", CAPTURE, "40,45", "--preset=mafia_de", "--alone", "--json", "-o", in_folder("de.svg"));
+    json_t *json = parse_json(text);
+    const json_t *pass = named(json_object_get(json_object_get(json, "story"), "passes"), "slot", "blur");
+    const json_t *made = last_step(pass, "made"), *tap = last_step(pass, "tap");
+    assert_string_equal(word(made, "image"), "reflection_levels");
+    assert_int_equal(json_number_value(json_object_get(made, "texel_x")), 40 / 2 / 2); /* level 1, last */
+    assert_true(json_number_value(json_object_get(tap, "weight")) > 0);
+    svg = read_text(in_folder("de.svg"));
+    assert_contains(svg, "reflection_across level 0, texel 5,5 is made of");
+    json_decref(json);
+    free(svg);
+    free(text);
+}
+
 static void the_text_tells_it_all(void **state) {
     (void)state;
     make_capture();
@@ -156,6 +185,7 @@ static void what_is_asked_wrong_is_said(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_story_agrees_with_the_run), cmocka_unit_test(a_drawing_has_every_step),
-        cmocka_unit_test(the_text_tells_it_all), cmocka_unit_test(what_is_asked_wrong_is_said)};
+        cmocka_unit_test(mixtures_are_told_and_drawn), cmocka_unit_test(the_text_tells_it_all),
+        cmocka_unit_test(what_is_asked_wrong_is_said)};
     return cmocka_run_group_tests_name("cli_probe", tests, make_folder, remove_folder);
 }

@@ -112,7 +112,11 @@ static const char style[] =
     ".title{font-size:15px;font-weight:600}.tick{font-size:11.5px;fill:#555}.axis{font-size:12.5px;fill:#333}"
     ".area{fill:#fbfcfd;stroke:#c9d1d9}.grid{stroke:#e6eaee;stroke-width:1;fill:none}"
     ".solid{fill:#e3e0d8;stroke:none}.surface{fill:none;stroke:#6b6558;stroke-width:1.6;stroke-linejoin:round}"
-    ".ray{fill:none;stroke:#24324a;stroke-width:1.4}</style>\n";
+    ".ray{fill:none;stroke:#24324a;stroke-width:1.4}.bar{fill:#3b7dd8}.swatch{stroke:#888;stroke-width:.5}"
+    ".paper{fill:#fff}"
+    "@media(prefers-color-scheme:dark){.paper{fill:#15181d}text{fill:#e3e6ea}.tick{fill:#a5aeb8}.axis{fill:#c3cad1}"
+    ".area{fill:#1b1f26;stroke:#3a424c}.grid{stroke:#2a3038}.solid{fill:#33312b}.surface{stroke:#b8ae98}"
+    ".ray{stroke:#b9c9e6}}</style>\n";
 
 static void legend_entry(FILE *out, double *x, double y, const char *shape, const char *text) {
     fprintf(out, "<g transform=\"translate(%.1f %.1f)\">%s<text x=\"14\" y=\"4\" class=\"tick\">", *x, y, shape);
@@ -124,6 +128,9 @@ static void legend_entry(FILE *out, double *x, double y, const char *shape, cons
 /* Returns where it ends. */
 static double legend(const struct drawing *d, double y) {
     double x = 30;
+    bool any = false;
+    for (size_t i = 0; i < DRAW_LOOKS; i++) any |= d->used[i];
+    if (!any) return y - 30;
     legend_entry(d->out, &x, y, "<path d=\"M-6 0H8\" class=\"ray\"/>", "the ray");
     legend_entry(
         d->out, &x, y,
@@ -146,7 +153,7 @@ static double legend(const struct drawing *d, double y) {
 static void head(FILE *out, const struct probe *probe, double height) {
     fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%.0f\" viewBox=\"0 0 %d %.0f\">\n%s",
             WIDTH, height, WIDTH, height, style);
-    fprintf(out, "<rect width=\"%d\" height=\"%.0f\" fill=\"#fff\"/>\n<text x=\"24\" y=\"34\" class=\"head\">", WIDTH,
+    fprintf(out, "<rect width=\"%d\" height=\"%.0f\" class=\"paper\"/>\n<text x=\"24\" y=\"34\" class=\"head\">", WIDTH,
             height);
     svg_text(out, probe->capture);
     fprintf(out, ", pixel %u,%u</text>\n", probe->pixel[0], probe->pixel[1]);
@@ -157,6 +164,7 @@ static char *draw_panels(struct drawing *d) {
     size_t size;
     if (!(d->out = open_memstream(&body, &size))) return NULL;
     const struct glint_probe_story *story = &d->probe->own.story;
+    draw_define(d);
     for (size_t i = 0, end; i < story->count; i = end) {
         const struct glint_probe_record *first = &story->records[i];
         for (end = i;
@@ -166,6 +174,7 @@ static char *draw_panels(struct drawing *d) {
         draw_picture(d, &told, LEFT - 52, AREA + 52);
         draw_screen(d, &told);
         draw_cubes(d, &told);
+        draw_mixtures(d, &told);
     }
     fclose(d->out);
     return body;

@@ -21,7 +21,6 @@ struct drawing {
     double top;            /* of the next panel */
     bool used[DRAW_LOOKS]; /* for the legend */
     json_t *uri;           /* the picture as a text; NULL: there is none */
-    bool pictured;         /* it is in the drawing */
     double (*points)[2];   /* DRAW_POINTS of them, for one curve at a time */
 };
 
@@ -41,12 +40,14 @@ double draw_reference_m(const struct drawing *drawing, const struct told *told, 
 void draw_reference(const struct panel *panel, double x, double travelled_m);
 void draw_end(struct drawing *drawing, const struct panel *panel);
 
-/* The picture that the pipeline made, as a text for an image. */
+/* The picture that the pipeline made, as a text for an image; and that text where <use href="#picture"/> finds it. */
 json_t *draw_encode(const struct probe *probe, struct glint_error *err);
+void draw_define(struct drawing *drawing);
 
 /* Nothing where the pass told of no such ray. */
 void draw_picture(struct drawing *drawing, const struct told *told, double left, double width);
 void draw_screen(struct drawing *drawing, const struct told *told);
 void draw_cubes(struct drawing *drawing, const struct told *told);
+void draw_mixtures(struct drawing *drawing, const struct told *told);
 
 #endif

@@ -26,6 +26,14 @@ json_t *draw_encode(const struct probe *probe, struct glint_error *err) {
     return text;
 }
 
+void draw_define(struct drawing *d) {
+    if (d->uri)
+        fprintf(d->out,
+                "<defs><image id=\"picture\" width=\"%u\" height=\"%u\" preserveAspectRatio=\"none\" "
+                "style=\"image-rendering:pixelated\" href=\"%s\"/></defs>\n",
+                d->probe->full[0], d->probe->full[1], json_string_value(d->uri));
+}
+
 static bool is_look(const struct glint_probe_record *record) {
     return glint_probe_is(record, "screen_texel") || glint_probe_is(record, "screen_cell");
 }
@@ -82,12 +90,6 @@ void draw_picture(struct drawing *d, const struct told *told, double left, doubl
     if (!d->uri || !ray) return;
     const struct window whole = {0, 0, full[0], full[1]}, near = window_of(told, full);
     const double each = (width - GAP) / 2, height = each * full[1] / full[0], scale = each / full[0];
-    if (!d->pictured)
-        fprintf(d->out,
-                "<defs><image id=\"picture\" width=\"%u\" height=\"%u\" preserveAspectRatio=\"none\" "
-                "style=\"image-rendering:pixelated\" href=\"%s\"/></defs>\n",
-                full[0], full[1], json_string_value(d->uri));
-    d->pictured = true;
     draw_window(d, told, left, each, &whole);
     draw_window(d, told, left + each + GAP, each, &near);
     fprintf(
