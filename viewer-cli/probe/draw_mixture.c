@@ -150,15 +150,17 @@ static void title_of(const struct told *told, size_t next, char *text, size_t si
 }
 
 static void draw_weights(struct drawing *d, const struct told *told, size_t next, const struct mixture *mixture) {
-    const double height = PICTURE * (double)d->probe->full[1] / d->probe->full[0];
+    const bool elsewhere = strcmp(image_of(mixture->parts[0].record), "planar_color") == 0; /* a picture of its own */
+    const double height = elsewhere ? 0 : PICTURE * (double)d->probe->full[1] / d->probe->full[0];
+    const double left = elsewhere ? 24 : 24 + PICTURE + GAP;
     const size_t rows = mixture->count < MOST_ROWS ? mixture->count : MOST_ROWS;
     char text[160];
     title_of(told, next, text, sizeof text);
     head(d, told, text);
-    draw_places(d, mixture, 24, height);
-    for (size_t i = 0; i < rows; i++) draw_part(d, &mixture->parts[i], 24 + PICTURE + GAP, d->top + (double)i * ROW);
+    if (!elsewhere) draw_places(d, mixture, 24, height);
+    for (size_t i = 0; i < rows; i++) draw_part(d, &mixture->parts[i], left, d->top + (double)i * ROW);
     if (rows < mixture->count)
-        fprintf(d->out, "<text x=\"%d\" y=\"%.1f\" class=\"tick\">and %zu more</text>\n", 24 + PICTURE + GAP,
+        fprintf(d->out, "<text x=\"%.1f\" y=\"%.1f\" class=\"tick\">and %zu more</text>\n", left,
                 d->top + (double)rows * ROW + 12, mixture->count - rows);
     d->top += fmax(height, (double)(rows + 1) * ROW) + TITLE;
 }
