@@ -264,6 +264,42 @@ static void a_plan_may_change_from_frame_to_frame(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
+/* ---- Alpha ---- */
+
+static void half_a_window(uint32_t number, const double direction[3], float out[5]) {
+    pair_cube(number, direction, out);
+    out[3] = direction[2] > 0 ? 0.5f : 1;
+}
+static void bright(const double direction[3], float out[3]) {
+    (void)direction;
+    for (int k = 0; k < 3; k++) out[k] = 1;
+}
+
+/* Catches: a sky that no distance and no pixel shows, but a cube map's alpha. */
+static void alpha_alone_shows_the_sky(void **state) {
+    struct pair *pair = pair_of(state);
+    char path[256];
+    struct glint_error err = {0};
+    size_t left_out = 0;
+    snprintf(path, sizeof path, "%s/window.exr", pair->fixture->folder);
+    pair_check(plain_write(path,
+                           &(struct plain){.width = WIDTH,
+                                           .height = HEIGHT,
+                                           .fov_y_degrees = 60,
+                                           .cube_size = FACE,
+                                           .cube_count = 1,
+                                           .cube = half_a_window,
+                                           .sky = bright},
+                           &err),
+               &err);
+    pair_use(pair, "mafia3");
+    assert_int_equal(differences_of_file(pair, path, &left_out), 0);
+    assert_int_equal(pair->last.sky, 0);
+    assert_int_equal(glint_survey_faces(&pair->last, GLINT_SURVEY_OPEN), 0);
+    assert_true(glint_survey_faces(&pair->last, GLINT_SURVEY_SKY) > 0);
+    fixture_check_messages(pair->fixture);
+}
+
 /* ---- Rules that are wrong on purpose ---- */
 
 static void nothing_reflects(struct glint_survey *s) {
@@ -378,6 +414,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_device_counts_as_the_host_does),
         cmocka_unit_test(a_plan_may_change_from_frame_to_frame),
+        cmocka_unit_test(alpha_alone_shows_the_sky),
         cmocka_unit_test(a_wrong_rule_is_found),
         cmocka_unit_test(faces_that_no_ray_comes_to_are_left_out),
         cmocka_unit_test(a_wrong_rule_about_made_frames_is_found),
