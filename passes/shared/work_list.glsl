@@ -3,7 +3,6 @@
 #define GLINT_WORK_LIST
 const uint NO_ITEM = 0xFFFFFFFFu; // fills up a class to whole workgroups
 const int LIST_COUNT = 3, LIST_ITEMS = 256; // places in a list: the number of its items, the first of them
-const ivec2 OUTSIDE = ivec2(0x7FFFFFFF);
 
 uint item_of(ivec2 pixel) { return uint(pixel.y) << 16u | uint(pixel.x); }
 bool inside(ivec2 pixel, ivec2 size) { return all(lessThan(pixel, size)); }
@@ -20,11 +19,10 @@ ivec2 own_pixel(ivec2 size) {
     return 8 * ivec2(tile % across, tile / across) + ivec2(gl_LocalInvocationID.xy);
 }
 
-// The pixel that the list gives to the invocation; OUTSIDE: none.
+// The pixel that the list gives to the invocation; none: NO_ITEM's, which is outside of every picture.
 ivec2 listed_pixel(utextureBuffer list) {
     uint index = 64u * workgroup_index() + gl_LocalInvocationIndex;
-    if (index >= texelFetch(list, LIST_COUNT).x) return OUTSIDE;
-    uint item = texelFetch(list, LIST_ITEMS + int(index)).x;
-    return item == NO_ITEM ? OUTSIDE : ivec2(item & 0xFFFFu, item >> 16u);
+    uint item = index < texelFetch(list, LIST_COUNT).x ? texelFetch(list, LIST_ITEMS + int(index)).x : NO_ITEM;
+    return ivec2(item & 0xFFFFu, item >> 16u);
 }
 #endif
