@@ -157,6 +157,46 @@ static void colour_is_looked_up_where_the_ray_ends(void **state) {
     }
 }
 
+static void rough_everywhere(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < pixels; ++i) values[PLAIN_ROUGHNESS * pixels + i] = 0.25f;
+}
+
+/* The mean over a square as wide as the cone is where it ends: of the wall's light, at the middles of three parts. */
+static void a_cones_colour_is_the_mean_over_its_square(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    set_up(gpu);
+    plain_capture(
+        gpu_path(gpu, "cones", path),
+        &(struct plain){
+            .width = WIDE, .height = HIGH, .fov_y_degrees = degrees, .floor = true, .spoil = rough_everywhere});
+    gpu_load(gpu, "cones");
+    gpu_set(gpu, "downsample.jitter=true");
+    gpu_set(gpu, "downsample.share=0"); /* all of the lobe is the cone's */
+    struct images images = images_of(gpu);
+    float *cone = gpu_floats(gpu, "cone_half", NULL, NULL);
+    size_t count = 0;
+    double worst = 0, widest = 0;
+    for (uint32_t i = 0; i < WIDE * HIGH; ++i) {
+        struct end end;
+        if (!floor_ray(i, &end)) continue;
+        const double pixels_at_1m = HIGH / (2 * tan(degrees * 3.14159265358979323846 / 360));
+        const double radius = tan((double)cone[i]) * end.distance / wall_m * pixels_at_1m;
+        if (radius < 0.5 || radius > 24 || end.x < radius + 1 || end.x > WIDE - radius - 1) continue;
+        double expected = 0.5;
+        for (int k = -1; k <= 1; ++k) expected += 0.4 / 3 * sin(0.1 * (end.x + k * radius * 2 / 3));
+        worst = fmax(worst, fabs((double)images.reflection[4 * i] - expected));
+        widest = fmax(widest, radius);
+        ++count;
+    }
+    print_message("# %zu cones, radius up to %.1f pixels: worst difference %.2e\n", count, widest, worst);
+    assert_true(count > 100 && widest > 8);
+    assert_true(worst < 1.4e-3); /* as above; a radius is off by no more than a place */
+    free(cone);
+    images_free(&images);
+}
+
 static void alpha_stays_within_one_and_the_picture_a_mixture(void **state) {
     struct gpu *gpu = *state;
     static const double lights[] = {0.1, 1, 100};
@@ -241,6 +281,7 @@ int main(void) {
         cmocka_unit_test(each_attenuation_and_their_product),
         cmocka_unit_test(switched_off_all_contributes),
         cmocka_unit_test(colour_is_looked_up_where_the_ray_ends),
+        cmocka_unit_test(a_cones_colour_is_the_mean_over_its_square),
         cmocka_unit_test(alpha_stays_within_one_and_the_picture_a_mixture),
         cmocka_unit_test(rejected_tiles_contribute_nothing),
         cmocka_unit_test(the_last_texel_is_worth_its_own_material),

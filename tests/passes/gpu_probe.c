@@ -210,11 +210,11 @@ static void test_sums(void **state) {
     struct glint_error err = {0};
     static uint32_t pixels[PIXELS][2];
     static struct images images;
-    size_t blurred = 0, upscaled = 0, colored = 0, composed = 0;
+    size_t blurred = 0, joined = 0, upscaled = 0, colored = 0, composed = 0;
     probed_scene(gpu, "street");
     draw_pixels(pixels);
-    static const char *const words[PROBED_WORDS] = {"screen_trace=dda", "blur=plus", "upscale=best_match",
-                                                    "resolve.fog=false"};
+    static const char *const words[PROBED_WORDS] = {"screen_trace=dda", "blur=plus", "temporal=rough",
+                                                    "upscale=best_match", "resolve.fog=false"};
     arrange(gpu, words);
     probed_run(gpu, pixels, true, &images);
     for (size_t i = 0; i < PIXELS; i++) {
@@ -222,14 +222,16 @@ static void test_sums(void **state) {
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
         check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
         blurred += check_mixture(&story, "blur", find(&images, "reflection_blurred"), texel) > 1;
+        joined += check_mixture(&story, "temporal", find(&images, "reflection_temporal"), texel) > 1;
         upscaled += check_mixture(&story, "upscale", find(&images, "reflection"), pixels[i]) == 1;
         colored += check_color(&story, find(&images, "reflection_half"), texel);
         composed += check_composed(&story, &images, pixels[i]);
         free(story.records);
     }
     free_images(&images);
-    print_message("# %zu blurred, %zu upscaled, %zu colours, %zu composed\n", blurred, upscaled, colored, composed);
-    assert_true(blurred > 100 && upscaled > 100 && colored > 100 && composed > 100);
+    print_message("# %zu blurred, %zu joined, %zu upscaled, %zu colours, %zu composed\n", blurred, joined, upscaled,
+                  colored, composed);
+    assert_true(blurred > 100 && joined > 100 && upscaled > 100 && colored > 100 && composed > 100);
 }
 
 static void test_errors(void **state) {

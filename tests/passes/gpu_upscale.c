@@ -197,6 +197,30 @@ static void rounding_of_roughness_chooses_no_other_sample(void **state) {
     free(color[1]);
 }
 
+static void sky_above(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        const bool is_sky = i / plain->width < SIZE / 2;
+        if (is_sky) values[i] = INFINITY;
+        values[PLAIN_ROUGHNESS * pixels + i] = is_sky ? 0 : 0.5F;
+    }
+}
+
+/* The colours are the roughness, alike everywhere: so is what is mixed of those that there are. */
+static void what_has_no_ray_darkens_nothing(void **state) {
+    struct gpu *gpu = *state;
+    load_wall(gpu, sky_above);
+    gpu->all = false;
+    gpu_use(gpu, "upscale=bilinear");
+    gpu_run(gpu);
+    float *color = gpu_floats(gpu, "reflection", NULL, NULL);
+    for (uint32_t i = 0; i < SIZE * SIZE; ++i) {
+        const double expected = i / SIZE < SIZE / 2 ? 0 : 0.5;
+        assert_true(fabs((double)color[4 * i] - expected) <= 8 * 0x1p-24); /* sums of four, and a quotient */
+    }
+    free(color);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_takes_a_sample_of_its_own_surface),
@@ -205,6 +229,7 @@ int main(void) {
         cmocka_unit_test(rounding_of_roughness_chooses_no_other_sample),
         cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),
         cmocka_unit_test(rough_pixels_keep_what_was_upscaled),
+        cmocka_unit_test(what_has_no_ray_darkens_nothing),
     };
     return cmocka_run_group_tests_name("gpu_upscale", tests, gpu_set_up, gpu_tear_down);
 }
