@@ -38,11 +38,25 @@ static size_t last_picture(const struct diff *diff) {
 
 /* ---- Facts and tables ---- */
 
+/* What a run is of; of a file its path, unless that is its label. */
+static void add_side(json_t *document, const struct diff_side *side, const char *label) {
+    char text[512];
+    const char *capture = NULL, *device = NULL, *preset = NULL;
+    if (side->json)
+        json_unpack(side->json, "{s?{s?s}, s?{s?s}, s?s}", "capture", "path", &capture, "device", "name", &device,
+                    "preset", &preset);
+    if (capture && device && preset) {
+        snprintf(text, sizeof text, "%s%s%s, preset %s, on %s", strcmp(side->text, label) ? side->text : "",
+                 strcmp(side->text, label) ? ": " : "", capture, preset, device);
+        page_fact(document, label, text);
+    } else if (strcmp(side->text, label) != 0) page_fact(document, label, side->text);
+}
+
 static void add_facts(json_t *document, const struct diff *diff, char labels[2][64]) {
     const struct glint_difference_limit *fail = &diff->options.limits.fail;
     const size_t first = diff_first(diff);
     char text[512];
-    for (int k = 0; k < 2; k++) page_fact(document, labels[k], diff->sides[k].text);
+    for (int k = 0; k < 2; k++) add_side(document, &diff->sides[k], labels[k]);
     page_fact(document, "verdict", verdicts[diff->status]);
     snprintf(text, sizeof text, "a pixel fails by more than %g%s; %g %% of the pixels may", fail->absolute,
              fail->relative > 0 ? ", and more than its share of the magnitude" : "", fail->percent);

@@ -69,7 +69,7 @@
     function columnOf(column, cells) {
         const numbers = cells.map(valueOf).filter(v => typeof v === 'number' && Number.isFinite(v));
         const known = cells.filter(c => valueOf(c) !== null);
-        const number = known.length > 0 && numbers.length === known.length;
+        const number = numbers.length > 0 && known.every(c => Number.isFinite(valueOf(c)) || valueOf(c) === 'infinite');
         return {
             ...column, number, largest: Math.max(0, ...numbers), intervals: cells.some(c => intervalText(c)),
             decimals: Number.isInteger(column.decimals) ? column.decimals : number ? decimalsOf(numbers) : null,
