@@ -33,7 +33,7 @@
 #define ACCUMULATE(image)
 #define NEEDS(fact)
 #define NEEDS_BY(fact, parameter)
-#define READS_LEVELS(image)
+#define READS_LEVELS(image, parameter)
 #define PASSES_ON(image, from)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)

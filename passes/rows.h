@@ -93,7 +93,8 @@
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},
 #define NEEDS(fact) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact},
 #define NEEDS_BY(fact, parameter) {.kind = GLINT_ROW_NEEDS, .id = __LINE__, .name = #fact, .image = #parameter},
-#define READS_LEVELS(image_) {.kind = GLINT_ROW_READS_LEVELS, .id = __LINE__, .name = #image_},
+#define READS_LEVELS(image_, parameter) \
+    {.kind = GLINT_ROW_READS_LEVELS, .id = __LINE__, .name = #parameter, .image = #image_},
 #define PASSES_ON(image_, from) {.kind = GLINT_ROW_PASSES_ON, .id = __LINE__, .name = #from, .image = #image_},
 #define SHOWS_ALL(parameter) {.kind = GLINT_ROW_SHOWS_ALL, .id = __LINE__, .name = #parameter},
 #define ALONG_RAYS(image_, normals) {.kind = GLINT_ROW_ALONG_RAYS, .id = __LINE__, .name = #image_, .image = #normals},

@@ -18,30 +18,57 @@ static void check_slots(const struct graph *graph, const char *option, const cha
     }
 }
 
-/* A fact as the survey is asked for it: with the value of the parameter that it is about. */
-static const char *fact_of(const struct graph_pass *pass, const struct glint_row *row, char text[128]) {
+/* NULL: the pass has no such parameter. */
+static const double *value_of(const struct graph_pass *pass, const char *parameter) {
     const double *values = pass->entry->values;
-    for (size_t r = 0; row->image && values && r < pass->pass->row_count; r++)
-        if (row_is_parameter(&pass->pass->rows[r]) && strcmp(pass->pass->rows[r].name, row->image) == 0) {
-            snprintf(text, 128, "%.64s %.17g", row->name, values[r]);
-            return text;
-        }
-    return row->name;
-}
-
-/* Whether a pass that runs reads levels of what this one makes, though no ray has a cone. */
-static const struct graph_pass *reader_of_levels(const struct graph *graph, const struct glint_pass *maker) {
-    for (size_t i = 0; i < graph->pass_count; i++)
-        for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++)
-            if (graph->passes[i].pass->rows[r].kind == GLINT_ROW_READS_LEVELS &&
-                pass_output(maker, graph->passes[i].pass->rows[r].name))
-                return &graph->passes[i];
+    for (size_t r = 0; parameter && values && r < pass->pass->row_count; r++)
+        if (row_is_parameter(&pass->pass->rows[r]) && strcmp(pass->pass->rows[r].name, parameter) == 0)
+            return &values[r];
     return NULL;
 }
 
+/* A fact as the survey is asked for it: with that value. */
+static const char *fact_of(const struct graph_pass *pass, const struct glint_row *row, char text[128]) {
+    const double *value = value_of(pass, row->image);
+    if (!value) return row->name;
+    snprintf(text, 128, "%.64s %.17g", row->name, *value);
+    return text;
+}
+
+/* Whether the parameter has the pass read what the row READS_LEVELS names. */
+static bool reads_levels(const struct graph_pass *pass, const struct glint_row *row) {
+    const double *value = value_of(pass, row->name);
+    return !value || *value != 0 || pass->entry->shader;
+}
+
+/* A pass that runs and reads levels of what this one makes, though no ray has a cone. */
+static const struct graph_pass *reader_of_levels(const struct graph *graph, const struct glint_pass *maker) {
+    for (size_t i = 0; i < graph->pass_count; i++)
+        for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++) {
+            const struct glint_row *row = &graph->passes[i].pass->rows[r];
+            if (row->kind == GLINT_ROW_READS_LEVELS && pass_output(maker, row->image) &&
+                reads_levels(&graph->passes[i], row))
+                return &graph->passes[i];
+        }
+    return NULL;
+}
+
+/* Whether an image has to be made: a pass that runs reads it, or somebody asks for it; what a user's shader writes is not known. */
+static bool is_read(const struct graph *graph, const struct graph_pass *maker, const char *image,
+                    const struct glint_replay_options *options) {
+    bool read = maker->entry->shader || list_has(options->outputs, image);
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        const struct graph_pass *pass = &graph->passes[i];
+        const struct glint_row *row = pass_row(pass->pass, GLINT_ROW_READS_LEVELS, image);
+        read |= pass->runs && pass_row(pass->pass, GLINT_ROW_READ, image) && (!row || reads_levels(pass, row));
+    }
+    return read;
+}
+
 /* Whether the frame gives the pass something to do, and which of its facts do not hold; the reason states the figures. */
-static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct facts *facts,
+static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct graph_inputs *inputs,
                             struct faults *faults, struct glint_error *err) {
+    const struct facts *facts = &inputs->facts;
     char reason[192], text[128];
     uint32_t fact = 0;
     pass->runs = true;
@@ -50,6 +77,13 @@ static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, 
         if (row->kind != GLINT_ROW_NEEDS && row->kind != GLINT_ROW_FACT) continue;
         bool known = true;
         struct glint_error own = {0};
+        if (row->kind == GLINT_ROW_FACT && pass_output(pass->pass, row->name)) {
+            const bool read = is_read(graph, pass, row->name, inputs->options);
+            pass->lacks |= (uint32_t)!read << fact++;
+            snprintf(reason, sizeof reason, "%s is read by none", row->name);
+            if (!read && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
+            continue;
+        }
         bool holds = facts->holds(facts->user, fact_of(pass, row, text), reason, sizeof reason, &known, &own);
         if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
         if (!known) {
@@ -103,7 +137,7 @@ static bool decide(struct graph *graph, const struct graph_inputs *inputs, struc
         else if (options->all && !lacks_cubemaps(pass->pass, &inputs->facts))
             why = "all passes were asked for", pass->runs = true;
         else if (options->all) why = "the capture has no cube maps";
-        else if (!decide_by_facts(graph, pass, &inputs->facts, faults, err)) return false;
+        else if (!decide_by_facts(graph, pass, inputs, faults, err)) return false;
         if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
     }
     return true;

@@ -132,6 +132,17 @@ static void link_passed_on(struct graph *graph, const struct glint_pass *dropped
     }
 }
 
+/* Whether a row FACT is about the image, and does not hold. */
+static bool is_left_out(const struct graph_pass *pass, const char *image) {
+    uint32_t fact = 0;
+    for (size_t r = 0; r < pass->pass->row_count; r++) {
+        if (pass->pass->rows[r].kind != GLINT_ROW_FACT) continue;
+        if (strcmp(pass->pass->rows[r].name, image) == 0) return pass->lacks >> fact & 1;
+        fact++;
+    }
+    return false;
+}
+
 static void link_images(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults) {
     const struct glint_replay_options *options = inputs->options;
     for (size_t i = 0; i < graph->pass_count; i++) {
@@ -151,7 +162,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                 faults_add(faults, GLINT_ERROR_USAGE, "%s/%s dispatches over %s, which is no list", pass->pass->slot,
                            pass->pass->variant, row->name);
             if (!row_is_output(row)) continue;
-            bool made = row->kind == GLINT_ROW_WRITE || options->diagnostics;
+            const bool made = row->kind == GLINT_ROW_WRITE ? !is_left_out(pass, row->name) : options->diagnostics;
             graph->images[graph->image_count++] =
                 (struct graph_image){.name = row->name,
                                      .row = row,

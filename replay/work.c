@@ -82,7 +82,8 @@ void run_count_faces(const struct run *run, struct glint_cube_faces *faces) {
     for (size_t p = 0; p < run->graph.pass_count; p++) {
         const struct graph_pass *pass = &run->graph.passes[p];
         for (size_t r = 0; pass->runs && r < pass->pass->row_count; r++)
-            if (pass->pass->rows[r].kind == GLINT_ROW_WRITE && size_is_cube(pass->pass->rows[r].size))
+            if (pass->pass->rows[r].kind == GLINT_ROW_WRITE && size_is_cube(pass->pass->rows[r].size) &&
+                graph_find(&run->graph, pass->pass->rows[r].name)->source == SOURCE_MADE)
                 faces->filtered += faces_made(run, pass, &pass->pass->rows[r]);
     }
 }

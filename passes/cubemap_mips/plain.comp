@@ -14,5 +14,5 @@ void main() {
     if (at.x >= size || at.y >= size) return;
     vec4 color = level == 0 ? texelFetch(cubemap_color, at, 0) : box_color(finer_faces, at, size, level);
     imageStore(cubemap_color_mips, at, color);
-    imageStore(cubemap_distance_mips, at, vec4(joined_distance(at, size, level)));
+    if (fact_cubemap_distance_mips) imageStore(cubemap_distance_mips, at, vec4(joined_distance(at, size, level)));
 }

@@ -15,7 +15,7 @@ void main() {
     if (dispatch_phase == 0u) {
         vec4 color = level == 0 ? texelFetch(cubemap_color, at, 0) : box_color(finer_faces, at, size, level);
         imageStore(cubemap_color_box, at, color);
-        imageStore(cubemap_distance_mips, at, vec4(joined_distance(at, size, level)));
+        if (fact_cubemap_distance_mips) imageStore(cubemap_distance_mips, at, vec4(joined_distance(at, size, level)));
     } else {
         imageStore(cubemap_color_mips, at, prefiltered(finer_color, finer_faces, at, size, level, reach, texel_scale, threshold));
     }

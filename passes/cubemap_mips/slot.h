@@ -8,4 +8,5 @@ WRITE(image2DArray, cubemap_distance_mips, R32F, "m", CUBEMAPS_MIPS, "Z", INFINI
 NEEDS(reflections)
 NEEDS(cones)
 NEEDS(cubemaps)
+FACT(cubemap_distance_mips)
 REFERENCE_WITH(downsample, "its levels stand for the cones that downsample leaves to them")

@@ -4,7 +4,7 @@ PASS("Half-texel march", "glint, after 000, Multiple cube-maps")
 #include "slot.h"
 #line 202
 OPTIONAL_READ(texture2DArray, cubemap_distance_mips, R32F, CUBEMAPS_MIPS, INFINITY)
-READS_LEVELS(cubemap_distance_mips)
+READS_LEVELS(cubemap_distance_mips, skip)
 SPEC(int,   steps,       16384, 1,  1048576, "steps", "glint", "most steps of a ray")
 SPEC(int,   refinements, 24,    0,  64,    "halvings", "glint", "times the step in which a ray went behind is halved")
 SPEC(bool,  interpolate, true,  0,  1,     "1", "glint", "distance between four texels of one surface, exact on planes; off: the nearest texel")

@@ -30,7 +30,10 @@
 // PASSES_ON(image, from) says that the pass, where its facts do not hold, would make the image of what it reads as it is: dropped,
 // it is remembered as that. Of several rows the first whose image is made counts.
 // FACT(name) gives a constant fact_NAME: false when the survey has found that the frame has nothing of the kind, so that the
-// code for it is left out (see replay/facts.c for the names).
+// code for it is left out (see replay/facts.c for the names). Of an image that the pass makes it is false when no pass that runs
+// reads it: it is not made then, and must not be written.
+// READS_LEVELS(image, parameter): the pass reads this one of its images only where the parameter is not 0, then even if no ray has
+// a cone.
 // OPTIONAL_READ gives a constant has_NAME: false when no pass makes the image and its "nothing" value is bound.
 // HISTORY images hold what the pipeline's own image (none of the capture) held at the end of the frame before when
 // frame.flags.x is 1; what a pass did not make then, because its frame had nothing to do for it, holds the image's "nothing"
@@ -82,7 +85,7 @@ layout(constant_id = 998) const bool tile_works = true;      // false: over the 
 #define ACCUMULATE(image)
 #define NEEDS(fact)
 #define NEEDS_BY(fact, parameter)
-#define READS_LEVELS(image)
+#define READS_LEVELS(image, parameter)
 #define PASSES_ON(image, from)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)

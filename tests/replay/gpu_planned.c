@@ -96,6 +96,41 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
+/* Rough rays are marched through levels of the distances as they are. */
+static void read_levels(struct pair *pair) {
+    struct glint_error err = {0};
+    pair_check(glint_pipeline_set(pair->pipeline, "cubemap_trace.depth=captured", &err) &&
+                   glint_pipeline_set(pair->pipeline, "cubemap_trace.rough_level=4", &err),
+               &err);
+}
+
+/* Catches: a chain that is made for nobody, and one that is left out though a parameter has it read. */
+static void a_chain_that_no_pass_reads_is_not_made(void **state) {
+    struct pair *pair = pair_of(state);
+    char path[256];
+    size_t left_out = 0;
+    const struct glint_cube_faces *faces = glint_replay_cube_faces(pair->planned);
+    sampled(pair->fixture, "room", 1, path);
+    pair_use(pair, "mafia3");
+    assert_int_equal(differences_of_file(pair, path, &left_out), 0);
+    const uint64_t whole = faces->filtered_of;
+    assert_true(faces->filtered > 0 && faces->filtered < whole);
+    assert_null(glint_replay_find_image(pair->planned, "cubemap_distance_mips"));
+    read_levels(pair);
+    assert_int_equal(differences_of_file(pair, path, &left_out), 0);
+    assert_int_equal(faces->filtered, whole);
+    pair_use(pair, "mafia3"); /* wrong on purpose: nothing is made of them */
+    read_levels(pair);
+    struct glint_pipeline *right = pair->pipeline;
+    pair->pipeline = NULL;
+    pair_use(pair, "mafia3");
+    read_levels(pair);
+    pair_spoil(pair, "cubemap_mips", "prefilter", "joined_distance(at, size, level)", "INFINITE");
+    pair->other = right;
+    assert_int_not_equal(differences_of_file(pair, path, &left_out), 0);
+    fixture_check_messages(pair->fixture);
+}
+
 /* Catches: a rule that drops what the picture depends on, history that a dropped pass would have left, arithmetic that
    depends on what else is worked on. */
 static void the_picture_of_a_plan_is_the_whole_picture(void **state) {
@@ -418,6 +453,7 @@ int main(void) {
         cmocka_unit_test(a_wrong_rule_is_found),
         cmocka_unit_test(faces_that_no_ray_comes_to_are_left_out),
         cmocka_unit_test(a_wrong_rule_about_made_frames_is_found),
+        cmocka_unit_test(a_chain_that_no_pass_reads_is_not_made),
         cmocka_unit_test(the_picture_of_a_plan_is_the_whole_picture),
     };
     return cmocka_run_group_tests(tests, pair_set_up, pair_tear_down);

@@ -84,20 +84,6 @@ static void tiles_leave_nothing_out(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
-static void use_wrong_list(struct pair *pair, const char *right, const char *wrong) {
-    struct glint_error err = {0};
-    char path[256], assignment[300];
-    const char *text = glint_pass_text("classify_tiles/shown.comp"), *at = strstr(text, right);
-    assert_non_null(at);
-    snprintf(path, sizeof path, "%s/wrong.comp", pair->fixture->folder);
-    snprintf(assignment, sizeof assignment, "classify_tiles=%s", path);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "%.*s%s%s", (int)(at - text), text, wrong, at + strlen(right));
-    assert_int_equal(fclose(file), 0);
-    pair_check(glint_pipeline_shader(pair->pipeline, assignment, &err), &err);
-}
-
 /* Catches: a comparison that finds every list right. */
 static void a_wrong_list_is_found(void **state) {
     struct pair *pair = pair_of(state);
@@ -116,7 +102,7 @@ static void a_wrong_list_is_found(void **state) {
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         double worked;
         pair_use(pair, "mafia3");
-        use_wrong_list(pair, lists[i].right, lists[i].wrong);
+        pair_spoil(pair, "classify_tiles", "shown", lists[i].right, lists[i].wrong);
         if (differences_of_tiles(pair, &worked) == 0) fail_msg("a wrong list changes nothing: %s", lists[i].name);
     }
     fixture_check_messages(pair->fixture);

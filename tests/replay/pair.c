@@ -24,12 +24,28 @@ struct pair *pair_of(void **state) {
 void pair_use(struct pair *pair, const char *preset) {
     struct glint_error err = {0};
     glint_pipeline_destroy(&pair->pipeline);
+    glint_pipeline_destroy(&pair->other);
     pair->pipeline = glint_pipeline_create(preset, &err);
     pair_check(pair->pipeline != NULL, &err);
     if (strcmp(preset, "reference") != 0) /* a list of tiles, however little it leaves out */
         pair_check(glint_pipeline_set(pair->pipeline, "classify_tiles.most=1", &err), &err);
     if (glint_pipeline_rays(pair->pipeline) > 1)
         pair_check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
+}
+
+void pair_spoil(struct pair *pair, const char *slot, const char *variant, const char *right, const char *wrong) {
+    struct glint_error err = {0};
+    char name[64], path[256], assignment[300];
+    snprintf(name, sizeof name, "%s/%s.comp", slot, variant);
+    const char *text = glint_pass_text(name), *at = strstr(text, right);
+    assert_non_null(at);
+    snprintf(path, sizeof path, "%s/wrong.comp", pair->fixture->folder);
+    snprintf(assignment, sizeof assignment, "%s=%s", slot, path);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "%.*s%s%s", (int)(at - text), text, wrong, at + strlen(right));
+    assert_int_equal(fclose(file), 0);
+    pair_check(glint_pipeline_shader(pair->pipeline, assignment, &err), &err);
 }
 
 int pair_set_up(void **state) {
@@ -53,6 +69,7 @@ int pair_tear_down(void **state) {
     glint_replay_destroy(&pair->planned);
     glint_replay_destroy(&pair->whole);
     glint_pipeline_destroy(&pair->pipeline);
+    glint_pipeline_destroy(&pair->other);
     return fixture_teardown(&fixture);
 }
 
@@ -81,9 +98,9 @@ size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t
         pair->lie(&pair->planned->survey);
     }
     pair_check(glint_replay_run(pair->planned, pair->pipeline, NULL, NULL, NULL, &err), &err);
-    pair_check(
-        glint_replay_run(pair->whole, pair->pipeline, &(struct glint_replay_options){.all = true}, NULL, NULL, &err),
-        &err);
+    pair_check(glint_replay_run(pair->whole, pair->other ? pair->other : pair->pipeline,
+                                &(struct glint_replay_options){.all = true}, NULL, NULL, &err),
+               &err);
     pair->last = pair->planned->survey;
     size_t counts[2], passes, differ = 0;
     const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);

@@ -21,10 +21,10 @@ enum glint_row_kind {
     GLINT_ROW_CHOICE,       /* a specialization constant with named values */
     GLINT_ROW_PUSH,         /* a push constant */
     GLINT_ROW_DISPATCH,     /* one invocation for each pixel of an image, for cube maps in each face */
-    GLINT_ROW_FACT,         /* a constant: false when the capture shows that this fact does not hold */
+    GLINT_ROW_FACT,         /* a constant: false when the fact does not hold, or nothing reads this image of the pass */
     GLINT_ROW_NEEDS,        /* a fact the capture must show for the pass to be needed (replay/facts.c lists them);
                                   image: a parameter of the pass that the fact is about, or NULL */
-    GLINT_ROW_READS_LEVELS, /* reads an image's levels though no ray has a cone: its maker then needs none */
+    GLINT_ROW_READS_LEVELS, /* reads `image` where the parameter `name` is not 0, though no ray has a cone */
     GLINT_ROW_PASSES_ON, /* where its facts do not hold, the pass would make `image` of this one, as it is: so the next
                                   frame finds it, though the pass is dropped */
     GLINT_ROW_SHOWS_ALL, /* while this parameter is off, every surface's reflection is shown, whatever its material */
