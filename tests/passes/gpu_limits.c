@@ -1,5 +1,6 @@
 /* Where something ends: rays before the near plane, facets that are too steep or very near, cells that a ray may look at,
-   colours between which nothing is mixed, cones wider than the picture, the sky beside what a ray sees. */
+   colours between which nothing is mixed, cones wider than the picture, the sky beside what a ray sees,
+   what fog leaves of a reflection. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -246,6 +247,48 @@ static void rays_take_no_sky_that_they_do_not_see(void **state) {
     }
 }
 
+static const float evenly[3] = {0.25F, 0.5F, 0.75F};
+static void even_ball(uint32_t number, const double d[3], float out[5]) {
+    (void)number, (void)d;
+    for (int k = 0; k < 3; ++k) out[k] = evenly[k];
+    out[3] = 1, out[4] = 10;
+}
+
+/* Between a surface and what it reflects fog takes 1 - exp(-∫ density ds) of each channel; it thins out with height, or does not. */
+static void fog_lies_before_what_is_reflected(void **state) {
+    struct gpu *gpu = *state;
+    for (int even = 0; even < 2; ++even) {
+        const struct glint_fog fog = {{1, 0, 2}, 0.04, -1, even ? 0 : 4};
+        load(gpu, &(struct plain){.fog = &fog, .cube_size = 8, .cube_count = 1, .cube = even_ball});
+        gpu_set(gpu, "screen_trace.length_m=0");
+        gpu_run(gpu);
+        float *color = gpu_floats(gpu, "reflection_half", NULL, NULL),
+              *travelled_m = gpu_floats(gpu, "travelled", NULL, NULL);
+        double worst = 0, least = 1;
+        int count = 0;
+        for (int i = 0; i < PIXELS; ++i) {
+            const double slope = tan(3.14159265358979323846 / 6) / (0.5 * HEIGHT);
+            const double x = slope * (i % WIDTH + 0.5 - 0.5 * WIDTH), y = slope * (0.5 * HEIGHT - i / WIDTH - 0.5);
+            const double rise = y / sqrt(x * x + y * y + 1), t = (double)travelled_m[i];
+            if (!(t < 1e30)) continue;
+            const double low = 5 * y + 1, scale = even ? 1 : 4; /* metres over the base, at the wall 5 m away */
+            const double depth = 0.04 * (even ? t : exp(-low / scale) * -expm1(-rise * t / scale) / (rise / scale)),
+                         left = exp(-depth);
+            for (int k = 0; k < 3; ++k) {
+                const double expected = left * (double)evenly[k] + (1 - left) * (double)fog.color[k];
+                worst = fmax(worst, fabs((double)color[4 * i + k] - expected));
+            }
+            least = fmin(least, left);
+            ++count;
+        }
+        print_message("# %s: %d rays, of which %.2f at least is left: off by %.2g\n", even ? "even" : "by height",
+                      count, least, worst);
+        assert_true(count > PIXELS / 2 && least < 0.7);
+        assert_true(worst < 1e-5); /* exponents up to 2 of some ten roundings, of colours up to 2 */
+        free(color), free(travelled_m);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_from_before_the_near_plane_go_nowhere),
@@ -255,6 +298,7 @@ int main(void) {
         cmocka_unit_test(an_unfiltered_colour_is_a_pixels),
         cmocka_unit_test(a_cone_wider_than_the_picture_sees_all_of_it),
         cmocka_unit_test(rays_take_no_sky_that_they_do_not_see),
+        cmocka_unit_test(fog_lies_before_what_is_reflected),
     };
     return cmocka_run_group_tests_name("gpu_limits", tests, gpu_set_up, gpu_tear_down);
 }

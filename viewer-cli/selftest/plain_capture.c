@@ -171,6 +171,8 @@ static struct glint_frame frame_of(const struct plain *plain) {
     frame.camera.view_to_clip[11] = near * far / (near - far);
     frame.camera.view_to_clip[14] = -1;
     frame.has_previous = true;
+    frame.has_fog = plain->fog != NULL;
+    if (plain->fog) frame.fog = *plain->fog;
     frame.previous = frame.camera;
     for (int i = 0; i < 2; ++i) { /* to the right, and down */
         frame.jitter_px[i] = plain->jitter_px[i];

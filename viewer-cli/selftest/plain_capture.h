@@ -43,6 +43,7 @@ struct plain {
     bool cut;
     double jitter_px[2], previous_jitter_px[2]; /* of the projection; the wall's motion says both */
     const double *world_to_view;                /* 16 values; NULL: as above */
+    const struct glint_fog *fog;                /* NULL: none */
     enum glint_axis up;
     enum glint_compression compression;
     const void *user; /* for `spoil` */
