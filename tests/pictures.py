@@ -1,6 +1,8 @@
-"""The pictures of README.md that show the program itself: what a terminal shows, run in tmux, and a page in headless Chromium.
+"""The pictures of README.md that show the program itself: a run's images, what a terminal shows, run in tmux, a page and a pixel's
+drawing in headless Chromium.
 
-pictures.py GLINT CHROMIUM [FOLDER]: writes terminal-view.png, terminal-diff.png and page-diff.jpg, by default to docs/."""
+pictures.py GLINT CHROMIUM [FOLDER]: writes street.png, street-passes.png, terminal-view.png, terminal-diff.png, page-diff.jpg and
+probe.png, by default to docs/."""
 import html
 import json
 import os
@@ -117,6 +119,13 @@ def main():
         call("sample", "street", "-o", "street.exr", "--size", "960x540", "--truth", "1")
         call("replay", "street.exr", "-o", "run", "--diagnostics")
         call("replay", "street.exr", "-o", "run2", "--diagnostics", "--set", "cubemap_trace.steps_hq=4")
+        call("view", "run", "--no-legend", "-o", os.path.join(docs, "street.png"))
+        call("view", "run", "--sheet", "--image", "normal_jittered,screen_end,cubemap_end,travelled,cubemap_index,reflection",
+             "-o", os.path.join(docs, "street-passes.png"))
+        # Behind a car the picture does not know what there is: the cube map goes on.
+        call("probe", "street.exr", "552,318", "-o", "ray.svg")
+        browser.open(os.path.join(folder, "ray.svg"))
+        browser.picture(os.path.join(docs, "probe.png"), 1000, 1350)
         for name, lines, command in (("terminal-view", 40, "glint view run"), ("terminal-diff", 26, "glint diff run run2")):
             screen = terminal(folder, path, 118, lines, "clear", command)
             with open(os.path.join(folder, "screen.html"), "w", encoding="utf-8") as file:
