@@ -12,6 +12,7 @@
 #include "glint/samples.h"
 #include "pair.h"
 #include "plain_capture.h"
+#include "ways.h"
 
 enum { WIDTH = 56, HEIGHT = 32, FACE = 16, FRAMES = 2 };
 
@@ -44,7 +45,8 @@ static const char *sampled(const struct fixture *fixture, const char *scene, int
 
 /* One mirror, and cube maps as fine as it takes to leave faces of them out. */
 static const char *mirror(const struct fixture *fixture, char path[256]) {
-    const struct glint_sample_options options = {.width = 160, .height = 90, .cube_size = 128, .light_samples = 2};
+    const struct glint_sample_options options = {
+        .width = WAYS_WIDTH, .height = WAYS_HEIGHT, .cube_size = 128, .light_samples = 2};
     struct glint_error err = {0};
     snprintf(path, 256, "%s/mirror.exr", fixture->folder);
     pair_check(glint_sample_write("desert_night", path, &options, NULL, NULL, &err), &err);
@@ -85,7 +87,7 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
         if (p == 0) fall_back(pair);
         assert_int_equal(differences_of_file(pair, path, &left_out), 0);
         const struct glint_survey *survey = &pair->last;
-        if (p == 0) check_counted_faces(pair);
+        if (p == 0) check_counted_faces(pair), check_ways(&pair->last, path);
         if (p > 0 && survey->followed == 0) continue; /* its rays lie between pixels */
         assert_true(survey->followed == survey->looked_at && survey->followed > 0);
         const uint32_t crossed = glint_survey_faces(survey, GLINT_SURVEY_CROSSED);
