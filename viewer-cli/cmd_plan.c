@@ -113,7 +113,8 @@ static void print_plan(const struct answer *answer) {
     table_print(table, stdout);
     table_destroy(&table);
     if (answer->faces->uploaded_of)
-        printf("\nfaces of cube maps: %llu of %llu are uploaded, %llu of %llu filtered\n",
+        printf("\nfaces of cube maps: %s%llu of %llu are uploaded, %llu of %llu filtered\n",
+               savings->passes ? "" : "at most ", /* which ones rays come to a device finds */
                (unsigned long long)answer->faces->uploaded, (unsigned long long)answer->faces->uploaded_of,
                (unsigned long long)answer->faces->filtered, (unsigned long long)answer->faces->filtered_of);
     if (!savings->passes) return;
