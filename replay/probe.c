@@ -110,8 +110,9 @@ static bool check(const struct run *run, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_USAGE, "pixels are probed in one round, not in repeated ones");
     for (size_t i = 0; i < options->probe_count; i++)
         if (options->probes[i][0] >= full[0] || options->probes[i][1] >= full[1])
-            return glint_fail(err, GLINT_ERROR_USAGE, "pixel %u,%u: outside of the picture of %u x %u pixels",
-                              options->probes[i][0], options->probes[i][1], full[0], full[1]);
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: pixel %u,%u: outside of the picture of %u x %u pixels",
+                              glint_capture_path(run->replay->capture), options->probes[i][0], options->probes[i][1],
+                              full[0], full[1]);
     return true;
 }
 

@@ -243,7 +243,7 @@ static void test_errors(void **state) {
     gpu_reset(gpu);
     struct glint_replay_options options = {.probes = outside, .probe_count = 2};
     assert_false(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
-    assert_string_equal(err.message, "pixel 160,3: outside of the picture of 160 x 90 pixels");
+    assert_non_null(strstr(err.message, "street.exr: pixel 160,3: outside of the picture of 160 x 90 pixels"));
     options = (struct glint_replay_options){.probes = one, .probe_count = 1, .repeat = 2};
     assert_false(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
     options.repeat = 0;
