@@ -58,8 +58,8 @@ HARMLESS = {
     ("downsample/pick.comp", "float depth_m = texelFetch(depth_full, min(block + ivec2(i & 1, i >> 1), last), 0).x;",
      "float depth_m = texelFetch(depth_full, (block + ivec2(i & 1, i >> 1)), 0).x;"):
         "choose() looks at no pixel outside of the picture, whatever was fetched there",
-    ("resolve/blurred.comp", "vec3 color = picture(uv + at * radius / vec2(frame.size.xy), finished_picture);",
-     "vec3 color = picture(uv - at * radius / vec2(frame.size.xy), finished_picture);"): "the taps lie evenly on both sides of the middle",
+    ("resolve/blurred.comp", "vec2 place = uv + at * radius / vec2(frame.size.xy);",
+     "vec2 place = uv - at * radius / vec2(frame.size.xy);"): "the taps lie evenly on both sides of the middle",
     ("screen_trace/linear.glsl", "if (verify) result.fetches++;", "if (false) result.fetches++;"): COUNT,
     ("screen_trace/hiz.comp", "int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }",
      "int coarsest_level() { return (findMSB(min(frame.size.z, frame.size.w)) - 2); }"):
