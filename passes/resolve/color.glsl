@@ -109,7 +109,7 @@ vec4 cubemap_lookup(Ray ray, uint place) {
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
     if (!fact_sky_seen) return vec4(color.rgb, 1.0);
     color.a = opacity(color.a);
-    if (color.a > 0.0 && ray.cone > 0.0 && !ray.endless) {
+    if (color.a > 0.0 && color.a < 1.0 && ray.cone > 0.0 && !ray.endless) {
         // Whether it is the sky that is seen is the ray's to say, not the cone's: rays that end in the sky know nothing of the
         // surfaces beside it, and would not give back what the others took of it.
         float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
