@@ -154,6 +154,9 @@ void scene_tube(struct scene *scene, vec3 from, vec3 to, float radius, uint32_t 
 void scene_sphere(struct scene *scene, vec3 center, float radius, uint32_t segments);
 /* Turns the polyline (radius, height) about the vertical through `center`; smooth around, hard at its corners. */
 void scene_lathe(struct scene *scene, vec3 center, const float (*profile)[2], uint32_t count, uint32_t segments);
+/* A height field of cells from `low` on; its normals are by heights e beside them. */
+void scene_ground(struct scene *scene, float (*height)(float x, float z), float e, vec3 low, float cell,
+                  uint32_t across, uint32_t deep);
 /* A convex polygon in x and y, counter-clockwise, swept along z from z0 to z1. */
 void scene_extrude(struct scene *scene, const float (*polygon)[2], uint32_t count, float z0, float z1);
 

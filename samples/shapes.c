@@ -114,6 +114,24 @@ void scene_sphere(struct scene *scene, vec3 center, float radius, uint32_t segme
         }
 }
 
+void scene_ground(struct scene *scene, float (*height)(float x, float z), float e, vec3 low, float cell,
+                  uint32_t across, uint32_t deep) {
+    uint32_t first = 0;
+    for (uint32_t j = 0; j <= deep; j++)
+        for (uint32_t i = 0; i <= across; i++) {
+            float x = low.x + cell * (float)i, z = low.z + cell * (float)j;
+            vec3 normal = unit(v3(height(x - e, z) - height(x + e, z), 2 * e, height(x, z - e) - height(x, z + e)));
+            uint32_t index = scene_vertex(scene, v3(x, height(x, z), z), normal);
+            if (i == 0 && j == 0) first = index;
+        }
+    for (uint32_t j = 0; j < deep; j++)
+        for (uint32_t i = 0; i < across; i++) {
+            uint32_t a = first + j * (across + 1) + i, c = a + across + 2;
+            scene_triangle(scene, a, c, a + 1);
+            scene_triangle(scene, a, c - 1, c);
+        }
+}
+
 void scene_extrude(struct scene *scene, const float (*polygon)[2], uint32_t count, float z0, float z1) {
     for (uint32_t i = 0; i < count; i++) {
         const float *a = polygon[i], *b = polygon[(i + 1) % count];

@@ -41,26 +41,6 @@ static const struct material glow = {
 static const struct material mirror = {
     .albedo = {0.93f, 0.94f, 0.95f}, .roughness = 0, .metalness = 1, .specular = 0.5f, .stencil = STENCIL_WORLD};
 
-static void dunes(struct scene *scene) {
-    enum { CELLS = 100 };
-    const float cell = 0.8f, low = -0.5f * cell * CELLS;
-    uint32_t first = 0;
-    scene_mesh(scene, &sand, MESH_PLAIN);
-    for (uint32_t j = 0; j <= CELLS; j++)
-        for (uint32_t i = 0; i <= CELLS; i++) {
-            float x = low + cell * (float)i, z = low + cell * (float)j, e = 0.2f;
-            vec3 normal = unit(v3(ground(x - e, z) - ground(x + e, z), 2 * e, ground(x, z - e) - ground(x, z + e)));
-            uint32_t index = scene_vertex(scene, v3(x, ground(x, z), z), normal);
-            if (i == 0 && j == 0) first = index;
-        }
-    for (uint32_t j = 0; j < CELLS; j++)
-        for (uint32_t i = 0; i < CELLS; i++) {
-            uint32_t a = first + j * (CELLS + 1) + i, c = a + CELLS + 2;
-            scene_triangle(scene, a, c, a + 1);
-            scene_triangle(scene, a, c - 1, c);
-        }
-}
-
 static void camp(struct scene *scene) {
     scene_mesh(scene, &rock, MESH_PLAIN);
     for (int i = 0; i < 9; i++) {
@@ -104,7 +84,8 @@ void build_desert_night(struct scene *scene) {
     scene_mesh(scene, &night, MESH_PLAIN);
     scene_room(scene, v3(-90, -20, -90), v3(90, 70, 90), FACE_ALL);
     scene->cell = 0.6f;
-    dunes(scene);
+    scene_mesh(scene, &sand, MESH_PLAIN);
+    scene_ground(scene, ground, 0.2f, v3(-40, 0, -40), 0.8f, 100, 100);
     camp(scene);
     looking_glass(scene);
     scene_lamp(scene, v3(-25, 45, 20), v3(330, 390, 560), 200, 1); /* the moon */

@@ -3,10 +3,6 @@
 #include "../noise.h"
 #include "../scenes.h"
 
-#define LOW_X -46.0f
-#define LOW_Z -84.0f
-#define CELL 1.2f
-
 static vec3 sky(vec3 d) {
     float up = d.y > 0 ? d.y : 0, sun = fmaxf(dot(d, unit(v3(0.5f, 0.16f, -0.85f))), 0), plane = 1 / (up + 0.12f);
     vec3 color = mix(v3(1.25f, 0.82f, 0.55f), v3(0.20f, 0.38f, 0.75f), powf(up, 0.42f));
@@ -48,25 +44,6 @@ static const struct material buoy = {
     .albedo = {0.9f, 0.35f, 0.1f}, .roughness = 0.05f, .metalness = 1, .specular = 0.5f, .stencil = STENCIL_WORLD};
 static const struct material needles = {
     .albedo = {0.045f, 0.09f, 0.04f}, .roughness = 0.9f, .stencil = STENCIL_WORLD | STENCIL_VEGETATION};
-
-static void terrain(struct scene *scene) {
-    enum { ACROSS = 78, DEEP = 84 };
-    uint32_t first = 0;
-    scene_mesh(scene, &earth, MESH_PLAIN);
-    for (uint32_t j = 0; j <= DEEP; j++)
-        for (uint32_t i = 0; i <= ACROSS; i++) {
-            float x = LOW_X + CELL * (float)i, z = LOW_Z + CELL * (float)j, e = 0.5f;
-            vec3 normal = unit(v3(ground(x - e, z) - ground(x + e, z), 2 * e, ground(x, z - e) - ground(x, z + e)));
-            uint32_t index = scene_vertex(scene, v3(x, ground(x, z), z), normal);
-            if (i == 0 && j == 0) first = index;
-        }
-    for (uint32_t j = 0; j < DEEP; j++)
-        for (uint32_t i = 0; i < ACROSS; i++) {
-            uint32_t a = first + j * (ACROSS + 1) + i, c = a + ACROSS + 2;
-            scene_triangle(scene, a, c, a + 1);
-            scene_triangle(scene, a, c - 1, c);
-        }
-}
 
 static void fir(struct scene *scene, float x, float z, float h) {
     const float tiers[][2] = {{0.26f * h, 0.12f * h}, {0.10f * h, 0.42f * h}, {0.20f * h, 0.40f * h},
@@ -119,7 +96,8 @@ void build_lake(struct scene *scene) {
     scene->cell = 1;
     scene->water =
         (struct water){.there = true, .level = 0, .opacity = 0.129f, .color = {0.015f, 0.07f, 0.085f}, .ripple = 0.03f};
-    terrain(scene);
+    scene_mesh(scene, &earth, MESH_PLAIN);
+    scene_ground(scene, ground, 0.5f, v3(-46, 0, -84), 1.2f, 78, 84);
     firs(scene);
     jetty(scene);
     boathouse(scene);
