@@ -5,11 +5,7 @@
 #include <stdlib.h>
 
 #include "glint/metrics.h"
-
-static int by_value(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
+#include "glint/sort.h"
 
 double distance_relative_error(double found, double truth) {
     if (!(found >= 0)) return INFINITY;
@@ -30,7 +26,7 @@ static struct glint_distance_error distance_error(const float *found, const floa
     }
     e.rays = n;
     if (n == 0) return e;
-    qsort(values, n, sizeof *values, by_value);
+    glint_sort_doubles(values, n);
     e.right = (double)right / (double)n;
     e.median = values[n / 2];
     e.p95 = values[n * 95 / 100];

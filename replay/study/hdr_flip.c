@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "flip.h"
+#include "glint/sort.h"
 #include "tone.h"
 
 /* Where the tone curve bends to white: the brightest pixel of the first exposure and the median one of the last are shown as this. */
@@ -15,11 +16,6 @@ static double radiance_shown_as(double shown) {
     return (-b + sqrt(b * b - 4 * a * c)) / (2 * a);
 }
 
-static int ascending(const void *a, const void *b) {
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* Highest and median luminance of what is compared of the truth. Where more than half is black the median is of what is not: black
    stays black at any exposure. False when all is. */
 static bool luminances(const struct comparison *c, float *values, double *highest, double *median) {
@@ -30,7 +26,7 @@ static bool luminances(const struct comparison *c, float *values, double *highes
         read_rgb(c, true, i, rgb);
         values[n++] = luminance(rgb);
     }
-    qsort(values, n, sizeof *values, ascending);
+    glint_sort_floats(values, n);
     while (black < n && !(values[black] > 0)) black++;
     if (black == n) return false;
     size_t from = black > (n - 1) / 2 ? black : 0;

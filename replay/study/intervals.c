@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/sort.h"
 #include "threads.h"
 
 static const double TAIL = 0.025; /* on either side of a 95 % interval */
@@ -60,18 +61,13 @@ static bool resample(void *user, uint32_t worker, size_t index) {
     return true;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The ends of the interval, of `values`, which are moved. A resample that drew none of a class's tiles has no value for it. */
 static void set_interval(struct glint_figure *figure, double *values, size_t resamples) {
     size_t n = 0;
     for (size_t i = 0; i < resamples; i++)
         if (!isnan(values[i])) values[n++] = values[i];
     if (n == 0 || isnan(figure->value)) return;
-    qsort(values, n, sizeof *values, ascending);
+    glint_sort_doubles(values, n);
     figure->low = values[(size_t)(TAIL * (double)n)];
     figure->high = values[n - 1 - (size_t)(TAIL * (double)n)];
 }

@@ -6,6 +6,7 @@
 
 #include "../state.h"
 #include "../timing.h"
+#include "glint/sort.h"
 
 enum side { PLANNED, WHOLE, SIDES };
 
@@ -47,11 +48,6 @@ static bool take_turn(struct turns *t, enum side side, uint32_t round, struct gl
     return true;
 }
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static bool sum_up(const struct turns *t, uint64_t survey_ns, uint64_t *const times[SIDES],
                    struct glint_savings_time *time, struct glint_error *err) {
     double *ratios = calloc(t->rounds, sizeof *ratios);
@@ -60,7 +56,7 @@ static bool sum_up(const struct turns *t, uint64_t survey_ns, uint64_t *const ti
         times[PLANNED][r] += survey_ns;
         ratios[r] = times[WHOLE][r] ? (double)times[PLANNED][r] / (double)times[WHOLE][r] : 1;
     }
-    qsort(ratios, t->rounds, sizeof *ratios, ascending);
+    glint_sort_doubles(ratios, t->rounds);
     const uint32_t last = t->rounds - 1;
     time->ratio[0] = ratios[last / 4];
     time->ratio[1] = (ratios[last / 2] + ratios[last - last / 2]) / 2;

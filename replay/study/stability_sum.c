@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/sort.h"
+
 static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "stability: out of memory");
 }
@@ -82,15 +84,10 @@ static bool amplify(const struct measuring *m, const struct tracked *t, struct g
 
 /* ---- Figures ---- */
 
-static int ascending(const void *a, const void *b) {
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* Sorts the values. */
 static struct glint_stability_summary summary_of(float *values, size_t count, double bound) {
     struct glint_stability_summary s = {.compared = count};
-    qsort(values, count, sizeof *values, ascending);
+    glint_sort_floats(values, count);
     for (size_t i = 0; i < count; i++) s.above += (double)values[i] > bound;
     if (!count) return s;
     s.median = (double)values[(count - 1) / 2];

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "glint/sort.h"
 #include "plain_capture.h"
 
 static void check(bool ok, const struct glint_error *err) {
@@ -158,14 +159,9 @@ uint32_t *gpu_uints(struct gpu *gpu, const char *image, uint32_t *width, uint32_
     return get(gpu, image, GLINT_U32, width, height);
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 double quantile(double *values, size_t count, double part) {
     assert_true(count > 0);
-    qsort(values, count, sizeof *values, ascending);
+    glint_sort_doubles(values, count);
     size_t i = (size_t)(part * (double)count);
     return values[i < count ? i : count - 1];
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "glint/replay.h"
+#include "glint/sort.h"
 #include "walk.h"
 
 struct truth {
@@ -90,11 +91,6 @@ static void judge(struct truth *truth, size_t count[2]) {
     }
 }
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 struct tally {
     size_t rays, shown;
     /* Hits count as much as the pipeline lets them contribute: 1, or what the image of that name says. */
@@ -147,7 +143,7 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
             hypot(place[0] - ray.x, place[1] - ray.y) > 64)
             tally.long_rays++, tally.fetches_long += fetches[i], tally.texels_long += steps[i];
     }
-    qsort(errors, error_count, sizeof *errors, ascending);
+    glint_sort_doubles(errors, error_count);
     tally.median_error = error_count ? errors[error_count / 2] : 0;
     free(errors);
     free(travelled);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "blame/blame.h"
+#include "glint/sort.h"
 
 const char *const blame_classes[BLAME_CLASSES] = {"all", "mirror-like", "glossy", "rough"};
 
@@ -53,11 +54,6 @@ size_t blame_timed(const struct blame *blame, uint32_t timed[2 * GLINT_PLAYERS_M
     return kept;
 }
 
-static int by_value(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 /* Median of the rounds; NAN without any. */
 static double time_of(const struct blame *blame, size_t capture, uint32_t coalition) {
     double *ms = malloc((blame->rounds + 1) * sizeof *ms), median = (double)NAN;
@@ -68,10 +64,7 @@ static double time_of(const struct blame *blame, size_t capture, uint32_t coalit
         const json_t *value = json_object_get(json_object_get(blame->lines, key), "frame_ms");
         if (json_is_number(value)) ms[count++] = json_number_value(value);
     }
-    if (count) {
-        qsort(ms, count, sizeof *ms, by_value);
-        median = 0.5 * (ms[(count - 1) / 2] + ms[count / 2]);
-    }
+    if (ms) median = glint_median(ms, count);
     free(ms);
     return median;
 }

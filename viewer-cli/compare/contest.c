@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/sort.h"
 #include "pass_names.h"
 #include "pipeline_args.h"
 #include "view/pixels.h"
@@ -180,14 +181,9 @@ static bool time_round(const struct contest *contest, size_t i, struct showing *
     return true;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static struct contest_time statistics(double *ms, uint32_t n) {
-    qsort(ms, n, sizeof *ms, ascending);
-    return (struct contest_time){n, ms[0], (ms[(n - 1) / 2] + ms[n / 2]) / 2, ms[n - 1]};
+    const double median = glint_median(ms, n);
+    return (struct contest_time){n, ms[0], median, ms[n - 1]};
 }
 
 /* Whether a preset's failure ends everything. */

@@ -4,15 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/sort.h"
 #include "lint.h"
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median(double *values, size_t count) {
-    qsort(values, count, sizeof *values, ascending);
+    glint_sort_doubles(values, count);
     return count ? values[count / 2] : 0;
 }
 

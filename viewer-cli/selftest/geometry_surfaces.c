@@ -5,6 +5,7 @@
 
 #include "clutter.h"
 #include "geometry.h"
+#include "glint/sort.h"
 #include "walk.h"
 
 enum { WIDE = 97, HIGH = 61 };
@@ -111,15 +112,10 @@ static void check_horizon(struct trial *trial, const struct trial_case *c, struc
     if (trial->ok && 2 * others < all) compared(finding, INFINITY, "%zu of %zu normals are drawn", others, all);
 }
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Kolmogorov's distance of values from an even distribution in [0, 1]. */
 static double unevenness(double *values, size_t count) {
     double most = 0;
-    qsort(values, count, sizeof *values, ascending);
+    glint_sort_doubles(values, count);
     for (size_t i = 0; i < count; i++)
         most = fmax(
             most, fmax(fabs((double)i / (double)count - values[i]), fabs((double)(i + 1) / (double)count - values[i])));

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/sort.h"
 #include "sweep/sweep.h"
 
 static double number(const json_t *object, const char *key) {
@@ -19,11 +20,6 @@ double sweep_error(const struct sweep_row *row, const char *answer, const char *
     return number(json_object_get(json_object_get(answers, answer), class), glint_metric(metric)->name);
 }
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const char *key, double *low, double *high) {
     double *values = calloc(sweep->rounds + 1, sizeof *values), median = NAN;
     size_t count = 0;
@@ -33,10 +29,9 @@ double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const 
         if (isfinite(value)) values[count++] = value;
     }
     if (count) {
-        qsort(values, count, sizeof *values, ascending);
+        median = glint_median(values, count);
         *low = values[0];
         *high = values[count - 1];
-        median = (values[(count - 1) / 2] + values[count / 2]) / 2;
     }
     free(values);
     return median;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/sort.h"
 #include "tune/tune.h"
 
 const char *const tune_contenders[TUNE_CONTENDERS] = {"start", "tuned", "scaled"};
@@ -11,15 +12,10 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Order statistics between which the true median lies with 95 %, whatever the distribution: each value is below it with a half. */
 struct tune_median tune_median(double *values, size_t count) {
     if (!count) return (struct tune_median){NAN, NAN, NAN};
-    qsort(values, count, sizeof *values, ascending);
+    glint_sort_doubles(values, count);
     double probability = exp2(-(double)count), below = probability;
     size_t k = 0; /* the largest with P(at most k below) <= 2.5 % */
     while (below <= 0.025 && k < count) {

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/sort.h"
 #include "view/colormap.h"
 
 const char *const kind_names[] = {"auto",   "color", "distance", "depth",   "steps", "weight",
@@ -32,11 +33,6 @@ static double scalar(const struct source *s, size_t texel) {
     return (double)v[0];
 }
 
-static int ascending(const void *a, const void *b) {
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* Percentiles of at most 250,000 texels, evenly taken, of which `positive` takes those above 0. */
 static bool percentiles(const struct source *s, bool positive, const struct falsecolor_options *options, double *low,
                         double *high, struct glint_error *err) {
@@ -49,7 +45,7 @@ static bool percentiles(const struct source *s, bool positive, const struct fals
         double v = scalar(s, i);
         if (isfinite(v) && (!positive || v > 0)) values[count++] = (float)v;
     }
-    qsort(values, count, sizeof *values, ascending);
+    glint_sort_floats(values, count);
     *low = count ? (double)values[(size_t)((double)(count - 1) * first)] : positive;
     *high = count ? (double)values[(size_t)((double)(count - 1) * last + 0.5)] : 1;
     free(values);

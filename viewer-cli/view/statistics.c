@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "args.h"
+#include "glint/sort.h"
 #include "table.h"
 
 enum { BAR_COLUMNS = 40 };
@@ -18,11 +19,6 @@ struct channel {
     size_t count, nan, above, below, zero; /* above, below: +inf, -inf */
     double sum, sum2;
 };
-
-static int ascending(const void *a, const void *b) {
-    const float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
 
 static bool gather(struct channel *c, const struct source *s, uint32_t k, struct glint_error *err) {
     const size_t texels = (size_t)s->width * s->height;
@@ -39,7 +35,7 @@ static bool gather(struct channel *c, const struct source *s, uint32_t k, struct
         c->sum += (double)v;
         c->sum2 += (double)v * (double)v;
     }
-    qsort(c->sorted, c->count, sizeof *c->sorted, ascending);
+    glint_sort_floats(c->sorted, c->count);
     return true;
 }
 
