@@ -11,7 +11,7 @@
 struct arguments {
     struct blame blame;
     struct pipeline_args pipeline;
-    const char *metric, *device;
+    const char *metric;
     bool json;
 };
 
@@ -34,12 +34,7 @@ static const struct argp_option options[] = {
     {"permutations", KEY_PERMUTATIONS, "N",       0, "At most so many (default 200)", 0},
     {"seed",      KEY_SEED,      "N",             0, "Of the permutations (default 1)", 0},
     {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds, in turns: each pipeline once a round (default 3; 0: no times)", 0},
-    {"preset",    'p',           "NAME|FILE",     0, "The pipeline: a preset's name or a JSON file (default mafia3)", 0},
-    {"use",       KEY_USE,       "SLOT=VARIANT",  0, "Use this variant of a slot; none leaves the slot out", 0},
-    {"set",       KEY_SET,       "SLOT.PARAM=VALUE", 0, "Set a parameter; glint passes SLOT lists them", 0},
-    {"shader",    KEY_SHADER,    "SLOT=FILE",     0, "Compile the slot's shader from this file instead", 0},
-    {"all",       KEY_ALL,       NULL,            0, "Run every pass, even one that has nothing to do", 0},
-    {"device",    'd',           "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    WHOLE_PIPELINE_OPTIONS("The pipeline"),
     {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/shares.json", 0},
     {0},
 };
@@ -104,9 +99,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     case 'j':
         a->json = true;
         return 0;
-    case 'd':
-        a->device = arg;
-        return 0;
     case KEY_METRIC:
         a->metric = arg;
         return 0;
@@ -143,7 +135,6 @@ static bool choose_metric(struct arguments *a, struct glint_error *err) {
 }
 
 static bool begin(struct arguments *a, struct glint_error *err) {
-    const struct glint_device_options device = {.select = a->device};
     struct blame *blame = &a->blame;
     blame->all = a->pipeline.replay.all;
     if (!choose_metric(a, err)) return false;
@@ -152,7 +143,7 @@ static bool begin(struct arguments *a, struct glint_error *err) {
         return false;
     if (!(blame->players = glint_players_create(blame->base, blame->player_rays, err))) return false;
     blame->count = glint_players_count(blame->players);
-    return (blame->device = glint_device_create(&device, err)) && blame_open(blame, &a->pipeline.shader, err);
+    return (blame->device = pipeline_args_device(&a->pipeline, err)) && blame_open(blame, &a->pipeline.shader, err);
 }
 
 static bool write_json(const struct blame *blame, struct glint_error *err) {

@@ -11,7 +11,7 @@
 
 struct arguments {
     struct pipeline_args pipeline;
-    const char *capture, *device;
+    const char *capture;
     uint32_t rounds; /* 0: nothing is measured */
     bool json, dot;
 };
@@ -22,7 +22,6 @@ enum { KEY_DOT = 256, KEY_MEASURE };
 static const struct argp_option options[] = {
     PIPELINE_OPTIONS,
     {"measure", KEY_MEASURE, "N", 0, "Time what the plan saves on the device: as planned and with --all, N rounds in turns", 0},
-    {"device", 'd', "INDEX|NAME", 0, "The Vulkan device of --measure; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
     {"json", 'j', NULL, 0, "Print JSON", 0},
     {"dot", KEY_DOT, NULL, 0, "Print the graph of passes and images for Graphviz", 0},
     {0},
@@ -50,9 +49,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_MEASURE:
         a->rounds = arg_uint("measure", arg, 1, 100000, state);
-        return 0;
-    case 'd':
-        a->device = arg;
         return 0;
     case ARGP_KEY_ARG:
         if (a->capture) argp_error(state, "one capture at a time: %s and %s", a->capture, arg);
@@ -215,7 +211,7 @@ static enum status run(int argc, char **argv) {
     struct glint_pipeline *pipeline = pipeline_args_create(&a.pipeline, &err);
     const char *path = pipeline ? pipe_input(&pipe, a.capture, &err) : NULL;
     struct glint_capture *capture = path ? glint_capture_open(path, NULL, &err) : NULL;
-    if (capture && a.rounds) device = glint_device_create(&(struct glint_device_options){.select = a.device}, &err);
+    if (capture && a.rounds) device = pipeline_args_device(&a.pipeline, &err);
     if (capture && (device || !a.rounds)) replay = glint_replay_create(device, &err);
     if (replay && glint_replay_load(replay, capture, &err)) status = plan(&a, pipeline, replay);
     else status = command_fail(&cmd_plan, &err);

@@ -2,13 +2,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "pipe.h"
-#include "pipeline_args.h"
+#include "opened.h"
 #include "probe/probe.h"
 
 struct arguments {
     struct pipeline_args pipeline;
-    const char *capture, *out, *device;
+    const char *capture, *out;
     uint32_t pixel[2];
     bool has_pixel, json, alone;
 };
@@ -20,7 +19,6 @@ static const struct argp_option options[] = {
     {"output",  'o',         "FILE.svg",      0, "Draw the ray over the depths that it crossed: in the picture, and in each cube map", 0},
     {"alone",   KEY_ALONE,   NULL,            0, "Leave the reference out (screen_trace/dda and cubemap_trace/exact on the same ray)", 0},
     PIPELINE_OPTIONS,
-    {"device",  'd',         "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
     {"json",    'j',         NULL,            0, "Print JSON", 0},
     {0},
 };
@@ -47,9 +45,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case 'j':
         a->json = true;
-        return 0;
-    case 'd':
-        a->device = arg;
         return 0;
     case KEY_ALONE:
         a->alone = true;
@@ -106,39 +101,31 @@ static enum status report(const struct arguments *a, const struct probe *probe, 
     return STATUS_DONE;
 }
 
-static enum status tell(const struct arguments *a, struct glint_device *device, const struct glint_pipeline *pipeline,
-                        const char *path, struct glint_error *err) {
+static enum status tell(const struct arguments *a, struct opened *opened, struct glint_error *err) {
+    const struct glint_pipeline *pipeline = opened->pipeline;
     struct probe probe = {.capture = a->capture,
                           .preset = glint_pipeline_name(pipeline),
-                          .device = glint_device_get_info(device)->name,
+                          .device = glint_device_get_info(opened->device)->name,
                           .pixel = {a->pixel[0], a->pixel[1]}};
     const struct glint_replay_options wanted = pipeline_args_options(&a->pipeline);
-    struct glint_capture *capture = glint_capture_open(path, NULL, err);
-    struct glint_replay *replay = capture ? glint_replay_create(device, err) : NULL;
-    const bool ok = replay && glint_replay_load(replay, capture, err) &&
+    struct glint_replay *replay = opened->replay;
+    const bool ok = glint_replay_load(replay, opened->capture, err) &&
                     probe_run(&probe, &probe.own, replay, pipeline, &wanted, err) &&
                     run_reference(a, &probe, replay, pipeline, &wanted, err);
     const enum status status = ok ? report(a, &probe, err) : command_fail(&cmd_probe, err);
     probe_side_finish(&probe.own);
     probe_side_finish(&probe.reference);
-    glint_replay_destroy(&replay);
-    glint_capture_close(&capture);
     return status;
 }
 
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
-    struct pipe pipe;
+    struct opened opened = {0};
     command_parse(&cmd_probe, argc, argv, &a);
-    const struct glint_device_options select = {.select = a.device};
-    const char *path = pipe_input(&pipe, a.capture, &err);
-    struct glint_pipeline *pipeline = path ? pipeline_args_create(&a.pipeline, &err) : NULL;
-    struct glint_device *device = pipeline ? glint_device_create(&select, &err) : NULL;
-    const enum status status = device ? tell(&a, device, pipeline, path, &err) : command_fail(&cmd_probe, &err);
-    if (device) glint_device_destroy(&device);
-    if (pipeline) glint_pipeline_destroy(&pipeline);
-    pipe_finish(&pipe);
+    const bool ok = opened_init(&opened, &a.pipeline, a.capture, &err);
+    const enum status status = ok ? tell(&a, &opened, &err) : command_fail(&cmd_probe, &err);
+    opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     return status;
 }

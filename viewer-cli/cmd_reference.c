@@ -3,14 +3,13 @@
 #include <string.h>
 
 #include "glint/reference.h"
-#include "pipe.h"
-#include "pipeline_args.h"
+#include "opened.h"
 #include "progress.h"
 #include "table.h"
 
 struct arguments {
     struct pipeline_args pipeline;
-    const char *capture, *out, *device, *like;
+    const char *capture, *out, *like;
     uint32_t rays, sensitivity;
     double noise;
     bool anew, json;
@@ -28,11 +27,11 @@ static const struct argp_option options[] = {
     {"sensitivity", KEY_SENSITIVITY, "RAYS", OPTION_ARG_OPTIONAL, "Also trace it with each thing that it must assume, such as how thick "
         "objects are, halved and doubled, with so many rays a pixel each (default 32)", 0},
     {"like",        KEY_LIKE,        "NAME|FILE", 0, "The reference of this preset: of the lobe that it draws from and with its fog", 0},
-    {"use",         KEY_USE,         "SLOT=VARIANT", 0, "Use this variant of a slot", 0},
+    USE_OPTION,
     {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as resolve.fog=false for comparisons with the truth, which has no fog", 0},
-    {"all",         KEY_ALL,         NULL,   0, "Run every pass, even one that has nothing to do", 0},
+    ALL_OPTION,
     {"anew",        KEY_ANEW,        NULL,   0, "Replace what the folder holds", 0},
-    {"device",      'd',             "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    DEVICE_OPTION,
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
@@ -59,9 +58,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     switch (key) {
     case 'o':
         a->out = arg;
-        return 0;
-    case 'd':
-        a->device = arg;
         return 0;
     case 'j':
         a->json = true;
@@ -225,9 +221,10 @@ static void print_all(const struct glint_reference *reference, const struct argu
     else puts("\nnothing written (-o RUN keeps it)");
 }
 
-static enum status trace(const struct arguments *a, struct glint_device *device, struct glint_replay *replay,
-                         const struct glint_pipeline *pipeline, struct glint_capture *capture,
-                         struct glint_error *err) {
+static enum status trace(const struct arguments *a, const struct opened *opened, struct glint_error *err) {
+    struct glint_replay *replay = opened->replay;
+    struct glint_capture *capture = opened->capture;
+    const struct glint_pipeline *pipeline = opened->pipeline;
     const struct glint_reference_options options = {.folder = a->out, .anew = a->anew, .all = a->pipeline.replay.all};
     struct glint_reference_sensitivity sensitivity = {0};
     struct missing missing = {0};
@@ -244,7 +241,7 @@ static enum status trace(const struct arguments *a, struct glint_device *device,
     progress_end(&progress);
     if (!ok) status = command_fail(&cmd_reference, err);
     else if (a->json) status = print_as_json(reference, a, &missing);
-    else print_all(reference, a, glint_device_get_info(device), &missing, &sensitivity);
+    else print_all(reference, a, glint_device_get_info(opened->device), &missing, &sensitivity);
     if (reference && status == STATUS_INTERRUPTED && a->out)
         command_note(&cmd_reference, "%u rays a pixel are kept in %s; the same call goes on from there",
                      glint_reference_state(reference)->rays, a->out);
@@ -269,24 +266,10 @@ static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_reference, argc, argv, &a);
     struct glint_error err = {0};
-    const struct glint_device_options device_options = {.select = a.device};
-    struct glint_device *device = NULL;
-    struct glint_replay *replay = NULL;
-    struct glint_capture *capture = NULL;
-    struct pipe pipe = {0};
-    const char *file = NULL;
-    struct glint_pipeline *pipeline = create_pipeline(&a, &err);
-    if (pipeline) file = pipe_input(&pipe, a.capture, &err);
-    if (file) capture = glint_capture_open(file, NULL, &err);
-    if (capture) device = glint_device_create(&device_options, &err);
-    if (device) replay = glint_replay_create(device, &err);
-    enum status status =
-        replay ? trace(&a, device, replay, pipeline, capture, &err) : command_fail(&cmd_reference, &err);
-    glint_replay_destroy(&replay);
-    glint_device_destroy(&device);
-    glint_capture_close(&capture);
-    pipe_finish(&pipe);
-    glint_pipeline_destroy(&pipeline);
+    struct opened opened = {.pipeline = create_pipeline(&a, &err)};
+    const bool ok = opened.pipeline && opened_init(&opened, &a.pipeline, a.capture, &err);
+    const enum status status = ok ? trace(&a, &opened, &err) : command_fail(&cmd_reference, &err);
+    opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     return status;
 }

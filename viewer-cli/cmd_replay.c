@@ -15,7 +15,7 @@
 struct arguments {
     struct pipeline_args pipeline;
     struct list captures;
-    const char *out, *device, *cache;
+    const char *out, *cache;
     bool json, watch;
     struct against against;
 };
@@ -28,7 +28,6 @@ static const struct argp_option options[] = {
         "RUN/NAME for each, in their order; frames that an interrupted replay with the same settings completed are kept. "
         "Without it nothing is written, only measured", 0},
     PIPELINE_OPTIONS,
-    {"device",      'd',             "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
     {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round, not warmed up)", 0},
     {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before the timed ones of --repeat (default 1)", 0},
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
@@ -78,9 +77,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case 'j':
         a->json = true;
-        return 0;
-    case 'd':
-        a->device = arg;
         return 0;
     case KEY_REPEAT:
         r->repeat = arg_uint("repeat", arg, 1, 100000, state);
@@ -389,10 +385,9 @@ static enum status run(int argc, char **argv) {
     a.pipeline.replay.cache = cache;
     struct job job = {.a = &a, .against = &a.against};
     struct glint_error err = {0};
-    struct glint_device_options device_options = {.select = a.device};
     enum status status;
     job.pipeline = a.watch ? NULL : pipeline_args_create(&a.pipeline, &err);
-    if (job.pipeline || a.watch) job.device = glint_device_create(&device_options, &err);
+    if (job.pipeline || a.watch) job.device = pipeline_args_device(&a.pipeline, &err);
     if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
     if (job.device && a.watch) {
         status = watch_run(&(struct watch){&cmd_replay, &a.pipeline, a.captures.items[0], a.out, cache, job.device});

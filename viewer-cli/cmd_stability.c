@@ -1,6 +1,5 @@
 /* glint stability: how far the rounding of a capture's values moves each pixel, and in which pass that begins. */
-#include "pipe.h"
-#include "pipeline_args.h"
+#include "opened.h"
 #include "progress.h"
 #include "stability/stability.h"
 
@@ -8,7 +7,7 @@ struct arguments {
     struct pipeline_args pipeline;
     struct list inputs;
     struct glint_stability_options options;
-    const char *capture, *out, *device;
+    const char *capture, *out;
     double fail_above, fail_percent;
     bool fails, json;
 };
@@ -24,13 +23,8 @@ static const struct argp_option options[] = {
     {"bound",   KEY_BOUND,   "X",             0, "Amplification above X is ill-conditioned (default 10, or what --fail-above says)", 0},
     {"fail-above", KEY_FAIL_ABOVE, "X",       0, "Exit with 1 when the amplification of a pixel is above X in any pass", 0},
     {"fail-percent", KEY_FAIL_PERCENT, "P",   0, "With --fail-above: when that holds for more than P per cent of a pass's pixels (default 0)", 0},
-    {"preset",  'p',         "NAME|FILE",     0, "The pipeline: a preset's name or a JSON file (default mafia3)", 0},
-    {"use",     KEY_USE,     "SLOT=VARIANT",  0, "Use this variant of a slot; none leaves the slot out", 0},
-    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter; glint passes SLOT lists them", 0},
-    {"shader",  KEY_SHADER,  "SLOT=FILE",     0, "Compile the slot's shader from this file instead", 0},
-    {"all",     KEY_ALL,     NULL,            0, "Run every pass, even one that has nothing to do", 0},
-    {"skip",    KEY_SKIP,    "SLOT,...",      0, "Never run these", 0},
-    {"device",  'd',         "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    WHOLE_PIPELINE_OPTIONS("The pipeline"),
+    SKIP_OPTION,
     {"json",    'j',         NULL,            0, "Print JSON", 0},
     {0},
 };
@@ -63,9 +57,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case 'j':
         a->json = true;
-        return 0;
-    case 'd':
-        a->device = arg;
         return 0;
     case KEY_SEEDS:
         a->options.seeds = arg_uint("seeds", arg, 1, 255, state);
@@ -122,45 +113,35 @@ static enum status report(const struct arguments *a, const struct stability_repo
     return status != STATUS_DONE ? status : check(a, found->stability);
 }
 
-static enum status measure(struct arguments *a, struct glint_device *device, const struct glint_pipeline *pipeline,
-                           const char *path, struct glint_error *err) {
+static enum status measure(struct arguments *a, struct opened *opened, struct glint_error *err) {
     struct glint_stability stability = {0};
     struct progress progress;
-    struct glint_capture *capture = glint_capture_open(path, NULL, err);
-    struct glint_replay *replay = capture ? glint_replay_create(device, err) : NULL;
     a->options.inputs = list_or_null(&a->inputs);
     a->options.all = a->pipeline.replay.all;
     a->options.skip = list_or_null(&a->pipeline.skip);
     progress_begin(&progress);
-    const bool ok = replay && glint_stability_measure(replay, capture, pipeline, &a->options, progress_report,
-                                                      &progress, &stability, err);
+    const bool ok = glint_stability_measure(opened->replay, opened->capture, opened->pipeline, &a->options,
+                                            progress_report, &progress, &stability, err);
     progress_end(&progress);
     const struct stability_report found = {.stability = &stability,
                                            .capture = a->capture,
-                                           .preset = glint_pipeline_name(pipeline),
-                                           .device = glint_device_get_info(device)->name,
+                                           .preset = glint_pipeline_name(opened->pipeline),
+                                           .device = glint_device_get_info(opened->device)->name,
                                            .inputs = a->options.inputs,
                                            .half = a->options.half};
     const enum status status = ok ? report(a, &found) : command_fail(&cmd_stability, err);
     glint_stability_finish(&stability);
-    if (replay) glint_replay_destroy(&replay);
-    glint_capture_close(&capture);
     return status;
 }
 
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
-    struct pipe pipe;
+    struct opened opened = {0};
     command_parse(&cmd_stability, argc, argv, &a);
-    const struct glint_device_options select = {.select = a.device};
-    const char *path = pipe_input(&pipe, a.capture, &err);
-    struct glint_pipeline *pipeline = path ? pipeline_args_create(&a.pipeline, &err) : NULL;
-    struct glint_device *device = pipeline ? glint_device_create(&select, &err) : NULL;
-    const enum status status = device ? measure(&a, device, pipeline, path, &err) : command_fail(&cmd_stability, &err);
-    if (device) glint_device_destroy(&device);
-    if (pipeline) glint_pipeline_destroy(&pipeline);
-    pipe_finish(&pipe);
+    const bool ok = opened_init(&opened, &a.pipeline, a.capture, &err);
+    const enum status status = ok ? measure(&a, &opened, &err) : command_fail(&cmd_stability, &err);
+    opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     list_free(&a.inputs);
     return status;

@@ -13,7 +13,7 @@ struct arguments {
     struct sweep sweep;
     struct pipeline_args pipeline;
     struct list axes;
-    const char *sample, *metric, *device;
+    const char *sample, *metric;
     uint32_t hypercube, seed;
     bool json;
 };
@@ -34,12 +34,7 @@ static const struct argp_option options[] = {
     {"rays",      KEY_RAYS,      "N",             0, "Rays a pixel of the reference that is traced (default 64)", 0},
     {"metric",    KEY_METRIC,    "NAME",          0, "The error of fronts (default rmse); there are ", 0},
     {"no-pictures", KEY_NO_PICTURES, NULL,        0, "Leave the pictures out", 0},
-    {"preset",    'p',           "NAME|FILE",     0, "The pipeline that is varied: a preset's name or a JSON file (default mafia3)", 0},
-    {"use",       KEY_USE,       "SLOT=VARIANT",  0, "Use this variant of a slot in every point", 0},
-    {"set",       KEY_SET,       "SLOT.PARAM=VALUE", 0, "Set a parameter in every point; glint passes SLOT lists them", 0},
-    {"shader",    KEY_SHADER,    "SLOT=FILE",     0, "Compile the slot's shader from this file instead", 0},
-    {"all",       KEY_ALL,       NULL,            0, "Run every pass, even one that has nothing to do", 0},
-    {"device",    'd',           "INDEX|NAME",    0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    WHOLE_PIPELINE_OPTIONS("The pipeline that is varied"),
     {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/points.json", 0},
     {0},
 };
@@ -80,9 +75,6 @@ static error_t parse_answer(int key, char *arg, struct argp_state *state, struct
     case KEY_METRIC:
         a->metric = arg;
         return 0;
-    case 'd':
-        a->device = arg;
-        return 0;
     case ARGP_KEY_ARG:
         list_add(&a->sweep.captures, arg, state);
         return 0;
@@ -93,7 +85,8 @@ static error_t parse_answer(int key, char *arg, struct argp_state *state, struct
         answer_args_check(&a->sweep.against, a->sweep.captures.count, state);
         return 0;
     }
-    return answer_args_parse(key, arg, state, &a->sweep.against);
+    if (answer_args_parse(key, arg, state, &a->sweep.against) == 0) return 0;
+    return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
 static error_t parse(int key, char *arg, struct argp_state *state) {
@@ -123,12 +116,6 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     case KEY_NO_PICTURES:
         a->sweep.pictures = false;
         return 0;
-    case 'p':
-    case KEY_USE:
-    case KEY_SET:
-    case KEY_SHADER:
-    case KEY_ALL:
-        return pipeline_args_parse(key, arg, state, &a->pipeline);
     }
     return parse_answer(key, arg, state, a);
 }
@@ -179,7 +166,6 @@ static bool sort_points(struct sweep *sweep, struct glint_error *err) {
 }
 
 static bool begin(struct arguments *a, struct glint_error *err) {
-    const struct glint_device_options device = {.select = a->device};
     struct sweep *sweep = &a->sweep;
     for (size_t i = 0; i < a->axes.count; i++)
         if (!check_names(a->axes.items[i], err) || !check_variants(a->axes.items[i], err)) return false;
@@ -192,7 +178,7 @@ static bool begin(struct arguments *a, struct glint_error *err) {
     char sample[64] = "grid";
     if (a->hypercube) snprintf(sample, sizeof sample, "lhs:%u seed %u", a->hypercube, a->seed);
     sweep->points = sweep->space ? glint_space_count(sweep->space) : 0;
-    return sweep->space && sort_points(sweep, err) && (sweep->device = glint_device_create(&device, err)) &&
+    return sweep->space && sort_points(sweep, err) && (sweep->device = pipeline_args_device(&a->pipeline, err)) &&
            sweep_open(sweep, a->axes.items, sample, &a->pipeline.shader, err);
 }
 

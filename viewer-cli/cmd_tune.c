@@ -11,7 +11,7 @@
 struct arguments {
     struct tune tune;
     struct pipeline_args pipeline;
-    const char *metric, *device, *budget_ms, *budget_fetches, *error, *cost;
+    const char *metric, *budget_ms, *budget_fetches, *error, *cost;
     bool json;
 };
 
@@ -62,12 +62,7 @@ static const struct argp_option options[] = {
                                                     "in the capture (default: a reference traced once and kept in the folder)", 0},
     {"rays",      KEY_RAYS,      "N",            0, "Rays a pixel of the reference that is traced (default 64)", 0},
     {"metric",    KEY_METRIC,    "NAME",         0, "The error, mean over the captures (default rmse); there are ", 0},
-    {"preset",    'p',           "NAME|FILE",    0, "The start: a preset's name or a JSON file (default mafia3)", 0},
-    {"use",       KEY_USE,       "SLOT=VARIANT", 0, "Use this variant of a slot in the start", 0},
-    {"set",       KEY_SET,       "SLOT.PARAM=VALUE", 0, "Set a parameter of the start; glint passes SLOT lists them", 0},
-    {"shader",    KEY_SHADER,    "SLOT=FILE",    0, "Compile the slot's shader from this file instead", 0},
-    {"all",       KEY_ALL,       NULL,           0, "Run every pass, even one that has nothing to do", 0},
-    {"device",    'd',           "INDEX|NAME",   0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    WHOLE_PIPELINE_OPTIONS("The start"),
     {"json",      'j',           NULL,           0, "Print JSON", 0},
     {0},
 };
@@ -121,19 +116,11 @@ static error_t parse_search(int key, char *arg, struct argp_state *state, struct
     case KEY_METRIC:
         a->metric = arg;
         return 0;
-    case 'd':
-        a->device = arg;
-        return 0;
     case KEY_SHADER:
         list_add(&tune->shaders, arg, state);
-        return pipeline_args_parse(key, arg, state, &a->pipeline);
-    case 'p':
-    case KEY_USE:
-    case KEY_SET:
-    case KEY_ALL:
-        return pipeline_args_parse(key, arg, state, &a->pipeline);
+        break;
     }
-    return ARGP_ERR_UNKNOWN;
+    return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
 /* "0.3" or "50%" */
@@ -227,13 +214,12 @@ static bool choose_metric(struct arguments *a, struct glint_error *err) {
 }
 
 static bool begin(struct arguments *a, struct glint_error *err) {
-    const struct glint_device_options device = {.select = a->device};
     struct tune *tune = &a->tune;
     tune->all = a->pipeline.replay.all;
     for (size_t i = 0; i < tune->slots.count; i++)
         if (!check_slot(tune->slots.items[i], strlen(tune->slots.items[i]), err)) return false;
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err)) ||
-        !(tune->device = glint_device_create(&device, err)) || !glint_make_folder(tune->folder, err) ||
+        !(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
         !tune_load(tune, err) || !tune_make_axes(tune, err))
         return false;
     if (!tune->axis_count) return glint_fail(err, GLINT_ERROR_USAGE, "nothing that may move makes a difference here");

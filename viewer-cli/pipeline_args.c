@@ -1,4 +1,4 @@
-/* The options that plan and replay share. */
+/* The options of commands that run pipelines. */
 #include "pipeline_args.h"
 
 #include <string.h>
@@ -9,6 +9,9 @@ error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct
     switch (key) {
     case 'p':
         args->preset = arg;
+        return 0;
+    case 'd':
+        args->device = arg;
         return 0;
     case KEY_INPUTS:
         args->replay.inputs = arg;
@@ -83,6 +86,10 @@ struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, st
     struct glint_pipeline *pipeline = glint_pipeline_create(args->preset ? args->preset : "mafia3", err);
     if (pipeline && !pipeline_args_apply(args, pipeline, err)) glint_pipeline_destroy(&pipeline);
     return pipeline;
+}
+
+struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err) {
+    return glint_device_create(&(struct glint_device_options){.select = args->device}, err);
 }
 
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args) {
