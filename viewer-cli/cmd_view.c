@@ -265,11 +265,10 @@ static bool show_one(struct picture *picture, struct arguments *a, struct glint_
     size_t invalid = 0;
     bool ok = source_open(&source, &a->choice, err);
     a->statistics.range = a->render.falsecolor;
-    a->choice.image = a->levels ? source.title : a->choice.image; /* the path may have named it */
     if (ok && (a->statistics.table || a->statistics.histogram)) ok = statistics_print(&source, &a->statistics, err);
     if (ok && a->tev) ok = tev_send(a->tev, source.title, &source, err);
     if (ok && (a->out || a->terminal))
-        ok = a->levels ? render_levels(picture, &a->choice, &a->render, &invalid, err)
+        ok = a->levels ? render_levels(picture, &source, &a->choice, &a->render, &invalid, err)
                        : render(picture, &source, &a->render, &invalid, err);
     if (invalid) command_note(&cmd_view, "%s: %zu pixels are NaN or infinite, shown in magenta", source.title, invalid);
     source_finish(&source);

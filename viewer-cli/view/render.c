@@ -89,41 +89,38 @@ bool render(struct picture *picture, const struct source *source, const struct r
 
 enum { LEVELS_MAX = 16 };
 
-/* One level; false without an error when the chain has no such level. */
-static bool level(struct picture *picture, struct legend *legend, const struct source_choice *choice, uint32_t number,
-                  const struct render_options *options, size_t *invalid, struct glint_error *err) {
+/* One of the coarser levels; false without an error when the chain has no such level. */
+static bool level(struct picture *picture, const struct source_choice *choice, const struct source *finest,
+                  size_t number, const struct render_options *options, size_t *invalid, struct glint_error *err) {
     char name[300];
     struct source_choice of_level = *choice;
     struct source source;
+    struct legend unused;
     struct glint_error none = {0};
     size_t found = 0;
-    snprintf(name, sizeof name, "%s.level%u", choice->image, number);
-    if (number) of_level.image = name;
-    if (!source_open(&source, &of_level, number ? &none : err)) return false;
-    const bool ok = render_plain(picture, legend, &source, options, &found, err);
+    snprintf(name, sizeof name, "%.280s.level%zu", finest->title, number);
+    of_level.image = name;
+    if (!source_open(&source, &of_level, &none)) return false;
+    const bool ok = render_plain(picture, &unused, &source, options, &found, err);
     *invalid += found;
     source_finish(&source);
     return ok;
 }
 
-bool render_levels(struct picture *picture, const struct source_choice *choice, const struct render_options *options,
-                   size_t *invalid, struct glint_error *err) {
+bool render_levels(struct picture *picture, const struct source *finest, const struct source_choice *choice,
+                   const struct render_options *options, size_t *invalid, struct glint_error *err) {
     struct picture levels[LEVELS_MAX] = {{0}};
     struct render_options same = *options;
-    struct legend legend, other;
-    size_t count = 0;
-    *invalid = 0;
-    while (count < LEVELS_MAX &&
-           level(&levels[count], count ? &other : &legend, choice, (uint32_t)count, &same, invalid, err)) {
-        if (!count++) {
-            same.falsecolor.range_given = legend.low < legend.high;
-            same.falsecolor.low = legend.low;
-            same.falsecolor.high = legend.high;
-        }
-    }
-    bool ok = count > 0 && err->code == GLINT_OK;
+    struct legend legend;
+    size_t count = 1;
+    bool ok = render_plain(&levels[0], &legend, finest, options, invalid, err);
+    same.falsecolor.range_given = legend.low < legend.high;
+    same.falsecolor.low = legend.low;
+    same.falsecolor.high = legend.high;
+    while (ok && count < LEVELS_MAX && level(&levels[count], choice, finest, count, &same, invalid, err)) count++;
+    ok = ok && err->code == GLINT_OK;
     if (ok && count == 1)
-        ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: image %s has one level", choice->path, choice->image);
+        ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: image %s has one level", choice->path, finest->title);
     ok = ok && picture_chain(picture, levels, count, err) && finish(picture, &legend, options, err);
     for (size_t i = 0; i < LEVELS_MAX; i++) picture_finish(&levels[i]);
     return ok;

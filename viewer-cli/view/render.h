@@ -29,9 +29,9 @@ bool render_range(const struct source *source, const struct render_options *opti
 bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
             struct glint_error *err);
 
-/* A run's image and its coarser levels on one picture, by one range of values. */
-bool render_levels(struct picture *picture, const struct source_choice *choice, const struct render_options *options,
-                   size_t *invalid, struct glint_error *err);
+/* A run's image, which is open, and its coarser levels on one picture, by one range of values. */
+bool render_levels(struct picture *picture, const struct source *finest, const struct source_choice *choice,
+                   const struct render_options *options, size_t *invalid, struct glint_error *err);
 
 /* All images of a run, or those of a NULL-terminated list, in rows of one width, each with its name or legend below.
    Several runs: a row for each image of the first, a column for each run, one range of values in a row. */
