@@ -57,4 +57,20 @@ bool trial_cases(const struct trial_list *const *lists, size_t count, const stru
 size_t trial_count(const struct trial_list *const *lists, size_t count);
 struct selftest_case trial_get(const struct trial_list *const *lists, size_t i);
 
+/* A group that is lists of trials. */
+#define TRIAL_GROUP(group, name, what, ...)                                                                            \
+    static const struct trial_list *const lists[] = {__VA_ARGS__};                                                     \
+    enum { LISTS = sizeof lists / sizeof *lists };                                                                     \
+    static size_t count(void) {                                                                                        \
+        return trial_count(lists, LISTS);                                                                              \
+    }                                                                                                                  \
+    static struct selftest_case get(size_t i) {                                                                        \
+        return trial_get(lists, i);                                                                                    \
+    }                                                                                                                  \
+    static bool run(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,                \
+                    struct glint_error *err) {                                                                         \
+        return trial_cases(lists, LISTS, test, chosen, findings, err);                                                 \
+    }                                                                                                                  \
+    const struct selftest_group group = {name, what, count, get, run}
+
 #endif
