@@ -58,12 +58,6 @@ static bool share_memory(struct run *run, struct glint_error *err) {
     return ok;
 }
 
-bool image_own_memory(struct image *image, struct glint_device *device, struct glint_error *err) {
-    const VkMemoryRequirements need = image_requirements(device, image);
-    struct block *block = block_create(device, &need, image->name, err);
-    return block && image_bind(image, device, block, err);
-}
-
 bool run_allocate(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     struct image *taken = NULL, **end = &taken;

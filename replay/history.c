@@ -5,10 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-bool image_is_history(const struct image *image) {
-    return strncmp(image->name, HISTORY_PREFIX, strlen(HISTORY_PREFIX)) == 0;
-}
-
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next) {
     const bool follows = replay->loaded && replay->ran && next->number == replay->number + 1;
     for (struct image *image = replay->images; image; image = image->next) image->transient |= image_is_history(image);

@@ -202,6 +202,12 @@ bool image_bind(struct image *image, struct glint_device *device, struct block *
            (!layered || create_view(image, device, kind, 0, image->desc.levels, &image->faces_view, err));
 }
 
+bool image_own_memory(struct image *image, struct glint_device *device, struct glint_error *err) {
+    const VkMemoryRequirements need = image_requirements(device, image);
+    struct block *block = block_create(device, &need, image->name, err);
+    return block && image_bind(image, device, block, err);
+}
+
 void image_destroy(struct image **pointer, struct glint_device *device) {
     struct image *image = *pointer;
     *pointer = NULL;

@@ -82,6 +82,7 @@ struct block *block_create(struct glint_device *device, const VkMemoryRequiremen
                            struct glint_error *err);
 /* Binds and makes the views. A block frees itself with its last image. */
 bool image_bind(struct image *image, struct glint_device *device, struct block *block, struct glint_error *err);
+bool image_own_memory(struct image *image, struct glint_device *device, struct glint_error *err);
 /* Under another name the image is another one. */
 void image_rename(struct image *image, const char *name);
 uint64_t image_memory_bytes(const struct image *image); /* of its own, 0 when it has none or shares it */

@@ -4,6 +4,10 @@
 
 #include <string.h>
 
+bool image_is_history(const struct image *image) {
+    return strncmp(image->name, HISTORY_PREFIX, strlen(HISTORY_PREFIX)) == 0;
+}
+
 /* What another lineage's next frame will remember is not for this run to take. */
 static bool fits(const struct image *image, const struct run *run, const char *name, const struct image_desc *desc) {
     return !image->used && strcmp(image->name, name) == 0 && image_desc_equal(&image->desc, desc) &&

@@ -149,14 +149,12 @@ uint32_t list_blocks(const struct frame_sizes *sizes);
 uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */
 
 /* history.c: what is left of the frame before. */
-bool image_is_history(const struct image *image);
 bool replay_has_history(const struct glint_replay *replay);
 void replay_age_images(struct glint_replay *replay, const struct glint_frame *next);
 bool run_history(struct run *run, struct glint_error *err);
 
 /* allocate.c: images and their memory. */
 bool run_allocate(struct run *run, struct glint_error *err);
-bool image_own_memory(struct image *image, struct glint_device *device, struct glint_error *err);
 
 /* keep.c: images of earlier runs. One that fits, out of the list; those in the list beyond what may be kept, the ones
    not used for longest first; those that serve no later run, or all. */
@@ -164,6 +162,8 @@ struct image *replay_take_image(struct glint_replay *replay, const struct run *r
                                 const struct image_desc *desc);
 void replay_trim_images(struct glint_replay *replay, uint64_t keep_bytes);
 void replay_drop_images(struct glint_replay *replay, bool all);
+/* What the frame before left. */
+bool image_is_history(const struct image *image);
 /* The image becomes the run's number i. */
 void run_adopt(struct run *run, size_t i, struct image *image);
 /* Once the keys are known: images that hold what is wanted take the place of those that do not. Once it is known what will

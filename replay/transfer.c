@@ -1,5 +1,11 @@
 /* Copies between images and host memory, and fills. */
-#include "image.h"
+#include "state.h"
+
+bool replay_staging(struct glint_replay *replay, VkDeviceSize size, struct glint_error *err) {
+    if (replay->staging.size >= size) return true;
+    host_buffer_finish(&replay->staging, replay->device);
+    return host_buffer_init(&replay->staging, replay->device, HOST_BUFFER_UPLOAD, size, "staging", err);
+}
 
 static VkBufferImageCopy some_layers(const struct image *image, VkDeviceSize offset, uint32_t level, uint32_t first,
                                      uint32_t count) {

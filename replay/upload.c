@@ -12,12 +12,6 @@
 #include "parallel.h"
 #include "timing.h"
 
-bool replay_staging(struct glint_replay *replay, VkDeviceSize size, struct glint_error *err) {
-    if (replay->staging.size >= size) return true;
-    host_buffer_finish(&replay->staging, replay->device);
-    return host_buffer_init(&replay->staging, replay->device, HOST_BUFFER_UPLOAD, size, "staging", err);
-}
-
 /* Conversion of interleaved 32-bit values to an image's texels. */
 struct packing {
     const uint32_t *from; /* float or uint bits */

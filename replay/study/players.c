@@ -10,12 +10,6 @@
 /* Rays of the reference are told apart from those of what is compared with it by their numbers. */
 enum { FIRST_RAY = 1 << 19 };
 
-const struct exchange *players_slot(const struct glint_players *players, const char *slot) {
-    for (size_t i = 0; i < players->slot_count; i++)
-        if (strcmp(players->slots[i].slot, slot) == 0) return &players->slots[i];
-    return NULL;
-}
-
 const char *players_owner(const struct glint_players *players, const char *slot, const char *parameter) {
     const struct glint_pipeline *reference = players->pipeline[MODE_REFERENCE];
     for (size_t i = 0; i < reference->count; i++)

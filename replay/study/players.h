@@ -33,14 +33,15 @@ struct glint_players {
     size_t count;
 };
 
-const struct exchange *players_slot(const struct glint_players *players, const char *slot);
 static inline const struct glint_pass *exchange_pass(const struct exchange *slot, int mode) {
     return slot->entry[mode] ? slot->entry[mode]->pass : NULL;
 }
 /* The slot whose reference a parameter belongs to: its own, or one that declares it. */
 const char *players_owner(const struct glint_players *players, const char *slot, const char *parameter);
 
-/* players_group.c: sets matters, depth and group of all slots whose `differs` is known. */
+/* players_group.c. The slot of that name; NULL: none. */
+const struct exchange *players_slot(const struct glint_players *players, const char *slot);
+/* Sets matters, depth and group of all slots whose `differs` is known. */
 void players_find_groups(struct glint_players *players);
 /* Says why the slots of a group are one player. */
 void players_explain(const struct glint_players *players, struct player *player);

@@ -4,6 +4,12 @@
 
 #include "players.h"
 
+const struct exchange *players_slot(const struct glint_players *players, const char *slot) {
+    for (size_t i = 0; i < players->slot_count; i++)
+        if (strcmp(players->slots[i].slot, slot) == 0) return &players->slots[i];
+    return NULL;
+}
+
 static bool makes(const struct exchange *slot, int mode, const char *image) {
     const struct glint_pass *pass = exchange_pass(slot, mode);
     return pass && pass_output(pass, image);

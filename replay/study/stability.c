@@ -121,10 +121,6 @@ static bool track_all(struct measuring *m, const struct glint_pass *pass, struct
 
 /* ---- What depends on what ---- */
 
-bool is_end_reason(const struct glint_row *row) {
-    return strcmp(row->unit, "end reason") == 0;
-}
-
 /* What one pass reads, as far as it was tracked; its own decisions are among what its images depend on. */
 static void link_pass(struct measuring *m, const struct glint_pass *pass) {
     uint64_t inputs = 0;

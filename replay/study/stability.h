@@ -2,6 +2,8 @@
 #ifndef GLINT_STUDY_STABILITY_H
 #define GLINT_STUDY_STABILITY_H
 
+#include <string.h>
+
 #include "glint/stability.h"
 
 /* Filters mix what neighbours decided: so far away, in pixels, a decision counts as that of a pixel's own. */
@@ -42,7 +44,9 @@ static inline struct footprint footprint_of(const struct glint_stability *s, con
     return (struct footprint){f.x0, f.y0, f.x1 < s->width ? f.x1 : s->width, f.y1 < s->height ? f.y1 : s->height};
 }
 
-bool is_end_reason(const struct glint_row *row);
+static inline bool is_end_reason(const struct glint_row *row) {
+    return strcmp(row->unit, "end reason") == 0;
+}
 
 /* stability_texels.c: magnitudes of the frame as it is, and forecast of overflow; what a seed decided otherwise; what it
    changed. `values` are the perturbed run's. */

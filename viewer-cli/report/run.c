@@ -9,25 +9,6 @@
 
 /* ---- Reading ---- */
 
-const json_t *report_pass(const json_t *run, const char *slot) {
-    size_t i;
-    json_t *pass;
-    json_array_foreach(json_object_get(run, "passes"), i, pass) {
-        const char *name = json_string_value(json_object_get(pass, "slot"));
-        if (name && !strcmp(name, slot)) return pass;
-    }
-    return NULL;
-}
-
-const char *report_text(const json_t *object, const char *key) {
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
-bool report_ran(const json_t *pass) {
-    return json_is_true(json_object_get(pass, "ran"));
-}
-
 /* The slots of all runs, in the order in which they are met, as an object's keys. */
 static json_t *all_slots(const struct report *r) {
     json_t *slots = json_object(), *pass;
@@ -68,10 +49,6 @@ static bool read_runs(struct report *r, struct glint_error *err) {
     return true;
 }
 
-void report_columns(json_t *table, const struct report *r, const char *unit) {
-    for (size_t i = 0; i < r->count; i++) page_column(table, r->count > 1 ? r->labels[i] : "", unit);
-}
-
 /* ---- Facts ---- */
 
 /* What a run says of itself: "a.b" is b of a. */
@@ -92,14 +69,6 @@ static const struct fact {
     {"written by glint", "tool.version", ""},
     {"warnings", "warnings", ""},
 };
-
-const json_t *report_find(const json_t *run, const char *key) {
-    const char *dot = strchr(key, '.');
-    if (!dot) return json_object_get(run, key);
-    char first[32];
-    snprintf(first, sizeof first, "%.*s", (int)(dot - key), key);
-    return json_object_get(json_object_get(run, first), dot + 1);
-}
 
 /* "960 × 540" of [960, 540], texts of a list beside each other. */
 static json_t *fact_json(const json_t *run, const struct fact *fact) {

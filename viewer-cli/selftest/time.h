@@ -36,7 +36,7 @@ struct shot_list {
 };
 extern const struct shot_list time_surfaces, time_views, time_sharp;
 
-/* The four texels around a place (0.5 is the middle of the first one) that lie in the picture, without those of a weight
+/* time_past.c. The four texels around a place (0.5 is the middle of the first one) that lie in the picture, without those of a weight
    below 0.001. */
 void past_at(struct past *past, double x, double y);
 
