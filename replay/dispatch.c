@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shared/tile_list.h"
+
 enum {
 #define TILE_RANGE(name, first, end) RANGE_##name,
 #include "shared/tile_ranges.h"
@@ -48,8 +50,8 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
     struct workgroup group = pass_workgroup(step->pass->pass);
     const enum glint_size_class size = graph_find(&run->graph, image->name)->row->size;
     if (size == GLINT_SIZE_TILES) {
-        extent = (VkExtent3D){tile_count(&run->sizes), 1, 1};
-        group = (struct workgroup){TILES_GROUP, 1};
+        extent = tile_grid(&run->sizes);
+        group = (struct workgroup){REGION_WIDE, REGION_HIGH};
     } else if (image->desc.buffer) {
         extent = (VkExtent3D){half[0], half[1], 1};
         group = (struct workgroup){LIST_BLOCK, LIST_BLOCK};
@@ -140,24 +142,23 @@ static const struct glint_row *tiles_after(const struct run *run, const struct s
     return NULL;
 }
 
-/* Over the tiles of a range, and over the rest; where the list says with how many workgroups: shared/tile_list.glsl. */
+/* Over the tiles of a range, and over the rest; where the list says with how many workgroups: shared/tile_list.h. */
 static bool add_tiles(const struct run *run, struct step *step, uint32_t phase, const struct image *image,
                       const struct glint_row *row, struct glint_error *err) {
     const struct workgroup group = pass_workgroup(step->pass->pass);
-    const uint32_t wide = tile_width(run, image);
-    const uint32_t groups = (wide / group.width) * (wide / group.height);
+    const VkExtent2D size = tile_extent(run, image);
+    const uint32_t tiles = group.width * group.height / (size.width * size.height); /* of a workgroup */
     uint32_t range = 0;
     while (range < RANGES && strcmp(range_names[range], row->name) != 0) range += 2;
-    if (range >= RANGES || groups == 0 || groups > 4 || groups == 3 || wide % group.width || wide % group.height)
-        return glint_fail(
-            err, GLINT_ERROR_USAGE,
-            "%s/%s: DISPATCH_TILES %s: expected a range of tiles, of %u x %u texels in 1, 2 or 4 workgroups",
-            step->pass->pass->slot, step->pass->pass->variant, row->name, wide, wide);
+    if (range >= RANGES || (tiles != 2 && tiles != 4 && tiles != 8))
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "%s/%s: DISPATCH_TILES %s: expected a range of tiles, 2, 4 or 8 of %u x %u texels in a workgroup",
+                          step->pass->pass->slot, step->pass->pass->variant, row->name, size.width, size.height);
     for (uint32_t rest = 0; rest < 2; rest++)
         step->dispatches[step->dispatch_count++] =
             (struct dispatch){.phase = phase,
                               .list = tile_list(run, step->pass->pass),
-                              .from = 4 * (VkDeviceSize)(12 * (range + rest) + 4 * (groups / 2)),
+                              .from = 4 * (VkDeviceSize)(12 * (range + rest) + 4 * (tiles / 4)),
                               .tiles = range + rest,
                               .over = image,
                               .rest = rest};

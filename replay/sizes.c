@@ -51,11 +51,22 @@ static bool traces_all_pixels(const struct glint_pipeline *pipeline) {
     return false;
 }
 
-uint32_t tile_width(const struct run *run, const struct image *over) {
-    return over->desc.width == run->sizes.full[0] ? TILE : TILE / 2;
+VkExtent2D tile_extent(const struct run *run, const struct image *over) {
+    const uint32_t scale = over->desc.width == run->sizes.full[0] ? 1 : 2;
+    return (VkExtent2D){TILE_WIDE / scale, TILE_HIGH / scale};
+}
+VkExtent3D tile_grid(const struct frame_sizes *sizes) {
+    return (VkExtent3D){(sizes->full[0] + TILE_WIDE - 1) / TILE_WIDE, (sizes->full[1] + TILE_HIGH - 1) / TILE_HIGH, 1};
 }
 uint32_t tile_count(const struct frame_sizes *sizes) {
-    return (sizes->full[0] + TILE - 1) / TILE * ((sizes->full[1] + TILE - 1) / TILE);
+    return tile_grid(sizes).width * tile_grid(sizes).height;
+}
+/* What the maker of a list notes behind its tiles: 4 bits of each, and two words of each region. */
+static uint32_t tile_notes(const struct frame_sizes *sizes) {
+    const VkExtent3D grid = tile_grid(sizes);
+    const uint32_t across = (grid.width + REGION_WIDE - 1) / REGION_WIDE,
+                   down = (grid.height + REGION_HIGH - 1) / REGION_HIGH;
+    return across * down * (REGION_WIDE * REGION_HIGH / 8 + 2);
 }
 uint32_t list_blocks(const struct frame_sizes *sizes) {
     return (sizes->half[0] + LIST_BLOCK - 1) / LIST_BLOCK * ((sizes->half[1] + LIST_BLOCK - 1) / LIST_BLOCK);
@@ -159,8 +170,8 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         expected[0] = sizes->planar[0], expected[1] = sizes->planar[1];
         break;
     case GLINT_SIZE_TILES:
-        expected[0] = LIST_WIDTH; /* behind the tiles their kinds */
-        expected[1] = 1 + (2 * tile_count(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
+        expected[0] = LIST_WIDTH;
+        expected[1] = 1 + (tile_count(sizes) + tile_notes(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
         break;
     case GLINT_SIZE_LIST:
         expected[0] = LIST_WIDTH; /* behind the items a maker notes marks and a count of each block (compact.glsl) */

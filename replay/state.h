@@ -15,7 +15,6 @@
 
 enum {
     LIST_WIDTH = 256,
-    TILES_GROUP = 256 /* of a maker's workgroup */,
     LIST_ITEMS = 64 /* of a workgroup */,
     LIST_BLOCK = 32 /* pixels across, of a maker's workgroup */,
     COCOON_SIZE = 32 /* shared/cocoon.glsl */,
@@ -142,8 +141,9 @@ bool run_sizes(struct run *run, struct glint_error *err);
 bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
                         struct glint_error *err);
 
-uint32_t tile_width(const struct run *run,
-                    const struct image *over); /* in texels of an image over all of the picture */
+VkExtent2D tile_extent(const struct run *run,
+                       const struct image *over); /* in texels of an image over all of the picture */
+VkExtent3D tile_grid(const struct frame_sizes *sizes); /* of the picture */
 uint32_t tile_count(const struct frame_sizes *sizes);
 uint32_t list_blocks(const struct frame_sizes *sizes);
 uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */

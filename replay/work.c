@@ -133,12 +133,12 @@ const struct glint_cube_faces *glint_replay_cube_faces(const struct glint_replay
 static uint64_t count_tiles(const struct run *run, const struct dispatch *dispatch, const uint32_t *words) {
     const uint32_t total = tile_count(&run->sizes), *range = words + TILE_RANGES + 2 * dispatch->tiles;
     const uint32_t width = dispatch->over->desc.width, height = dispatch->over->desc.height;
-    const uint32_t wide = tile_width(run, dispatch->over);
+    const VkExtent2D size = tile_extent(run, dispatch->over);
     uint64_t texels = 0;
     for (uint32_t i = 0; i < range[1]; i++) {
         const uint32_t tile = words[TILE_ITEMS + (range[0] + i) % total];
-        const uint32_t left = width - wide * (tile & 0xFFFF), below = height - wide * (tile >> 16);
-        texels += (uint64_t)(left < wide ? left : wide) * (below < wide ? below : wide);
+        const uint32_t left = width - size.width * (tile & 0xFFFF), below = height - size.height * (tile >> 16);
+        texels += (uint64_t)(left < size.width ? left : size.width) * (below < size.height ? below : size.height);
     }
     return texels;
 }

@@ -3,6 +3,7 @@
 #define GLINT_TILE_GRID
 #include "shared/tile_list.h"
 
-uvec2 tile_grid(uvec2 size) { return (size + uint(TILE) - 1u) / uint(TILE); }
+const vec2 TILE_SIZE = vec2(TILE_WIDE, TILE_HIGH);
+uvec2 tile_grid(uvec2 size) { return (size + uvec2(TILE_SIZE) - 1u) / uvec2(TILE_SIZE); }
 uint tile_count(uvec2 size) { return tile_grid(size).x * tile_grid(size).y; }
 #endif

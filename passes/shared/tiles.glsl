@@ -1,6 +1,7 @@
-// Tiles of 16x16 pixels of the picture, by what they hold, and which texel of an image an invocation works on. Next include of
-// a pass with the row of tile_rows.h. No kernel's reach has to be added to them: what a neighbour or the next frame takes is
-// what the picture shows, which has a tile of its own, and where it shows nothing images hold nothing. (shown.glsl)
+// Tiles of 16x2 pixels of the picture, by what they hold, and which texel of an image an invocation works on: the tiles of a
+// workgroup are those that the list has one after the other. Next include of a pass with the row of tile_rows.h. No kernel's reach
+// has to be added to them: what a neighbour or the next frame takes is what the picture shows, which has a tile of its own, and
+// where it shows nothing images hold nothing. (shown.glsl)
 #ifndef GLINT_TILES
 #define GLINT_TILES
 #include "shared/tile_grid.glsl"
@@ -9,12 +10,13 @@
 ivec2 tile_texel(float scale) {
     if (tile_range == ALL_TILES) return ivec2(gl_GlobalInvocationID.xy);
     int range = TILE_RANGES + 2 * int(tile_range);
-    uint place = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, total = tile_count(frame.size.xy);
+    uvec2 size = uvec2(TILE_SIZE / scale);
+    uint texels = size.x * size.y, lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y, lane = gl_LocalInvocationIndex;
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint place = lanes / texels * group + lane / texels, total = tile_count(frame.size.xy);
     if (place >= texelFetch(tile_list, range + 1).x) return ivec2(0x7FFFFFFF);
     place += texelFetch(tile_list, range).x;
     uint item = texelFetch(tile_list, TILE_ITEMS + int(place < total ? place : place - total)).x;
-    uint wide = uint(float(TILE) / scale), across = wide / gl_WorkGroupSize.x; // texels; workgroups to a tile
-    uvec2 group = uvec2(gl_WorkGroupID.z % across, gl_WorkGroupID.z / across);
-    return ivec2(wide * uvec2(item & 0xFFFFu, item >> 16u) + gl_WorkGroupSize.xy * group + gl_LocalInvocationID.xy);
+    return ivec2(size * uvec2(item & 0xFFFFu, item >> 16u) + uvec2(lane % size.x, lane / size.x % size.y));
 }
 #endif

@@ -12,23 +12,29 @@
 #include "upscale/source.glsl"
 
 // An invocation takes the four pixels of a half-resolution texel, which look at the same texels around: a workgroup's, and
-// one more on each side. When the resolution is not reduced it takes one pixel, and the texel there.
+// one more on each side, where no list of tiles says that its texels lie elsewhere. When the resolution is not reduced it takes
+// one pixel, and the texel there.
+struct Around {
+    vec4 surface; // normal, in world axes; w: roughness
+    vec3 place;   // in full-resolution pixels; z: depth in m, 0 without a ray
+};
 const ivec2 GROUP = ivec2(8), AROUND = GROUP + 2;
-shared vec4 tile_surface[AROUND.x * AROUND.y]; // normal, in world axes; w: roughness
-shared vec3 tile_place[AROUND.x * AROUND.y];   // in full-resolution pixels; z: depth in m, 0 without a ray
+shared Around group_around[AROUND.x * AROUND.y];
 
-void load_tile(ivec2 first, ivec2 last) {
-    for (int i = int(gl_LocalInvocationIndex); i < AROUND.x * AROUND.y; i += GROUP.x * GROUP.y) {
-        ivec2 texel = first + ivec2(i % AROUND.x, i / AROUND.x);
-        bool outside = any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, last));
-        texel = clamp(texel, ivec2(0), last);
-        vec4 surface = texelFetch(normal_half, texel, 0);
-        float depth_m = texelFetch(depth_half, texel, 0).x;
-        tile_surface[i] = surface;
-        uint picked = texelFetch(pick, texel, 0).x;
-        tile_place[i] = vec3(picked_position(texel, picked, frame.size),
-                             !outside && is_pick_shown(picked) && reflects(depth_m, surface.xyz) ? depth_m : 0.0);
-    }
+Around around_at(ivec2 texel) {
+    ivec2 last = ivec2(frame.size.zw) - 1;
+    bool outside = any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, last));
+    texel = clamp(texel, ivec2(0), last);
+    vec4 surface = texelFetch(normal_half, texel, 0);
+    float depth_m = texelFetch(depth_half, texel, 0).x;
+    uint picked = texelFetch(pick, texel, 0).x;
+    return Around(surface, vec3(picked_position(texel, picked, frame.size),
+                                !outside && is_pick_shown(picked) && reflects(depth_m, surface.xyz) ? depth_m : 0.0));
+}
+
+void load_group(ivec2 first) {
+    for (int i = int(gl_LocalInvocationIndex); i < AROUND.x * AROUND.y; i += GROUP.x * GROUP.y)
+        group_around[i] = around_at(first + ivec2(i % AROUND.x, i / AROUND.x));
     barrier();
 }
 
@@ -96,12 +102,13 @@ void match_block(ivec2 own) {
     for (int n = 0; n < 9; ++n) {
         ivec2 beside = ivec2(n % 3, n / 3) - 1;
         int at = (middle.y + beside.y) * AROUND.x + middle.x + beside.x;
-        vec4 surface = tile_surface[at];
-        vec3 place = tile_place[at];
+        Around texel;
+        if (tile_range == ALL_TILES) texel = group_around[at];
+        else texel = around_at(own + beside);
         for (int i = 0; i < 4; ++i) {
             ivec2 side = 2 * ivec2(i & 1, i >> 1) - 1;
             if (!around && (beside.x == -side.x || beside.y == -side.y)) continue;
-            float c = cost(p[i], surface, place);
+            float c = cost(p[i], texel.surface, texel.place);
             if (c < least[i] - alike) {
                 least[i] = c;
                 best[i] = beside;
@@ -122,7 +129,7 @@ void main() {
         for (int i = 0; i < wide * wide; ++i) store_nothing(wide * own + ivec2(i % wide, i / wide));
         return;
     }
-    if (reduced) load_tile(own - ivec2(gl_LocalInvocationID.xy) - 1, size - 1);
+    if (reduced && tile_range == ALL_TILES) load_group(own - ivec2(gl_LocalInvocationID.xy) - 1);
     if (any(greaterThanEqual(own, size))) return;
     if (reduced) {
         match_block(own);

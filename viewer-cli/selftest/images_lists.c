@@ -19,6 +19,7 @@ static const struct kind kinds[] = {
     {257, 40, 0.1, 0.9}, {300, 260, 0, 1}, {40, 130, 1, 0}, /* more blocks than a workgroup has invocations; nothing */
 };
 enum { KINDS = sizeof kinds / sizeof *kinds, CLASSES = 2, ITEMS = 256 };
+enum { WIDE = 16, HIGH = 2, REGION_WIDE = 4, REGION_HIGH = 16 }; /* pixels of a tile, tiles of a region */
 static const uint32_t no_item = 0xFFFFFFFF;
 
 static int class_of(const struct kind *kind, uint32_t x, uint32_t y) {
@@ -162,15 +163,17 @@ static bool check_pixels(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
-/* ---- Tiles of 16 x 16 pixels ---- */
+/* ---- Tiles of 16 x 2 pixels ---- */
 
 /* In the order of the list: rough, rough and smooth, smooth, nothing. */
 static int kind_of_tile(const struct kind *kind, uint32_t column, uint32_t row) {
     bool has[CLASSES + 1] = {false};
-    for (uint32_t y = 16 * row; y < 16 * row + 16 && y < kind->height; y++)
-        for (uint32_t x = 16 * column; x < 16 * column + 16 && x < kind->width; x++) has[class_of(kind, x, y)] = true;
+    for (uint32_t y = HIGH * row; y < HIGH * row + HIGH && y < kind->height; y++)
+        for (uint32_t x = WIDE * column; x < WIDE * column + WIDE && x < kind->width; x++)
+            has[class_of(kind, x, y)] = true;
     return has[1] ? has[0] : has[0] ? 2 : 3;
 }
+
 
 static const char *const with_classes[] = {"classify_tiles=shown", "temporal.least_roughness=0.105", NULL};
 static const char *const whole_texels[] = {"classify_tiles=shown", "downsample.jitter=false", NULL};
@@ -181,7 +184,8 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
     static const char *const passes[] = {"classify_tiles", NULL};
     bool ok = true;
     for (size_t k = 0; ok && k < KINDS; k++) {
-        const uint32_t across = (kinds[k].width + 15) / 16, count = across * ((kinds[k].height + 15) / 16);
+        const uint32_t across = (kinds[k].width + WIDE - 1) / WIDE, down = (kinds[k].height + HIGH - 1) / HIGH;
+        const uint32_t count = across * down, columns = (across + REGION_WIDE - 1) / REGION_WIDE * REGION_WIDE;
         size_t room = 0;
         uint32_t ends[4], at = 0;
         ok = run(frames, &kinds[k], passes, which->with, NULL, err);
@@ -189,18 +193,20 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
         ok = list && (ITEMS + count <= room ||
                       glint_fail(err, GLINT_ERROR_DEVICE, "self-test: a list of %zu words is too short", room));
         for (int class = 0; ok && class < 4; ends[class ++] = at)
-            for (uint32_t tile = 0; tile < count; tile++) {
-                const uint32_t item = tile / across << 16 | tile % across;
-                if (kind_of_tile(&kinds[k], tile % across, tile / across) != class) continue;
+            for (uint32_t tile = 0; tile < columns * down + columns * REGION_HIGH; tile++) { /* regions by columns */
+                const uint32_t row = tile / (columns * REGION_HIGH) * REGION_HIGH, x = tile / REGION_HIGH % columns,
+                               y = row + tile % REGION_HIGH;
+                if (x >= across || y >= down || kind_of_tile(&kinds[k], x, y) != class) continue;
+                const uint32_t item = y << 16 | x;
                 image_compare(finding, list[ITEMS + at], item, item, "picture %zu, tile %u", k, at);
                 at++;
             }
         for (uint32_t i = 0; ok && i < 6; i++) { /* shown, smooth, rough, each with the rest behind it */
             const uint32_t first[] = {0, ends[2], ends[0], ends[2], 0, ends[1]};
             const uint32_t end[] = {ends[2], count, ends[2], count + ends[0], ends[1], count};
-            const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i + 8], list[12 * i + 10]};
-            const uint32_t tiles = end[i] - first[i], expected[] = {first[i], tiles, tiles, 4};
-            for (int w = 0; w < 4; w++)
+            const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i], list[12 * i + 8], list[12 * i + 10]};
+            const uint32_t tiles = end[i] - first[i], expected[] = {first[i], tiles, (tiles + 1) / 2, (tiles + 7) / 8, 1};
+            for (int w = 0; w < 5; w++)
                 image_compare(finding, found[w], expected[w], expected[w], "picture %zu, range %u", k, i);
         }
         free(list);
@@ -229,7 +235,7 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
         ok = found != NULL;
         for (size_t i = 0; ok && i < count; i++) {
             const uint32_t x = (uint32_t)i % width, y = (uint32_t)i / width;
-            const bool works = kind_of_tile(&kinds[k], x * scale / 16, y * scale / 16) < 3;
+            const bool works = kind_of_tile(&kinds[k], x * scale / WIDE, y * scale / HIGH) < 3;
             const double expected = x + 512.0 * y + (works ? 0.25 : 0.5);
             image_compare(finding, (double)found[i], expected, expected, "picture %zu, texel %u,%u", k, x, y);
         }
@@ -253,7 +259,7 @@ static const struct image_case list[] = {
     {{"pixels without a list", "each invocation its own", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, without},
     {{"pixels of a compacted list", "every one that is listed once, and the others by their own place", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, with_tiles},
     {{"pixels of a list of blocks", "the same, with room between the blocks", TAKES, "pixels", 0, "integers"}, check_pixels, TAKES, with_blocks},
-    {{"list of tiles", "tiles by the classes that they hold, in the order of the picture, and the ranges of them that passes run over", TILES, "words", 0, "integers"}, check_tiles, NULL, with_classes},
+    {{"list of tiles", "tiles by the classes that they hold, in the order of the picture's regions and of their columns, and the ranges of them that passes run over", TILES, "words", 0, "integers"}, check_tiles, NULL, with_classes},
     {{"texels of tiles", "each once, in a tile that shows reflections or in the rest", TEXELS, "texels", 0, "integers"}, check_texels, TEXELS, whole_texels},
     {{"texels of tiles at half resolution", "the same of blocks of 2 x 2", TEXELS, "texels", 0, "integers"}, check_texels, TEXELS, half_texels},
 };
