@@ -37,7 +37,7 @@ uint class_of(ivec2 pixel) {
     vec4 surface = texelFetch(normal_full, pixel, 0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     bool shown = is_shown(pixel); // fetched before anything is looked at, so that no fetch waits for another one
-    if (!shown || !reflects(depth_m, surface.xyz)) return 0u;
+    if (!shown || !(depth_m > 0.0 && depth_m < INFINITE)) return 0u; // downsample prefers what is shown, whatever its normal
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     bool smooth_one = roughness <= uintBitsToFloat(frame.work.z);
     bool rough_one = !smooth_one || roughness >= 0.999 * uintBitsToFloat(frame.work.w);

@@ -9,7 +9,7 @@
 #include "downsample/surface.glsl"
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(2.0);
     if (any(greaterThanEqual(pixel, imageSize(depth_half)))) return;
     ivec2 last = ivec2(frame.size.xy) - 1;
     float depth_m = 0.0, count = 0.0;
@@ -20,7 +20,7 @@ void main() {
         float one_m = texelFetch(depth_full, source, 0).x;
         vec4 one = texelFetch(normal_full, source, 0);
         if (!reflects(one_m, one.xyz)) continue;
-        bool one_shown = is_shown(source);
+        bool one_shown = tile_works && is_shown(source);
         if (shown && !one_shown) continue;
         if (one_shown && !shown) { // surfaces whose reflection is shown are mixed with one another alone
             depth_m = count = 0.0;

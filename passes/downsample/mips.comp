@@ -19,7 +19,7 @@ void pick_pixel(ivec2 texel) {
     vec4 depths_m = textureGather(sampler2D(depth_full, nearest_clamp), vec2(block + 1) / vec2(size)).wzxy;
     vec4 inverse;
     for (int i = 0; i < 4; ++i) inverse[i] = inverse_of(depths_m[i]);
-    uint useful = shown_in_block(block), chosen = choose(block, inverse, useful, size);
+    uint useful = useful_in_block(block, inverse), chosen = choose(block, inverse, useful, size);
     ivec2 source = block + ivec2(chosen & 1u, chosen >> 1u);
     vec4 surface = texelFetch(normal_full, source, 0);
     bool shown = (useful >> chosen & 1u) != 0u;
@@ -94,7 +94,7 @@ uint edges_of(ivec2 texel, int level) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = tile_texel(2.0);
     if (dispatch_phase == SHARE_FINEST) {
         if (all(lessThan(texel, imageSize(depth_half)))) pick_pixel(texel);
     } else if (any(greaterThanEqual(texel, imageSize(depth_levels)))) {

@@ -9,7 +9,7 @@
 #include "downsample/surface.glsl"
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(depth_half)))) return;
-    store_surface(pixel, texelFetch(depth_full, pixel, 0).x, texelFetch(normal_full, pixel, 0), 0u, is_shown(pixel));
+    store_surface(pixel, texelFetch(depth_full, pixel, 0).x, texelFetch(normal_full, pixel, 0), 0u, tile_works && is_shown(pixel));
 }

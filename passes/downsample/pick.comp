@@ -10,7 +10,7 @@
 #include "downsample/surface.glsl"
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(2.0);
     if (any(greaterThanEqual(pixel, imageSize(depth_half)))) return;
     ivec2 block = 2 * pixel, last = ivec2(frame.size.xy) - 1;
     vec4 inverse_depth;
@@ -18,7 +18,7 @@ void main() {
         float depth_m = texelFetch(depth_full, min(block + ivec2(i & 1, i >> 1), last), 0).x;
         inverse_depth[i] = depth_m > 0.0 ? 1.0 / depth_m : 0.0;
     }
-    uint shown = shown_in_block(block), chosen = choose(block, inverse_depth, shown, ivec2(frame.size.xy));
+    uint shown = useful_in_block(block, inverse_depth), chosen = choose(block, inverse_depth, shown, ivec2(frame.size.xy));
     ivec2 source = block + ivec2(chosen & 1u, chosen >> 1u);
 
     store_surface(pixel, texelFetch(depth_full, source, 0).x, texelFetch(normal_full, source, 0), chosen, (shown >> chosen & 1u) != 0u);

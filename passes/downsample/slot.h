@@ -10,6 +10,8 @@ WRITE(image2D, normal_half, RGBA16F, "1", HALF, "X Y Z roughness", 0, "unit norm
 WRITE(image2D, cone_half, R16F, "rad", HALF, "angle", 0, "half-angle of the cone that the ray stands for: what the cut left of the lobe; 0: a ray")
 WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was taken: x + 2y; 4: the block's centre; + 8 when the picture does not show its reflection")
 DISPATCH(depth_half)
+DISPATCH_TILES(shown)
+#include "shared/tile_rows.h"
 PUSH(float, least_weight, 0.0, 0.0, 1.0, "1", "glint", "surfaces that send less than this share of a reflection to the viewer trace no ray of their own; 0: all do")
 NEEDS(reflections)
 PER_RAY

@@ -2,6 +2,15 @@
 #include "downsample/lobe.glsl"
 #include "shared/brdf.glsl"
 #include "shared/shown.glsl"
+#include "shared/tiles.glsl"
+
+// The pixels of a block whose reflections the picture shows; what is no surface may hold anything.
+uint useful_in_block(ivec2 block, vec4 inverse_depth) {
+    uint useful = tile_works ? shown_in_block(block) : 0u;
+    for (int i = 0; i < 4; ++i)
+        if (!(inverse_depth[i] > 0.0)) useful &= ~(1u << i);
+    return useful;
+}
 
 // Whether compose gives a surface more than least_weight of its reflection, rising as steeply as any material does.
 bool is_worth(ivec2 pixel, uint chosen, vec3 normal, float roughness, vec3 to_viewer) {

@@ -19,8 +19,9 @@
 #undef LEAST
 #undef MOST
 #line 24
-const int FIGURES = 512; // words of a workgroup
-shared uint figures[FIGURES];
+const int ALL_FIGURES = 512;
+const int FIGURES = whole ? ALL_FIGURES : 128; // words of a workgroup: plans go by the first lines of figures.h alone
+shared uint figures[ALL_FIGURES];
 // Bits of floats that are not negative are ordered as they are.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
 uint kind_of(int figure) {
@@ -183,11 +184,11 @@ void count_block(int place) {
 // Each workgroup sums up some figures over all blocks.
 void join_blocks(int first, int blocks) {
     int lane = int(gl_LocalInvocationIndex);
-    for (int figure = int(workgroup_index()); figure < FIGURES; figure += blocks) {
+    for (int figure = int(workgroup_index()); figure < ALL_FIGURES; figure += blocks) {
         uint kind = kind_of(figure), own = kind == LOWEST ? 0xFFFFFFFFu : 0u;
         if (lane == 0) figures[0] = own;
         barrier();
-        for (int block = lane; block < blocks; block += LANES) {
+        for (int block = lane; block < blocks && figure < FIGURES; block += LANES) {
             uint one = texelFetch(partial, first + FIGURES * block + figure).x;
             own = kind == COUNTED ? own + one : kind == LOWEST ? min(own, one) : max(own, one);
         }
