@@ -151,9 +151,10 @@ static bool add_tiles(const struct run *run, struct step *step, uint32_t phase, 
     uint32_t range = 0;
     while (range < RANGES && strcmp(range_names[range], row->name) != 0) range += 2;
     if (range >= RANGES || (tiles != 2 && tiles != 4 && tiles != 8))
-        return glint_fail(err, GLINT_ERROR_USAGE,
-                          "%s/%s: DISPATCH_TILES %s: expected a range of tiles, 2, 4 or 8 of %u x %u texels in a workgroup",
-                          step->pass->pass->slot, step->pass->pass->variant, row->name, size.width, size.height);
+        return glint_fail(
+            err, GLINT_ERROR_USAGE,
+            "%s/%s: DISPATCH_TILES %s: expected a range of tiles, 2, 4 or 8 of %u x %u texels in a workgroup",
+            step->pass->pass->slot, step->pass->pass->variant, row->name, size.width, size.height);
     for (uint32_t rest = 0; rest < 2; rest++)
         step->dispatches[step->dispatch_count++] =
             (struct dispatch){.phase = phase,

@@ -142,7 +142,7 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
                         struct glint_error *err);
 
 VkExtent2D tile_extent(const struct run *run,
-                       const struct image *over); /* in texels of an image over all of the picture */
+                       const struct image *over);      /* in texels of an image over all of the picture */
 VkExtent3D tile_grid(const struct frame_sizes *sizes); /* of the picture */
 uint32_t tile_count(const struct frame_sizes *sizes);
 uint32_t list_blocks(const struct frame_sizes *sizes);

@@ -143,24 +143,23 @@ static uint64_t count_tiles(const struct run *run, const struct dispatch *dispat
     return texels;
 }
 
-static struct image *list_of_tiles(const struct run *run) {
-    for (size_t i = 0; i < run->graph.image_count; i++)
-        if (run->graph.images[i].row->size == GLINT_SIZE_TILES && run->graph.images[i].source == SOURCE_MADE &&
-            run->images[i]->key == run->keys[i])
-            return run->images[i];
-    return NULL;
+static bool count_tiles_of(struct run *run, struct image *list, struct host_buffer *buffer, struct glint_error *err) {
+    VkDeviceSize offset;
+    if (!readback_images(run->replay, &(struct image_part){list, 0}, 1, buffer, &offset, err)) return false;
+    for (size_t p = 0; p < run->graph.pass_count; p++)
+        for (size_t d = 0; d < run->steps[p].dispatch_count; d++)
+            if (run->steps[p].dispatches[d].list == list && !run->steps[p].dispatches[d].rest)
+                run->steps[p].texels += count_tiles(run, &run->steps[p].dispatches[d], buffer->map);
+    return true;
 }
 
 bool run_count_tiles(struct run *run, struct glint_error *err) {
-    struct image *list = list_of_tiles(run);
     struct host_buffer buffer = {0};
-    VkDeviceSize offset;
-    if (!list) return true;
-    const bool ok = readback_images(run->replay, &(struct image_part){list, 0}, 1, &buffer, &offset, err);
-    for (size_t p = 0; ok && p < run->graph.pass_count; p++)
-        for (size_t d = 0; d < run->steps[p].dispatch_count; d++)
-            if (run->steps[p].dispatches[d].list == list && !run->steps[p].dispatches[d].rest)
-                run->steps[p].texels += count_tiles(run, &run->steps[p].dispatches[d], buffer.map);
+    bool ok = true;
+    for (size_t i = 0; ok && i < run->graph.image_count; i++)
+        if (run->graph.images[i].row->size == GLINT_SIZE_TILES && run->graph.images[i].source == SOURCE_MADE &&
+            run->images[i]->key == run->keys[i])
+            ok = count_tiles_of(run, run->images[i], &buffer, err);
     host_buffer_finish(&buffer, run->replay->device);
     return ok;
 }

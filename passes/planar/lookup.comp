@@ -7,6 +7,8 @@
 #include "lookup.pass.h"
 };
 #include "shared/camera.glsl"
+#define TILE_LIST water_tiles
+#include "shared/tiles.glsl"
 #include "probe/tell.glsl"
 
 const float LEAST_RISE = 1e-3; // a ray that a ripple sends down meets another one, and goes on about level
@@ -37,13 +39,13 @@ vec4 seen(vec3 position, vec3 ray) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(planar_reflection)))) return;
     float depth_m = texelFetch(water_depth, pixel, 0).x;
     vec3 normal = texelFetch(water_normal, pixel, 0).xyz;
     vec4 color = vec4(0.0);
     probe_pixel(pixel);
-    if (reflects(depth_m, normal)) {
+    if (tile_works && reflects(depth_m, normal)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec3 up = frame.mirror_plane.w < 0.0 ? -frame.mirror_plane.xyz : frame.mirror_plane.xyz; // the camera is above

@@ -14,9 +14,9 @@ ivec2 tile_texel(float scale) {
     uint texels = size.x * size.y, lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y, lane = gl_LocalInvocationIndex;
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint place = lanes / texels * group + lane / texels, total = tile_count(frame.size.xy);
-    if (place >= texelFetch(tile_list, range + 1).x) return ivec2(0x7FFFFFFF);
-    place += texelFetch(tile_list, range).x;
-    uint item = texelFetch(tile_list, TILE_ITEMS + int(place < total ? place : place - total)).x;
+    if (place >= texelFetch(TILE_LIST, range + 1).x) return ivec2(0x7FFFFFFF);
+    place += texelFetch(TILE_LIST, range).x;
+    uint item = texelFetch(TILE_LIST, TILE_ITEMS + int(place < total ? place : place - total)).x;
     return ivec2(size * uvec2(item & 0xFFFFu, item >> 16u) + uvec2(lane % size.x, lane / size.x % size.y));
 }
 #endif

@@ -9,5 +9,7 @@ READ(texture2D, transparent_normal)
 READ(texture2D, transparent_depth)
 WRITE(image2D, composed_transparent, RGBA16F, "radiance", FULL, "R G B A", 0, "composed, or composed_water, with the nearest transparent surface over it; a: 1")
 DISPATCH(composed_transparent)
+DISPATCH_TILES(shown)
+#include "shared/transparent_tile_rows.h"
 NEEDS(transparent)
 REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

@@ -8,6 +8,8 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#define TILE_LIST transparent_tiles
+#include "shared/tiles.glsl"
 #include "probe/tell.glsl"
 
 // What a texel of another surface weighs: where all four are, they are better than nothing.
@@ -47,6 +49,7 @@ bool under_water(ivec2 pixel, float depth_m) {
 vec3 seen(ivec2 pixel) {
     probe_pixel(pixel);
     vec3 behind = has_composed_water ? texelFetch(composed_water, pixel, 0).rgb : texelFetch(composed, pixel, 0).rgb;
+    if (!tile_works) return behind;
     vec4 own = texelFetch(transparent_color, pixel, 0);
     vec3 normal = texelFetch(transparent_normal, pixel, 0).xyz;
     float depth_m = texelFetch(transparent_depth, pixel, 0).x;
@@ -61,7 +64,7 @@ vec3 seen(ivec2 pixel) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(composed_transparent)))) return;
     imageStore(composed_transparent, pixel, vec4(seen(pixel), 1.0));
 }

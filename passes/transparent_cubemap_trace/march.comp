@@ -7,6 +7,8 @@
 #include "march.pass.h"
 };
 #include "cubemap_trace/march.glsl"
+#define TILE_LIST transparent_tiles
+#include "shared/tiles.glsl"
 
 Result trace(ivec2 texel, float depth_m, vec4 normal, float start_m) {
     vec2 uv = picked_uv(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);
@@ -19,14 +21,14 @@ Result trace(ivec2 texel, float depth_m, vec4 normal, float start_m) {
 
 void main() {
     load_active_centers();
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(texel, imageSize(transparent_travelled)))) return;
     float depth_m = texelFetch(transparent_depth_half, texel, 0).x;
     vec4 normal = texelFetch(transparent_normal_jittered, texel, 0);
     float start_m = texelFetch(transparent_screen_travelled, texel, 0).x;
     Result result = Result(start_m, NO_PLACE, END_not_traced, 0u, 0u);
     probe_texel(texel);
-    if (texelFetch(transparent_screen_finished, texel, 0).x == 0u && reflects(depth_m, normal.xyz))
+    if (tile_works && texelFetch(transparent_screen_finished, texel, 0).x == 0u && reflects(depth_m, normal.xyz))
         result = trace(texel, depth_m, normal, start_m);
     probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
     imageStore(transparent_travelled, texel, vec4(result.travelled_m));

@@ -15,6 +15,8 @@ DIAGNOSTIC(uimage2D, transparent_cubemap_end, R8UI, "end reason", HALF, "reason"
 DIAGNOSTIC(uimage2D, transparent_cubemap_steps, R32UI, "steps", HALF, "steps", 0, "steps taken, refinements and switches included")
 DIAGNOSTIC(uimage2D, transparent_cubemap_fetches, R32UI, "fetches", HALF, "fetches", 0, "texture fetches made")
 DISPATCH(transparent_travelled)
+DISPATCH_TILES(shown)
+#include "shared/transparent_tile_rows.h"
 NEEDS(transparent)
 PER_RAY
 REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

@@ -7,6 +7,8 @@
 #include "nearest.pass.h"
 };
 #include "downsample/lobe.glsl"
+#define TILE_LIST transparent_tiles
+#include "shared/tiles.glsl"
 
 bool surface_at(ivec2 pixel, out float depth_m, out vec4 surface) {
     depth_m = texelFetch(transparent_depth, pixel, 0).x;
@@ -15,13 +17,13 @@ bool surface_at(ivec2 pixel, out float depth_m, out vec4 surface) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy), last = ivec2(frame.size.xy) - 1;
+    ivec2 texel = tile_texel(reduction(frame.size)), last = ivec2(frame.size.xy) - 1;
     if (any(greaterThanEqual(texel, imageSize(transparent_depth_half)))) return;
     int scale = int(reduction(frame.size));
     float nearest_m = INFINITE;
     vec4 nearest = vec4(0.0);
     uint chosen = 0u;
-    for (int i = 0; i < scale * scale; ++i) {
+    for (int i = 0; i < scale * scale && tile_works; ++i) {
         ivec2 pixel = scale * texel + ivec2(i & 1, i >> 1);
         float depth_m;
         vec4 surface;

@@ -1,5 +1,8 @@
 // Every texel that has a ray, for a variant that defines vec4 color_of(Ray ray, bool finished, uint place, ivec2 texel).
 // Next include of a pass with the rows of this slot and those of resolve/sources.h.
+#define TILE_LIST transparent_tiles
+#include "shared/tiles.glsl"
+
 vec4 resolved(ivec2 texel, float depth_m, vec3 normal) {
     vec2 uv = picked_uv(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);
     vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
@@ -10,10 +13,11 @@ vec4 resolved(ivec2 texel, float depth_m, vec3 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(texel, imageSize(transparent_reflection)))) return;
     float depth_m = texelFetch(transparent_depth_half, texel, 0).x;
     vec3 normal = texelFetch(transparent_normal_jittered, texel, 0).xyz;
     probe_texel(texel);
-    imageStore(transparent_reflection, texel, reflects(depth_m, normal) ? resolved(texel, depth_m, normal) : vec4(0.0));
+    vec4 color = tile_works && reflects(depth_m, normal) ? resolved(texel, depth_m, normal) : vec4(0.0);
+    imageStore(transparent_reflection, texel, color);
 }

@@ -10,6 +10,8 @@ READ(utexture2D, transparent_place)
 READ(texture2D, transparent_cone)
 WRITE(image2D, transparent_reflection, RGBA16F, "radiance", HALF, "R G B A", 0, "rgb: radiance that arrives along the ray; a: 1 where a source was found")
 DISPATCH(transparent_reflection)
+DISPATCH_TILES(shown)
+#include "shared/transparent_tile_rows.h"
 NEEDS(transparent)
 PER_RAY
 ACCUMULATE(transparent_reflection)

@@ -8,6 +8,8 @@
 };
 #include "screen_trace/linear.glsl"
 #include "shared/random.glsl"
+#define TILE_LIST transparent_tiles
+#include "shared/tiles.glsl"
 
 Result trace(ivec2 texel, float depth_m, vec3 normal) {
     vec2 start = picked_position(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);
@@ -30,13 +32,13 @@ Result trace(ivec2 texel, float depth_m, vec3 normal) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 texel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(texel, imageSize(transparent_screen_travelled)))) return;
     float depth_m = texelFetch(transparent_depth_half, texel, 0).x;
     vec3 normal = texelFetch(transparent_normal_jittered, texel, 0).xyz;
     Result result = Result(0.0, false, END_not_traced, 0u, 0u);
     probe_texel(texel);
-    if (reflects(depth_m, normal)) result = trace(texel, depth_m, normal);
+    if (tile_works && reflects(depth_m, normal)) result = trace(texel, depth_m, normal);
     probe_screen_end(result);
     imageStore(transparent_screen_travelled, texel, vec4(result.travelled_m));
     imageStore(transparent_screen_finished, texel, uvec4(result.finished ? 1u : 0u));

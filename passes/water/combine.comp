@@ -8,6 +8,8 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#define TILE_LIST water_tiles
+#include "shared/tiles.glsl"
 #include "probe/tell.glsl"
 
 struct Water {
@@ -81,12 +83,12 @@ vec3 mirrored(Water water, ivec2 pixel) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(composed_water)))) return;
     float depth_m = texelFetch(water_depth, pixel, 0).x;
     vec4 normal = texelFetch(water_normal, pixel, 0), own = texelFetch(water_color, pixel, 0);
     vec3 color = texelFetch(composed, pixel, 0).rgb;
-    if (own.a > 0.0 && reflects(depth_m, normal.xyz)) {
+    if (tile_works && own.a > 0.0 && reflects(depth_m, normal.xyz)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         Water water;
         water.position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);

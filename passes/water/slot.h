@@ -10,5 +10,7 @@ READ(textureCubeArray, cubemap_color)
 READ(textureCube, sky)
 WRITE(image2D, composed_water, RGBA16F, "radiance", FULL, "R G B A", 0, "composed, with the water over it; a: 1")
 DISPATCH(composed_water)
+DISPATCH_TILES(shown)
+#include "shared/water_tile_rows.h"
 NEEDS(water)
 REFERENCE_NONE("laid over the picture: no part of the reflection that a reference is of")

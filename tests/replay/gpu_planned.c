@@ -447,6 +447,25 @@ static void a_wrong_rule_about_made_frames_is_found(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
+/* Catches: a comparison that finds every list of transparent surfaces or water right. */
+static void a_wrong_list_of_layers_is_found(void **state) {
+    struct pair *pair = pair_of(state);
+    static const struct {
+        const char *slot, *scene, *preset, *right, *wrong;
+    } lists[] = {{"classify_transparent", "glasshouse", "mafia_de", "a > 0.0", "a > 2.0"},
+                 {"classify_water", "lake", "gtav", "depth_m > 0.0", "depth_m > 1e9"},
+                 {"classify_water", "lake", "gtav", "if (found != 0u)", "if (found != 0u && pixel.y % 4u < 2u)"}};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        char path[256];
+        size_t left_out = 0;
+        pair_use(pair, lists[i].preset);
+        pair_spoil(pair, lists[i].slot, "shown", lists[i].right, lists[i].wrong);
+        if (differences_of_file(pair, sampled(pair->fixture, lists[i].scene, 1, path), &left_out) == 0)
+            fail_msg("a wrong list of %s changes nothing: %s", lists[i].slot, lists[i].wrong);
+    }
+    fixture_check_messages(pair->fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_device_counts_as_the_host_does),
@@ -456,6 +475,7 @@ int main(void) {
         cmocka_unit_test(faces_that_no_ray_comes_to_are_left_out),
         cmocka_unit_test(a_wrong_rule_about_made_frames_is_found),
         cmocka_unit_test(a_chain_that_no_pass_reads_is_not_made),
+        cmocka_unit_test(a_wrong_list_of_layers_is_found),
         cmocka_unit_test(the_picture_of_a_plan_is_the_whole_picture),
     };
     return cmocka_run_group_tests(tests, pair_set_up, pair_tear_down);

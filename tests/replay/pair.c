@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <cmocka.h>
 
@@ -33,18 +34,31 @@ void pair_use(struct pair *pair, const char *preset) {
         pair_check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
 }
 
-void pair_spoil(struct pair *pair, const char *slot, const char *variant, const char *right, const char *wrong) {
-    struct glint_error err = {0};
-    char name[64], path[256], assignment[300];
-    snprintf(name, sizeof name, "%s/%s.comp", slot, variant);
-    const char *text = glint_pass_text(name), *at = strstr(text, right);
-    assert_non_null(at);
-    snprintf(path, sizeof path, "%s/wrong.comp", pair->fixture->folder);
-    snprintf(assignment, sizeof assignment, "%s=%s", slot, path);
-    FILE *file = fopen(path, "w");
+/* Whether the text had what is right, and not what is wrong, in it. */
+static bool write_wrong(const struct pair *pair, const char *path, const char *text, const char *right,
+                        const char *wrong) {
+    char full[400];
+    const char *at = strstr(text, right);
+    snprintf(full, sizeof full, "%s/%s", pair->fixture->folder, path);
+    FILE *file = fopen(full, "w");
     assert_non_null(file);
-    fprintf(file, "%.*s%s%s", (int)(at - text), text, wrong, at + strlen(right));
+    if (at) fprintf(file, "%.*s%s%s", (int)(at - text), text, wrong, at + strlen(right));
+    else fputs(text, file);
     assert_int_equal(fclose(file), 0);
+    return at != NULL;
+}
+
+void pair_spoil(struct pair *pair, const char *slot, const char *variant, const char *right, const char *wrong) {
+    static const char maker[] = "classify_tiles/maker.glsl";
+    struct glint_error err = {0};
+    char path[300], assignment[400];
+    snprintf(path, sizeof path, "%s/classify_tiles", pair->fixture->folder);
+    (void)mkdir(path, 0777); /* it may be there */
+    bool found = write_wrong(pair, maker, glint_pass_text(maker), right, wrong);
+    snprintf(path, sizeof path, "%s/%s.comp", slot, variant);
+    found |= write_wrong(pair, "wrong.comp", glint_pass_text(path), right, wrong);
+    assert_true(found);
+    snprintf(assignment, sizeof assignment, "%s=%s/wrong.comp", slot, pair->fixture->folder);
     pair_check(glint_pipeline_shader(pair->pipeline, assignment, &err), &err);
 }
 

@@ -19,7 +19,7 @@ int pair_set_up(void **state);
 int pair_tear_down(void **state);
 struct pair *pair_of(void **state); /* skips the test without a device */
 void pair_use(struct pair *pair, const char *preset);
-/* Has a pass use its own shader with a part that is wrong. */
+/* Has a pass use its own shader, and the maker that lists of tiles share, with a part that is wrong. */
 void pair_spoil(struct pair *pair, const char *slot, const char *variant, const char *right, const char *wrong);
 /* Replays the frame with both, and counts the values of the picture that differ. *left_out: adds how many passes the plan dropped. */
 size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t *left_out);

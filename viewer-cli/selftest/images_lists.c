@@ -174,7 +174,6 @@ static int kind_of_tile(const struct kind *kind, uint32_t column, uint32_t row) 
     return has[1] ? has[0] : has[0] ? 2 : 3;
 }
 
-
 static const char *const with_classes[] = {"classify_tiles=shown", "temporal.least_roughness=0.105", NULL};
 static const char *const whole_texels[] = {"classify_tiles=shown", "downsample.jitter=false", NULL};
 static const char *const half_texels[] = {"classify_tiles=shown", "downsample=pick", "downsample.jitter=false", NULL};
@@ -204,8 +203,10 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
         for (uint32_t i = 0; ok && i < 6; i++) { /* shown, smooth, rough, each with the rest behind it */
             const uint32_t first[] = {0, ends[2], ends[0], ends[2], 0, ends[1]};
             const uint32_t end[] = {ends[2], count, ends[2], count + ends[0], ends[1], count};
-            const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i], list[12 * i + 8], list[12 * i + 10]};
-            const uint32_t tiles = end[i] - first[i], expected[] = {first[i], tiles, (tiles + 1) / 2, (tiles + 7) / 8, 1};
+            const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i], list[12 * i + 8],
+                                      list[12 * i + 10]};
+            const uint32_t tiles = end[i] - first[i],
+                           expected[] = {first[i], tiles, (tiles + 1) / 2, (tiles + 7) / 8, 1};
             for (int w = 0; w < 5; w++)
                 image_compare(finding, found[w], expected[w], expected[w], "picture %zu, range %u", k, i);
         }

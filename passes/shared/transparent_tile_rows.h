@@ -1,0 +1,3 @@
+/* As tile_rows.h, of the passes of transparent surfaces. */
+#line 42
+OPTIONAL_READ(utextureBuffer, transparent_tiles, R32UI, TILES, 0xFFFFFFFFu)
