@@ -8,7 +8,7 @@
 };
 #include "shared/camera.glsl"
 #include "shared/shown.glsl"
-#include "shared/tile_maker.glsl"
+#include "classify_tiles/maker.glsl"
 
 // What lies between the classes is rough. A half-resolution texel's roughness may be a mean, which rounding makes a little less
 // rough than what it is of, or more.

@@ -7,7 +7,7 @@
 #include "shown.pass.h"
 };
 #define TILE_LIST transparent_tiles
-#include "shared/tile_maker.glsl"
+#include "classify_tiles/maker.glsl"
 
 uint class_of(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return 0u;

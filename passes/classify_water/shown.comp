@@ -8,7 +8,7 @@
 };
 #define TILE_LIST water_tiles
 #include "shared/constants.glsl"
-#include "shared/tile_maker.glsl"
+#include "classify_tiles/maker.glsl"
 
 uint class_of(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return 0u;

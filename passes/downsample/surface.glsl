@@ -34,7 +34,7 @@ void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen, bool s
         vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
         shown = shown && is_worth(pixel, chosen, normal, roughness, to_viewer);
         if (shown || frame.work.x != 0u) ray = drawn_ray(normal, roughness, to_viewer, uvec2(pixel));
-    }
+    } else shown = false;
     imageStore(inverse_half, pixel, vec4(depth_m > 0.0 && depth_m < LARGEST ? 1.0 / depth_m : 0.0));
     imageStore(depth_half, pixel, vec4(depth_m > 0.0 ? depth_m : INFINITE));
     imageStore(normal_half, pixel, vec4(normal, roughness));
