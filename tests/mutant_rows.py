@@ -78,6 +78,17 @@ HARMLESS = {
         "on this device a quotient of equals is 1; on others it may be 2.5 ULP beside it, and there the cases of facets notice",
     ("cubemap_trace/exact.comp", "walk.t = beyond * (1.0 + 1e-6) + 1e-6;", "walk.t = beyond * (1.0 + 1e-6) + 0.0;"):
         "a ray that rounding leaves at the border of a cell finds nothing beyond it on any level, and then goes on by a part of a texel as ever",
+    ("classify_tiles/maker.glsl", "uint rows = max((groups + 32767u) / 32768u, 1u);", "uint rows = max((groups + 32768u) / 32768u, 1u);"):
+        "at a multiple of 32,768 workgroups a row more of them, whose places lie beyond the list's count",
+    ("downsample/pick.comp", "ivec2 block = 2 * pixel, last = ivec2(frame.size.xy) - 1;", "ivec2 block = 2 * pixel, last = ivec2(frame.size.xy) + 1;"):
+        "choose() looks at no pixel outside of the picture, whatever was fetched there",
+    ("transparency/trace.comp",
+     "float cosine = fresnel ? clamp(abs(dot(normalize(mat3(frame.world_from_view) * view), normalize(normal))), 0.0, 1.0) : 1.0;",
+     "float cosine = fresnel ? (abs(dot(normalize(mat3(frame.world_from_view) * view), normalize(normal)))) : 1.0;"):
+        "two unit vectors' product is beyond 1 by a rounding at most, and what is taken of it is continuous there",
+    ("transparent_resolve/main.glsl", "vec4 color = tile_works && reflects(depth_m, normal) ? resolved(texel, depth_m, normal) : vec4(0.0);",
+     "vec4 color = tile_works  ? resolved(texel, depth_m, normal) : vec4(0.0);"):
+        "what has no surface has a way of 0 that ended nowhere, which is no source either: the guard spares the asking",
 }
 
 # {(file, line, line): what case is missing}: not harmless, and not noticed yet. A new one of these fails the test.

@@ -282,6 +282,62 @@ static void a_pane_without_a_normal_has_no_ray(void **state) {
     free(depth), free(normal), free(pick);
 }
 
+/* Two panes next to each other that look elsewhere, the left one at 3 m, the right one half as far; above them there is none. */
+static void two_panes(uint32_t x, uint32_t y, float out[9]) {
+    const bool left = x < SIDE / 2;
+    const float values[9] = {
+        0, 0, 0, 0.5f, left ? 0 : 0.6f, 0, left ? 1 : 0.8f, y < SIDE / 2 ? INFINITY : left ? 3 : 1.5f, 0};
+    memcpy(out, values, sizeof values);
+}
+
+static void white(const double direction[3], float out[3]) {
+    (void)direction;
+    out[0] = out[1] = out[2] = 1;
+}
+
+/* What is laid over a pixel is mixed of the texels of its own pane; what is of none has nothing to mix in. */
+static void a_pane_shows_its_own_reflection(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    plain_capture(gpu_path(gpu, "two", path), &(struct plain){.width = SIDE,
+                                                              .height = SIDE,
+                                                              .fov_y_degrees = 60,
+                                                              .cube_size = 32,
+                                                              .cube_count = 1,
+                                                              .cube = at_wall,
+                                                              .sky = white,
+                                                              .pane = two_panes});
+    gpu_load(gpu, "two");
+    gpu_reset(gpu);
+    gpu->float_precision = gpu->all = true;
+    use_panes(gpu);
+    gpu_set(gpu, "transparent_screen_trace.length_m=0");
+    gpu_set(gpu, "transparency.fresnel=false"); /* a share of 0.53 at an index of 4, sixteen times */
+    gpu_set(gpu, "transparency.index=4");
+    gpu_set(gpu, "transparency.intensity=16");
+    gpu_run(gpu);
+    float *half = gpu_floats(gpu, "transparent_reflection", NULL, NULL),
+          *all = gpu_floats(gpu, "composed_transparent", NULL, NULL);
+    double apart = 0;
+    for (int i = 0; i < SIDE / 2 * SIDE / 4; ++i) assert_true(half[4 * i] == 0 && half[4 * i + 3] == 0);
+    for (int y = SIDE / 2 + 1; y < SIDE - 1; ++y)
+        for (int x = 1; x < SIDE - 1; ++x)
+            for (int k = 0; k < 3; ++k) {
+                double sum = 0, weights = 0;
+                for (int t = 0; t < 4; ++t) {
+                    const int i = (x - 1) / 2 + t % 2, j = (y - 1) / 2 + t / 2;
+                    const double weight = (1 - fabs(x / 2.0 - 0.25 - i)) * (1 - fabs(y / 2.0 - 0.25 - j));
+                    if ((i < SIDE / 4) != (x < SIDE / 2)) continue;
+                    sum += weight * (double)half[4 * (j * SIDE / 2 + i) + k], weights += weight;
+                }
+                apart = fmax(apart, fabs(sum / weights - (double)all[4 * (y * SIDE + x) + k]));
+            }
+    print_message("# off by at most %.2g\n", apart);
+    /* Where a third of the weight is the other pane's, a ten-thousandth of that third is taken of colours up to 1. */
+    assert_true(apart < 4e-5);
+    free(half), free(all);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_part_of_it_brings_the_picture_nearer),
@@ -291,6 +347,7 @@ int main(void) {
         cmocka_unit_test(panes_reflect_in_a_matte_scene),
         cmocka_unit_test(panes_have_their_roughness),
         cmocka_unit_test(a_pane_without_a_normal_has_no_ray),
+        cmocka_unit_test(a_pane_shows_its_own_reflection),
     };
     return cmocka_run_group_tests_name("gpu_transparency", tests, gpu_set_up, gpu_tear_down);
 }

@@ -163,38 +163,43 @@ static void the_four_nearest_are_those_on_the_pixels_side(void **state) {
     free(source);
 }
 
+static float by_chance(uint32_t i) {
+    return i * 2654435761U >> 20 & 1 ? 1.0F : -1.0F;
+}
 /* Half a step of a half float, up or down. */
-static void rounded(const struct plain *plain, float *values) {
+static void rounded_roughness(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height;
-    for (uint32_t i = 0; i < pixels; ++i)
-        values[PLAIN_ROUGHNESS * pixels + i] += (i * 2654435761U >> 20 & 1 ? 1.0F : -1.0F) / 4096;
+    for (uint32_t i = 0; i < pixels; ++i) values[PLAIN_ROUGHNESS * pixels + i] += by_chance(i) / 4096;
+}
+/* Half a step of an 18-bit mantissa. */
+static void rounded_depth(const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < plain->width * plain->height; ++i) values[i] *= 1 + by_chance(i) / 524288;
 }
 
-/* On an even wall every sample fits; which one a pixel takes must not hang on the last bit of how rough it is. */
-static void rounding_of_roughness_chooses_no_other_sample(void **state) {
+/* On an even wall every sample fits; which one a pixel takes must not hang on the last bit of how rough or how far it is. */
+static void rounding_chooses_no_other_sample(void **state) {
     struct gpu *gpu = *state;
-    float *color[2];
-    size_t other = 0;
-    for (int i = 0; i < 2; ++i) {
+    void (*const spoils[])(const struct plain *, float *) = {NULL, rounded_roughness, rounded_depth};
+    uint32_t *source[3];
+    size_t other[3] = {0}, beside = 0;
+    for (int i = 0; i < 3; ++i) {
         char path[256];
-        plain_capture(
-            gpu_path(gpu, "wall", path),
-            &(struct plain){
-                .width = SIZE, .height = SIZE, .roughness = 0.75F, .fov_y_degrees = 60, .spoil = i ? rounded : NULL});
+        plain_capture(gpu_path(gpu, "wall", path),
+                      &(struct plain){
+                          .width = SIZE, .height = SIZE, .roughness = 0.75F, .fov_y_degrees = 60, .spoil = spoils[i]});
         gpu_load(gpu, "wall");
         gpu_reset(gpu);
         gpu->float_precision = true;
         gpu_use(gpu, "upscale=best_match");
-        gpu_shader(gpu, "resolve", "stand_in.comp");
-        gpu_set(gpu, "resolve.texel_scale=1"); /* another colour in each sample */
+        gpu_set(gpu, "upscale.sharp_roughness=1");
+        if (spoils[i] == rounded_depth) gpu_set(gpu, "upscale.roughness_weight=0");
         gpu_run(gpu);
-        color[i] = gpu_floats(gpu, "reflection", NULL, NULL);
+        source[i] = gpu_uints(gpu, "sharp_source", NULL, NULL);
+        for (size_t k = 0; k < SIZE * SIZE; ++k) other[i] += source[0][k] != source[i][k], beside += source[i][k] != 5;
     }
-    for (size_t i = 0; i < 4 * SIZE * SIZE; ++i) other += color[0][i] != color[1][i];
-    print_message("# %zu of %d pixels take another sample\n", other / 3, SIZE * SIZE);
-    assert_true(other == 0 && color[0][0] > 0);
-    free(color[0]);
-    free(color[1]);
+    print_message("# %zu, %zu of %d pixels take another sample\n", other[1], other[2], SIZE * SIZE);
+    assert_true(other[1] == 0 && other[2] == 0 && beside > SIZE * SIZE);
+    for (int i = 0; i < 3; ++i) free(source[i]);
 }
 
 static void sky_above(const struct plain *plain, float *values) {
@@ -226,7 +231,7 @@ int main(void) {
         cmocka_unit_test(every_pixel_takes_a_sample_of_its_own_surface),
         cmocka_unit_test(roughness_alone_tells_surfaces_apart),
         cmocka_unit_test(the_four_nearest_are_those_on_the_pixels_side),
-        cmocka_unit_test(rounding_of_roughness_chooses_no_other_sample),
+        cmocka_unit_test(rounding_chooses_no_other_sample),
         cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),
         cmocka_unit_test(rough_pixels_keep_what_was_upscaled),
         cmocka_unit_test(what_has_no_ray_darkens_nothing),

@@ -193,6 +193,7 @@ static void load_plain(struct gpu *gpu, void (*water)(uint32_t x, uint32_t y, fl
                                                                 .cube_count = 1,
                                                                 .cube = wall_or_sky,
                                                                 .sky = blue,
+                                                                .first = true,
                                                                 .water = water});
     gpu_load(gpu, "plain");
     gpu_reset(gpu);

@@ -162,7 +162,11 @@ static bool add_over(struct glint_writer *writer, const struct plain *plain, con
 
 static struct glint_frame frame_of(const struct plain *plain) {
     const double near = 0.1, far = 1000;
-    struct glint_frame frame = {.number = plain->frame ? plain->frame : 1, .cut = plain->cut, .up = plain->up};
+    struct glint_frame frame = {.number = plain->first   ? 0
+                                          : plain->frame ? plain->frame
+                                                         : 1,
+                                .cut = plain->cut,
+                                .up = plain->up};
     for (int i = 0; i < 16; ++i)
         frame.camera.world_to_view[i] = plain->world_to_view ? plain->world_to_view[i] : i % 5 == 0;
     frame.camera.view_to_clip[0] = focal(plain) * plain->height / plain->width;

@@ -40,6 +40,7 @@ struct plain {
     const float *fresnel; /* material.fresnel everywhere; NULL: none */
     bool foreground;      /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
     uint32_t frame;       /* number; 0: 1 */
+    bool first;           /* the number is 0 */
     bool cut;
     double jitter_px[2], previous_jitter_px[2]; /* of the projection; the wall's motion says both */
     const double *world_to_view;                /* 16 values; NULL: as above */
