@@ -8,6 +8,7 @@
 
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>
+#include <pthread.h>
 #include <xxhash.h>
 
 /* glslang's log, one message a line, as one line of ours. The linker's messages name no file. */
@@ -82,7 +83,12 @@ static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const ch
     while (found && !XXH128_isEqual(found->text, hash)) found = found->next;
     if (!found) {
         found = calloc(1, sizeof *found);
-        if (!found || !compile(found, path, code, err)) {
+        /* glslang starts and ends for a process, and does not ask whether another thread is about to. */
+        static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+        pthread_mutex_lock(&one_at_a_time);
+        const bool ok = found && compile(found, path, code, err);
+        pthread_mutex_unlock(&one_at_a_time);
+        if (!ok) {
             if (!found) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
             free(found);
             return false;

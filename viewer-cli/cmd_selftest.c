@@ -7,9 +7,12 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <pthread.h>
+
 #include "args.h"
 #include "progress.h"
 #include "selftest/chosen.h"
+#include "threads.h"
 
 /* clang-format off */
 static const struct selftest_group *const groups[] = {
@@ -103,27 +106,40 @@ static void remove_folder(const char *folder) {
     if (folder[0]) rmdir(folder);
 }
 
+/* Groups run side by side, each worker on a device and in a folder of its own. */
+struct work {
+    const struct arguments *arguments;
+    struct chosen *chosen;
+    struct glint_device *devices[MOST_GROUPS];
+    struct glint_device_info info; /* of the first */
+    struct progress progress;
+    size_t ready[MOST_GROUPS]; /* cases of each group */
+    pthread_mutex_t lock;      /* of info, progress, ready and error */
+    struct glint_error error;  /* the first */
+};
+
 /* The bar goes by cases, those with a finding before all; what a replay says of itself is too small for it. */
 struct watch {
-    struct progress progress;
-    const struct chosen *chosen;
+    struct work *work;
+    struct chosen_group *group;
 };
 static bool show(void *user, const char *what, double done) {
-    struct watch *watch = user;
+    const struct watch *watch = user;
+    struct work *work = watch->work;
+    const struct chosen_group *group = watch->group;
     size_t all = 0, ready = 0;
-    char text[64] = "";
     (void)what, (void)done;
-    for (size_t g = 0; g < watch->chosen->group_count; g++) {
-        const struct chosen_group *group = &watch->chosen->groups[g];
-        for (size_t i = 0; i < group->group->count(); i++) {
-            if (!group->cases[i]) continue;
-            all++;
-            ready += group->findings[i].values > 0 || group->findings[i].left_out || group->seconds > 0;
-            if (!group->findings[i].values && !group->findings[i].left_out && group->seconds == 0 && !text[0])
-                snprintf(text, sizeof text, "%s", group->group->name);
-        }
-    }
-    return progress_report(&watch->progress, text, (double)ready / (double)all);
+    for (size_t i = 0; i < group->group->count(); i++)
+        ready +=
+            group->cases[i] && (group->findings[i].values > 0 || group->findings[i].left_out || group->seconds > 0);
+    pthread_mutex_lock(&work->lock);
+    work->ready[group - work->chosen->groups] = ready;
+    ready = 0;
+    for (size_t g = 0; g < work->chosen->group_count; g++)
+        all += work->chosen->groups[g].count, ready += work->ready[g];
+    const bool go_on = progress_report(&work->progress, group->group->name, (double)ready / (double)all);
+    pthread_mutex_unlock(&work->lock);
+    return go_on;
 }
 
 static double seconds_since(const struct timespec *start) {
@@ -132,24 +148,54 @@ static double seconds_since(const struct timespec *start) {
     return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
 }
 
-static bool run_groups(const struct arguments *a, struct chosen *chosen, struct glint_device *device,
-                       struct watch *watch, struct glint_error *err) {
+/* The worker's device, made when it is first asked for. */
+static struct glint_device *device_of(struct work *work, uint32_t worker, struct glint_error *err) {
+    const struct arguments *a = work->arguments;
+    if (work->devices[worker]) return work->devices[worker];
+    work->devices[worker] =
+        glint_device_create(&(struct glint_device_options){.select = a->device, .passes = a->passes}, err);
+    if (!work->devices[worker]) return NULL;
+    pthread_mutex_lock(&work->lock);
+    work->info = *glint_device_get_info(work->devices[worker]);
+    pthread_mutex_unlock(&work->lock);
+    return work->devices[worker];
+}
+
+static bool run_group(void *user, uint32_t worker, size_t g) {
+    struct work *work = user;
+    struct chosen_group *group = &work->chosen->groups[g];
+    struct watch watch = {work, group};
+    struct glint_error err = {0};
+    struct timespec start;
     char folder[256] = "";
-    bool ok = make_folder(folder, err);
     double filter_step = NAN;
-    const struct selftest test = {device, folder, a->quick, &filter_step, show, watch};
-    for (size_t g = 0; ok && g < chosen->group_count; g++) {
-        struct chosen_group *group = &chosen->groups[g];
-        struct timespec start;
-        clock_gettime(CLOCK_MONOTONIC, &start);
-        if (group->count) ok = group->group->run(&test, group->cases, group->findings, err);
-        group->seconds = seconds_since(&start);
-    }
+    if (!group->count) return true;
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    const struct selftest test = {
+        device_of(work, worker, &err), folder, work->arguments->quick, &filter_step, show, &watch};
+    bool ok = test.device && make_folder(folder, &err) && group->group->run(&test, group->cases, group->findings, &err);
+    group->seconds = seconds_since(&start);
     remove_folder(folder);
     const char *last = NULL;
-    const uint32_t messages = glint_device_messages(device, &last);
-    if (ok && messages)
-        ok = glint_fail(err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
+    const uint32_t messages = ok ? glint_device_messages(test.device, &last) : 0;
+    if (messages) ok = glint_fail(&err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
+    if (ok) return show(&watch, NULL, 1);
+    pthread_mutex_lock(&work->lock);
+    if (!work->error.code) work->error = err;
+    pthread_mutex_unlock(&work->lock);
+    return false;
+}
+
+static bool run_groups(struct work *work, struct glint_error *err) {
+    const size_t count = work->chosen->group_count;
+    pthread_mutex_init(&work->lock, NULL);
+    progress_begin(&work->progress);
+    const bool ok = glint_loop(count, glint_loop_workers(count, 0), run_group, work);
+    progress_end(&work->progress);
+    pthread_mutex_destroy(&work->lock);
+    for (size_t i = 0; i < MOST_GROUPS; i++)
+        if (work->devices[i]) glint_device_destroy(&work->devices[i]);
+    if (!ok) *err = work->error;
     return ok;
 }
 
@@ -157,23 +203,15 @@ static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
     struct chosen chosen;
-    struct watch watch = {.chosen = &chosen};
+    struct work work = {.arguments = &a, .chosen = &chosen};
     struct timespec start;
     command_parse(&cmd_selftest, argc, argv, &a);
     clock_gettime(CLOCK_MONOTONIC, &start);
     bool ok = chosen_init(&chosen, groups, sizeof groups / sizeof *groups, &a.only, &err);
-    struct glint_device *device = NULL;
-    if (ok && !a.list) {
-        progress_begin(&watch.progress);
-        device = glint_device_create(&(struct glint_device_options){.select = a.device, .passes = a.passes}, &err);
-        ok = device && run_groups(&a, &chosen, device, &watch, &err);
-        progress_end(&watch.progress);
-    }
-    const enum status status =
-        ok ? chosen_report(&chosen, device ? glint_device_get_info(device) : NULL, seconds_since(&start), a.json)
-           : command_fail(&cmd_selftest, &err);
+    if (ok && !a.list) ok = run_groups(&work, &err);
+    const enum status status = ok ? chosen_report(&chosen, a.list ? NULL : &work.info, seconds_since(&start), a.json)
+                                  : command_fail(&cmd_selftest, &err);
     chosen_finish(&chosen);
-    if (device) glint_device_destroy(&device);
     list_free(&a.only);
     return status;
 }

@@ -33,7 +33,7 @@ struct selftest_group {
     const char *name, *what;
     size_t (*count)(void);
     struct selftest_case (*get)(size_t i);
-    /* Checks the chosen cases. */
+    /* Checks the chosen cases. Several groups at a time, on a device each. */
     bool (*run)(const struct selftest *test, const bool *chosen, struct selftest_finding *findings,
                 struct glint_error *err);
 };
