@@ -23,7 +23,7 @@ MUTANTS = [
     ("stable", "normalize(v / max(a.x, max(a.y, a.z)))", "normalize(v)", ["mirror direction", "unit vectors"]),
     ("stable", "420.0 - 15.0 * x2", "420.0 - 14.0 * x2", ["tangent"]),
     ("stable", "k > 2.0", "k > 3.0", ["expm1 beyond its tangent"]),
-    ("constants", "greaterThan(color, vec3(largest))", "greaterThanEqual(color, vec3(0.99 * largest))", ["storable colours"]),
+    ("constants", "floatBitsToUint(color) - (most + 1u)", "floatBitsToUint(color) - floatBitsToUint(0.99 * largest)", ["storable colours"]),
     ("stable", "0x0FFFu", "0x1000u", ["nearest half"]),
     ("constants", "lessThan(abs(color), vec4(LARGEST))", "lessThan(color, vec4(LARGEST))", ["finite colours"]),
     ("steps", "if (x == 0.0)", "if (abs(x) < 1e-6)", ["first step"]),
