@@ -111,7 +111,7 @@ struct work {
     const struct arguments *arguments;
     struct chosen *chosen;
     struct glint_device *devices[MOST_GROUPS];
-    struct glint_device_info info; /* of the first */
+    struct glint_device_info info; /* of any: they are the same device */
     struct progress progress;
     size_t ready[MOST_GROUPS]; /* cases of each group */
     pthread_mutex_t lock;      /* of info, progress, ready and error */

@@ -154,22 +154,26 @@ static void water_at(uint32_t x, uint32_t y, float out[9]) {
     memcpy(out, values, sizeof values);
 }
 
-static void load_plain(struct gpu *gpu, bool water, float roughness, void (*spoil)(const struct plain *, float *)) {
+static void load_panes(struct gpu *gpu, const struct plain *plain) {
     char path[256];
-    pane_roughness = roughness;
-    plain_capture(gpu_path(gpu, "panes", path), &(struct plain){.width = SIDE,
-                                                                .height = SIDE,
-                                                                .fov_y_degrees = 60,
-                                                                .cube_size = 32,
-                                                                .cube_count = 1,
-                                                                .cube = at_wall,
-                                                                .pane = pane_at,
-                                                                .spoil = spoil,
-                                                                .water = water ? water_at : NULL});
+    plain_capture(gpu_path(gpu, "panes", path), plain);
     gpu_load(gpu, "panes");
     gpu_reset(gpu);
     gpu->float_precision = true;
     use_panes(gpu);
+}
+
+static void load_plain(struct gpu *gpu, bool water, float roughness, void (*spoil)(const struct plain *, float *)) {
+    pane_roughness = roughness;
+    load_panes(gpu, &(struct plain){.width = SIDE,
+                                    .height = SIDE,
+                                    .fov_y_degrees = 60,
+                                    .cube_size = 32,
+                                    .cube_count = 1,
+                                    .cube = at_wall,
+                                    .pane = pane_at,
+                                    .spoil = spoil,
+                                    .water = water ? water_at : NULL});
 }
 
 /* One pipeline: panes lie over the water, unless the water is before them. */
@@ -264,13 +268,8 @@ static void half_usable(uint32_t x, uint32_t y, float out[9]) {
 /* A ray starts at the nearest surface that can have one, not at the nearest. */
 static void a_pane_without_a_normal_has_no_ray(void **state) {
     struct gpu *gpu = *state;
-    char path[256];
-    plain_capture(gpu_path(gpu, "half", path),
-                  &(struct plain){.width = SIDE, .height = SIDE, .fov_y_degrees = 60, .pane = half_usable});
-    gpu_load(gpu, "half");
-    gpu_reset(gpu);
-    gpu->float_precision = gpu->all = true;
-    use_panes(gpu);
+    load_panes(gpu, &(struct plain){.width = SIDE, .height = SIDE, .fov_y_degrees = 60, .pane = half_usable});
+    gpu->all = true;
     gpu_run(gpu);
     float *depth = gpu_floats(gpu, "transparent_depth_half", NULL, NULL),
           *normal = gpu_floats(gpu, "transparent_normal_jittered", NULL, NULL);
@@ -298,19 +297,15 @@ static void white(const double direction[3], float out[3]) {
 /* What is laid over a pixel is mixed of the texels of its own pane; what is of none has nothing to mix in. */
 static void a_pane_shows_its_own_reflection(void **state) {
     struct gpu *gpu = *state;
-    char path[256];
-    plain_capture(gpu_path(gpu, "two", path), &(struct plain){.width = SIDE,
-                                                              .height = SIDE,
-                                                              .fov_y_degrees = 60,
-                                                              .cube_size = 32,
-                                                              .cube_count = 1,
-                                                              .cube = at_wall,
-                                                              .sky = white,
-                                                              .pane = two_panes});
-    gpu_load(gpu, "two");
-    gpu_reset(gpu);
-    gpu->float_precision = gpu->all = true;
-    use_panes(gpu);
+    load_panes(gpu, &(struct plain){.width = SIDE,
+                                    .height = SIDE,
+                                    .fov_y_degrees = 60,
+                                    .cube_size = 32,
+                                    .cube_count = 1,
+                                    .cube = at_wall,
+                                    .sky = white,
+                                    .pane = two_panes});
+    gpu->all = true;
     gpu_set(gpu, "transparent_screen_trace.length_m=0");
     gpu_set(gpu, "transparency.fresnel=false"); /* a share of 0.53 at an index of 4, sixteen times */
     gpu_set(gpu, "transparency.index=4");
