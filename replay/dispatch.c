@@ -50,8 +50,8 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
     struct workgroup group = pass_workgroup(step->pass->pass);
     const enum glint_size_class size = graph_find(&run->graph, image->name)->row->size;
     if (size == GLINT_SIZE_TILES) {
-        extent = tile_grid(&run->sizes);
-        group = (struct workgroup){REGION_WIDE, REGION_HIGH};
+        extent = (VkExtent3D){run->sizes.full[0], run->sizes.full[1], 1};
+        group = (struct workgroup){REGION_WIDE * STRIP_WIDE, REGION_HIGH * TILE_HIGH};
     } else if (image->desc.buffer) {
         extent = (VkExtent3D){half[0], half[1], 1};
         group = (struct workgroup){LIST_BLOCK, LIST_BLOCK};
@@ -147,19 +147,20 @@ static bool add_tiles(const struct run *run, struct step *step, uint32_t phase, 
                       const struct glint_row *row, struct glint_error *err) {
     const struct workgroup group = pass_workgroup(step->pass->pass);
     const VkExtent2D size = tile_extent(run, image);
-    const uint32_t tiles = group.width * group.height / (size.width * size.height); /* of a workgroup */
+    const uint32_t wide = size.width * (STRIP_WIDE / run->sizes.tile_wide); /* of a strip */
+    const uint32_t strips = group.width * group.height / (wide * size.height);
     uint32_t range = 0;
     while (range < RANGES && strcmp(range_names[range], row->name) != 0) range += 2;
-    if (range >= RANGES || (tiles != 2 && tiles != 4 && tiles != 8))
+    if (range >= RANGES || (strips != 2 && strips != 4 && strips != 8))
         return glint_fail(
             err, GLINT_ERROR_USAGE,
-            "%s/%s: DISPATCH_TILES %s: expected a range of tiles, 2, 4 or 8 of %u x %u texels in a workgroup",
-            step->pass->pass->slot, step->pass->pass->variant, row->name, size.width, size.height);
+            "%s/%s: DISPATCH_TILES %s: expected a range of tiles, 2, 4 or 8 times %u x %u texels in a workgroup",
+            step->pass->pass->slot, step->pass->pass->variant, row->name, wide, size.height);
     for (uint32_t rest = 0; rest < 2; rest++)
         step->dispatches[step->dispatch_count++] =
             (struct dispatch){.phase = phase,
                               .list = tile_list(run, step->pass->pass),
-                              .from = 4 * (VkDeviceSize)(12 * (range + rest) + 4 * (tiles / 4)),
+                              .from = 4 * (VkDeviceSize)(12 * (range + rest) + 4 * (strips / 4)),
                               .tiles = range + rest,
                               .over = image,
                               .rest = rest};

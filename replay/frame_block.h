@@ -25,7 +25,8 @@ struct frame_block {
 struct frame_sizes {
     uint32_t full[2], half[2], planar[2];
     uint32_t active, chain, cube_face, sky_face;
-    bool history; /* what HISTORY rows name is there */
+    uint32_t tile_wide; /* glint_device_info's */
+    bool history;       /* what HISTORY rows name is there */
 };
 
 /* World position of a camera in engine units. */

@@ -71,8 +71,8 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
                        inputs->capture ? glint_capture_path(inputs->capture) : "no capture", fresh.row->role,
                        graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, fresh.row->source);
     } else if (dropped) fresh.source = SOURCE_NOTHING;
-    else if (inputs->run && glint_run_find(inputs->run, name) && fresh.row->size != GLINT_SIZE_TILES)
-        fresh.source = SOURCE_RUN;
+    else if (optional && fresh.row->size == GLINT_SIZE_TILES) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    else if (inputs->run && glint_run_find(inputs->run, name)) fresh.source = SOURCE_RUN;
     else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
     else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
     else complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);

@@ -16,7 +16,7 @@ struct workgroup pass_workgroup(const struct glint_pass *pass);
 
 enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64, CONSTANT_PHASE = 4 /* its id and its place */, CONSTANT_PROBE = 999 };
 /* Those of DISPATCH_TILES: ids, and places among the constants. */
-enum { CONSTANT_TILES = 997, CONSTANT_WORKS = 998, PLACE_TILES = 6, PLACE_WORKS = 7 };
+enum { CONSTANT_TILE_WIDE = 996, CONSTANT_TILES = 997, CONSTANT_WORKS = 998, PLACE_TILES = 6, PLACE_WORKS = 7 };
 #define ALL_TILES UINT32_MAX
 
 /* Values of a pass's parameters as the shader takes them. */
@@ -29,7 +29,8 @@ struct constants {
     bool probed; /* the shader tells of probed pixels */
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
-                    const struct spirv *spirv, const struct glint_replay_options *options, struct glint_error *err);
+                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t tile_wide,
+                    struct glint_error *err);
 
 struct program {
     uint64_t key;

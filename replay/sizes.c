@@ -53,23 +53,22 @@ static bool traces_all_pixels(const struct glint_pipeline *pipeline) {
 
 VkExtent2D tile_extent(const struct run *run, const struct image *over) {
     const uint32_t scale = over->desc.width == run->sizes.full[0] ? 1 : 2;
-    return (VkExtent2D){TILE_WIDE / scale, TILE_HIGH / scale};
+    return (VkExtent2D){run->sizes.tile_wide / scale, TILE_HIGH / scale};
 }
-VkExtent3D tile_grid(const struct frame_sizes *sizes) {
-    return (VkExtent3D){(sizes->full[0] + TILE_WIDE - 1) / TILE_WIDE, (sizes->full[1] + TILE_HIGH - 1) / TILE_HIGH, 1};
+static uint32_t parts_of(uint32_t length, uint32_t part) {
+    return (length + part - 1) / part;
 }
 uint32_t tile_count(const struct frame_sizes *sizes) {
-    return tile_grid(sizes).width * tile_grid(sizes).height;
+    return parts_of(sizes->full[0], sizes->tile_wide) * parts_of(sizes->full[1], TILE_HIGH);
 }
 /* What the maker of a list notes behind its tiles: 4 bits of each, and two words of each region. */
 static uint32_t tile_notes(const struct frame_sizes *sizes) {
-    const VkExtent3D grid = tile_grid(sizes);
-    const uint32_t across = (grid.width + REGION_WIDE - 1) / REGION_WIDE,
-                   down = (grid.height + REGION_HIGH - 1) / REGION_HIGH;
-    return across * down * (REGION_WIDE * REGION_HIGH / 8 + 2);
+    const uint32_t wide = REGION_WIDE * STRIP_WIDE;
+    return parts_of(sizes->full[0], wide) * parts_of(sizes->full[1], REGION_HIGH * TILE_HIGH) *
+           (wide / sizes->tile_wide * REGION_HIGH / 8 + 2);
 }
 uint32_t list_blocks(const struct frame_sizes *sizes) {
-    return (sizes->half[0] + LIST_BLOCK - 1) / LIST_BLOCK * ((sizes->half[1] + LIST_BLOCK - 1) / LIST_BLOCK);
+    return parts_of(sizes->half[0], LIST_BLOCK) * parts_of(sizes->half[1], LIST_BLOCK);
 }
 uint32_t list_capacity(const struct frame_sizes *sizes) {
     return LIST_BLOCK * LIST_BLOCK * list_blocks(sizes) + 2 * LIST_ITEMS;
@@ -84,7 +83,8 @@ bool run_sizes(struct run *run, struct glint_error *err) {
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
-                                  .sky_face = sky ? sky->width : 0};
+                                  .sky_face = sky ? sky->width : 0,
+                                  .tile_wide = run->replay->device ? run->replay->device->info.tile_wide : STRIP_WIDE};
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     if (traces_all_pixels(run->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
     const struct glint_part_info **parts;

@@ -141,9 +141,8 @@ bool run_sizes(struct run *run, struct glint_error *err);
 bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
                         struct glint_error *err);
 
-VkExtent2D tile_extent(const struct run *run,
-                       const struct image *over);      /* in texels of an image over all of the picture */
-VkExtent3D tile_grid(const struct frame_sizes *sizes); /* of the picture */
+/* In texels of an image over all of the picture. */
+VkExtent2D tile_extent(const struct run *run, const struct image *over);
 uint32_t tile_count(const struct frame_sizes *sizes);
 uint32_t list_blocks(const struct frame_sizes *sizes);
 uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */

@@ -7,7 +7,8 @@
 #define TILE_LIST tile_list
 #endif
 
-const vec2 TILE_SIZE = vec2(TILE_WIDE, TILE_HIGH);
-uvec2 tile_grid(uvec2 size) { return (size + uvec2(TILE_SIZE) - 1u) / uvec2(TILE_SIZE); }
+const uint STRIP_TILES = STRIP_WIDE / tile_wide;
+const uvec2 TILE_SIZE = uvec2(tile_wide, TILE_HIGH);
+uvec2 tile_grid(uvec2 size) { return (size + TILE_SIZE - 1u) / TILE_SIZE; }
 uint tile_count(uvec2 size) { return tile_grid(size).x * tile_grid(size).y; }
 #endif

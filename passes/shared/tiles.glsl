@@ -1,4 +1,4 @@
-// Tiles of 16x2 pixels of the picture, by what they hold, and which texel of an image an invocation works on: the tiles of a
+// Tiles of the picture (tile_list.h), by what they hold, and which texel of an image an invocation works on: the tiles of a
 // workgroup are those that the list has one after the other. Next include of a pass with the row of tile_rows.h. No kernel's reach
 // has to be added to them: what a neighbour or the next frame takes is what the picture shows, which has a tile of its own, and
 // where it shows nothing images hold nothing. (shown.glsl)
@@ -10,7 +10,7 @@
 ivec2 tile_texel(float scale) {
     if (tile_range == ALL_TILES) return ivec2(gl_GlobalInvocationID.xy);
     int range = TILE_RANGES + 2 * int(tile_range);
-    uvec2 size = uvec2(TILE_SIZE / scale);
+    uvec2 size = TILE_SIZE / uint(scale);
     uint texels = size.x * size.y, lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y, lane = gl_LocalInvocationIndex;
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint place = lanes / texels * group + lane / texels, total = tile_count(frame.size.xy);

@@ -11,6 +11,7 @@
 
 #include "pair.h"
 #include "plain_capture.h"
+#include "shared/tile_list.h"
 
 enum { FACE = 16, TILED_WIDTH = 75, TILED_HEIGHT = 53, TILED_FRAMES = 3, SHIFT = 6 /* pixels, from frame to frame */ };
 
@@ -71,15 +72,22 @@ static size_t differences_of_tiles(struct pair *pair, double *worked) {
 }
 
 /* Catches: tiles left out that a kernel or the next frame's history reads, tiles of the wrong class, texels that neither part
-   of the list writes. */
+   of the list writes; all of it with the tiles of other devices, too. */
 static void tiles_leave_nothing_out(void **state) {
     struct pair *pair = pair_of(state);
     static const char *const presets[] = {"mafia3", "mafia_de", "mafia3_shipped"};
+    uint32_t *wide = &pair->fixture->device->info.tile_wide;
+    const uint32_t own = *wide, other = own == TILE_WIDE ? STRIP_WIDE : TILE_WIDE;
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
-        double worked = 0;
+        double worked = 0, worked_other = 0;
         pair_use(pair, presets[p]);
         if (differences_of_tiles(pair, &worked) > 0) fail_msg("%s differs", presets[p]);
-        assert_true(worked > 0.2 && worked < 0.8);
+        *wide = other;
+        if (differences_of_tiles(pair, &worked_other) > 0)
+            fail_msg("%s differs with tiles of %u pixels", presets[p], other);
+        *wide = own;
+        assert_true(worked > 0.2 && worked < 0.8 && worked_other > 0.2 && worked_other < 0.8);
+        assert_true((worked_other < worked) == (other < own)); /* narrow ones leave out more */
     }
     fixture_check_messages(pair->fixture);
 }

@@ -19,7 +19,7 @@ static const struct kind kinds[] = {
     {257, 40, 0.1, 0.9}, {300, 260, 0, 1}, {40, 130, 1, 0}, /* more blocks than a workgroup has invocations; nothing */
 };
 enum { KINDS = sizeof kinds / sizeof *kinds, CLASSES = 2, ITEMS = 256 };
-enum { WIDE = 16, HIGH = 2, REGION_WIDE = 4, REGION_HIGH = 16 }; /* pixels of a tile, tiles of a region */
+enum { HIGH = 2, STRIP = 16, REGION_WIDE = 4, REGION_HIGH = 16 }; /* pixels of a tile and a strip, strips of a region */
 static const uint32_t no_item = 0xFFFFFFFF;
 
 static int class_of(const struct kind *kind, uint32_t x, uint32_t y) {
@@ -163,15 +163,19 @@ static bool check_pixels(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
-/* ---- Tiles of 16 x 2 pixels ---- */
+/* ---- Tiles, as wide as the device takes them ---- */
 
 /* In the order of the list: rough, rough and smooth, smooth, nothing. */
-static int kind_of_tile(const struct kind *kind, uint32_t column, uint32_t row) {
+static int kind_of_tile(const struct kind *kind, uint32_t wide, uint32_t column, uint32_t row) {
     bool has[CLASSES + 1] = {false};
     for (uint32_t y = HIGH * row; y < HIGH * row + HIGH && y < kind->height; y++)
-        for (uint32_t x = WIDE * column; x < WIDE * column + WIDE && x < kind->width; x++)
+        for (uint32_t x = wide * column; x < wide * column + wide && x < kind->width; x++)
             has[class_of(kind, x, y)] = true;
     return has[1] ? has[0] : has[0] ? 2 : 3;
+}
+
+static uint32_t tile_wide(const struct frames *frames) {
+    return glint_device_get_info(frames->test->device)->tile_wide;
 }
 
 static const char *const with_classes[] = {"classify_tiles=shown", "temporal.least_roughness=0.105", NULL};
@@ -181,10 +185,11 @@ static const char *const half_texels[] = {"classify_tiles=shown", "downsample=pi
 static bool check_tiles(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
                         struct glint_error *err) {
     static const char *const passes[] = {"classify_tiles", NULL};
+    const uint32_t wide = tile_wide(frames), each = STRIP / wide; /* tiles of a strip */
     bool ok = true;
     for (size_t k = 0; ok && k < KINDS; k++) {
-        const uint32_t across = (kinds[k].width + WIDE - 1) / WIDE, down = (kinds[k].height + HIGH - 1) / HIGH;
-        const uint32_t count = across * down, columns = (across + REGION_WIDE - 1) / REGION_WIDE * REGION_WIDE;
+        const uint32_t across = (kinds[k].width + wide - 1) / wide, down = (kinds[k].height + HIGH - 1) / HIGH;
+        const uint32_t count = across * down, columns = (across + each - 1) / each, strips = REGION_HIGH * columns;
         size_t room = 0;
         uint32_t ends[4], at = 0;
         ok = run(frames, &kinds[k], passes, which->with, NULL, err);
@@ -192,10 +197,10 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
         ok = list && (ITEMS + count <= room ||
                       glint_fail(err, GLINT_ERROR_DEVICE, "self-test: a list of %zu words is too short", room));
         for (int class = 0; ok && class < 4; ends[class ++] = at)
-            for (uint32_t tile = 0; tile < columns * down + columns * REGION_HIGH; tile++) { /* regions by columns */
-                const uint32_t row = tile / (columns * REGION_HIGH) * REGION_HIGH, x = tile / REGION_HIGH % columns,
-                               y = row + tile % REGION_HIGH;
-                if (x >= across || y >= down || kind_of_tile(&kinds[k], x, y) != class) continue;
+            for (uint32_t tile = 0; tile < each * columns * (down + REGION_HIGH); tile++) { /* strips by columns */
+                const uint32_t strip = tile / each, x = strip / REGION_HIGH % columns * each + tile % each,
+                               y = strip / strips * REGION_HIGH + strip % REGION_HIGH;
+                if (x >= across || y >= down || kind_of_tile(&kinds[k], wide, x, y) != class) continue;
                 const uint32_t item = y << 16 | x;
                 image_compare(finding, list[ITEMS + at], item, item, "picture %zu, tile %u", k, at);
                 at++;
@@ -206,7 +211,8 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
             const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i], list[12 * i + 8],
                                       list[12 * i + 10]};
             const uint32_t tiles = end[i] - first[i],
-                           expected[] = {first[i], tiles, (tiles + 1) / 2, (tiles + 7) / 8, 1};
+                           expected[] = {first[i], tiles, (tiles + 2 * each - 1) / (2 * each),
+                                         (tiles + 8 * each - 1) / (8 * each), 1};
             for (int w = 0; w < 5; w++)
                 image_compare(finding, found[w], expected[w], expected[w], "picture %zu, range %u", k, i);
         }
@@ -223,6 +229,7 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
 static bool check_texels(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
                          struct glint_error *err) {
     static const char *const passes[] = {"classify_tiles", "downsample", "screen_trace", NULL};
+    const uint32_t wide = tile_wide(frames);
     char *shader = image_shader("linear",
                                 "#include \"shared/camera.glsl\"\n#include \"shared/tiles.glsl\"\n"
                                 "void main() {\n    %s;\n}\n",
@@ -236,7 +243,7 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
         ok = found != NULL;
         for (size_t i = 0; ok && i < count; i++) {
             const uint32_t x = (uint32_t)i % width, y = (uint32_t)i / width;
-            const bool works = kind_of_tile(&kinds[k], x * scale / WIDE, y * scale / HIGH) < 3;
+            const bool works = kind_of_tile(&kinds[k], wide, x * scale / wide, y * scale / HIGH) < 3;
             const double expected = x + 512.0 * y + (works ? 0.25 : 0.5);
             image_compare(finding, (double)found[i], expected, expected, "picture %zu, texel %u,%u", k, x, y);
         }
