@@ -108,11 +108,13 @@ static bool check(const struct run *run, struct glint_error *err) {
     const uint32_t *full = run->sizes.full;
     if (options->probe_count && options->repeat)
         return glint_fail(err, GLINT_ERROR_USAGE, "pixels are probed in one round, not in repeated ones");
-    for (size_t i = 0; i < options->probe_count; i++)
-        if (options->probes[i][0] >= full[0] || options->probes[i][1] >= full[1])
-            return glint_fail(err, GLINT_ERROR_USAGE, "%s: pixel %u,%u: outside of the picture of %u x %u pixels",
-                              glint_capture_path(run->replay->capture), options->probes[i][0], options->probes[i][1],
-                              full[0], full[1]);
+    for (size_t i = 0; i < options->probe_count; i++) {
+        const uint32_t *pixel = options->probes[i]; /* left of the picture or above: below zero, modulo 2^32 */
+        if (pixel[0] >= full[0] || pixel[1] >= full[1])
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: pixel %d,%d: outside of the picture of %u x %u pixels",
+                              glint_capture_path(run->replay->capture), (int32_t)pixel[0], (int32_t)pixel[1], full[0],
+                              full[1]);
+    }
     return true;
 }
 

@@ -8,7 +8,7 @@
 struct arguments {
     struct pipeline_args pipeline;
     const char *capture, *out;
-    uint32_t pixel[2];
+    int32_t pixel[2];
     bool has_pixel, json, alone;
 };
 
@@ -54,8 +54,8 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         if (!a->capture) a->capture = arg;
         else {
             char rest;
-            a->has_pixel = sscanf(arg, "%6u,%6u%c", &a->pixel[0], &a->pixel[1], &rest) == 2;
-            if (!a->has_pixel || strchr(arg, '-'))
+            a->has_pixel = sscanf(arg, "%6d,%6d%c", &a->pixel[0], &a->pixel[1], &rest) == 2;
+            if (!a->has_pixel)
                 argp_error(state, "%s: expected a pixel X,Y in whole numbers from the top left corner, such as 640,360",
                            arg);
         }
@@ -106,7 +106,7 @@ static enum status tell(const struct arguments *a, struct opened *opened, struct
     struct probe probe = {.capture = a->capture,
                           .preset = glint_pipeline_name(pipeline),
                           .device = glint_device_get_info(opened->device)->name,
-                          .pixel = {a->pixel[0], a->pixel[1]}};
+                          .pixel = {(uint32_t)a->pixel[0], (uint32_t)a->pixel[1]}};
     const struct glint_replay_options wanted = pipeline_args_options(&a->pipeline);
     struct glint_replay *replay = opened->replay;
     const bool ok = glint_replay_load(replay, opened->capture, err) &&
@@ -133,6 +133,7 @@ static enum status run(int argc, char **argv) {
 const struct command cmd_probe = {
     .name = "probe",
     .arguments = "F X,Y [-o FILE.svg]",
+    .numbers = true,
     .summary = "one pixel's ray, step by step",
     .description =
         "Replays the capture and tells what every pass did for one pixel: what the G-buffer holds there, the ray that "

@@ -18,6 +18,8 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     const struct parsing *parsing = state->input;
     switch (key) {
     case ARGP_KEY_INIT:
+        if (parsing->command->numbers) state->child_inputs[0] = state->input;
+        return 0;
     case ARGP_KEY_FINI:
     case ARGP_KEY_SUCCESS:
         return 0;
@@ -27,6 +29,23 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     state->input = (void *)parsing;
     return result;
 }
+
+/* "-5,3" is read as an option 5 that has a value, and handed on as the argument that it is. */
+static error_t parse_number(int key, char *arg, struct argp_state *state) {
+    (void)arg;
+    if (key < '0' || key > '9') return ARGP_ERR_UNKNOWN;
+    char *whole = state->argv[state->next - 1];
+    if (whole[1] != key) argp_error(state, "invalid option -- '%c'", key);
+    return parse(ARGP_KEY_ARG, whole, state);
+}
+/* clang-format off */
+#define DIGIT(key) {NULL, key, "", OPTION_HIDDEN | OPTION_ARG_OPTIONAL, NULL, 0}
+static const struct argp_option digits[] = {
+    DIGIT('0'), DIGIT('1'), DIGIT('2'), DIGIT('3'), DIGIT('4'),
+    DIGIT('5'), DIGIT('6'), DIGIT('7'), DIGIT('8'), DIGIT('9'), {0},
+};
+/* clang-format on */
+static const struct argp numbers = {.options = digits, .parser = parse_number};
 
 char *command_option_help(const struct command *command, const struct argp_option *option) {
     const char *doc = option->doc ? option->doc : "";
@@ -67,6 +86,7 @@ static char *filter(int key, const char *text, void *input) {
 
 void command_parse(const struct command *command, int argc, char **argv, void *input) {
     struct parsing parsing = {command, input};
+    const struct argp_child children[] = {{&numbers, 0, NULL, 0}, {0}};
     char name[64], doc[512];
     snprintf(name, sizeof name, "glint %s", command->name);
     snprintf(doc, sizeof doc, "%s.\v-", command->summary); /* what follows \v is replaced by the filter */
@@ -75,11 +95,13 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
                         .parser = parse,
                         .args_doc = command->arguments,
                         .doc = doc,
+                        .children = command->numbers ? children : NULL,
                         .help_filter = filter};
+    const unsigned flags = (command->one_dash ? ARGP_LONG_ONLY : 0) | (command->numbers ? ARGP_IN_ORDER : 0);
     char *first = argv[0];
     argv[0] = name;
     if (command->usage_status) argp_err_exit_status = command->usage_status;
-    error_t failed = argp_parse(&argp, argc, argv, command->one_dash ? ARGP_LONG_ONLY : 0, NULL, &parsing);
+    error_t failed = argp_parse(&argp, argc, argv, flags, NULL, &parsing);
     argv[0] = first;
     if (failed) {
         fprintf(stderr, "glint %s: %s\n", command->name, strerror(failed));

@@ -20,6 +20,7 @@ struct command {
     const char *description; /* a paragraph or two */
     const struct argp_option *options;
     bool one_dash;    /* long options may begin with one dash too */
+    bool numbers;     /* arguments may be numbers below zero: -5,3 */
     int usage_status; /* of a usage error; 0: STATUS_USAGE */
     argp_parser_t parse;
     const struct example *examples; /* ends with a NULL line */

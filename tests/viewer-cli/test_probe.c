@@ -177,6 +177,10 @@ static void what_is_asked_wrong_is_said(void **state) {
     glint_fails(2, "expected a pixel X,Y", "probe", CAPTURE, "12.5,3");
     glint_fails(2, "one pixel at a time", "probe", CAPTURE, "12,3", "13,3");
     glint_fails(2, "pixel 96,3: outside of the picture of 96 x 54 pixels", "probe", CAPTURE, "96,3");
+    glint_fails(2, "pixel -5,3: outside of the picture of 96 x 54 pixels", "probe", CAPTURE, "-5,3");
+    glint_fails(2, "pixel 5,-3: outside of the picture of 96 x 54 pixels", "probe", CAPTURE, "--alone", "5,-3");
+    glint_fails(2, "expected a pixel X,Y", "probe", CAPTURE, "-5");
+    glint_fails(2, "invalid option -- '5'", "probe", CAPTURE, "-j5,3");
     glint_fails(1, "pixel 48,1 has no ray to draw", "probe", CAPTURE, "48,1", "-o", in_folder("none.svg"));
     assert_false(file_exists(in_folder("none.svg")));
     glint_fails(1, "nowhere.exr", "probe", in_folder("nowhere.exr"), "1,1");
