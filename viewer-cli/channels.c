@@ -17,9 +17,13 @@ static void add_value(struct channel_stats *s, double v) {
     }
 }
 
-void stats_add(struct channel_stats *s, const float *f, const uint32_t *u, size_t count, size_t stride) {
-    if (s->count == 0) *s = (struct channel_stats){.min = INFINITY, .max = -INFINITY};
-    for (size_t i = 0; i < count; i++) add_value(s, f ? (double)f[i * stride] : (double)u[i * stride]);
+/* Values of one kind; `u` or `f` is NULL. */
+static struct channel_stats stats_of(const float *f, const uint32_t *u, const bool *nothing, size_t count,
+                                     size_t stride) {
+    struct channel_stats s = {.min = INFINITY, .max = -INFINITY};
+    for (size_t i = 0; i < count; i++)
+        if (!nothing || !nothing[i]) add_value(&s, f ? (double)f[i * stride] : (double)u[i * stride]);
+    return s;
 }
 
 void stats_merge(struct channel_stats *into, const struct channel_stats *from) {
@@ -116,12 +120,32 @@ struct source {
     const struct glint_part_info *captured;
     struct glint_exr *exr;
     size_t part;
+    const bool *nothing; /* pixels without a surface, where channels other than depth may hold anything; NULL: none */
 };
 
 static bool read_channels(const struct source *s, const char *const *names, size_t count, enum glint_type type,
                           void *out, struct glint_error *err) {
     if (s->capture) return glint_capture_read(s->capture, s->captured, names, count, type, out, 0, err);
     return glint_exr_read(s->exr, s->part, names, count, type, out, 0, err);
+}
+
+static const char *const depth = "depth.Z";
+
+/* Of a part that holds a surface in each pixel, and says by its depth where there is none; *nothing stays NULL for others. */
+static bool read_nothing(bool **nothing, const struct source *source, size_t pixels, struct glint_error *err) {
+    const struct glint_part_info *part = source->captured;
+    bool has_depth = false;
+    for (size_t i = 0; i < part->channel_count; i++) has_depth |= strcmp(part->channels[i].name, depth) == 0;
+    if (!has_depth || !part->role || part->role->shape != GLINT_SHAPE_FRAME) return true;
+    float *depths_m = malloc(pixels * sizeof *depths_m);
+    if (!depths_m || !(*nothing = malloc(pixels * sizeof **nothing))) {
+        free(depths_m);
+        return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+    }
+    const bool ok = read_channels(source, &depth, 1, GLINT_F32, depths_m, err);
+    for (size_t i = 0; ok && i < pixels; i++) (*nothing)[i] = depths_m[i] == INFINITY;
+    free(depths_m);
+    return ok;
 }
 
 /* A chunk holds all channels of its lines, so several are read at a time; not all, to bound the memory. */
@@ -141,10 +165,12 @@ static bool read_batch(struct batch *batch, const struct source *source, size_t 
     enum glint_type type = batch->integer ? GLINT_U32 : GLINT_F32;
     bool ok = read_channels(source, batch->names, batch->count, type, values, err);
     for (size_t i = 0; ok && i < batch->count; i++) {
-        const uint32_t *first = values + i;
-        if (batch->integer) stats_add(&batch->rows[i]->stats, NULL, first, pixels, batch->count);
-        else stats_add(&batch->rows[i]->stats, (const float *)(const void *)first, NULL, pixels, batch->count);
-        batch->rows[i]->has_stats = true;
+        struct channel_row *row = batch->rows[i];
+        const uint32_t *u = batch->integer ? values + i : NULL;
+        const float *f = batch->integer ? NULL : (const float *)(const void *)(values + i);
+        row->of_surfaces = source->nothing && strcmp(row->channel, depth) != 0;
+        row->stats = stats_of(f, u, row->of_surfaces ? source->nothing : NULL, pixels, batch->count);
+        row->has_stats = true;
     }
     free(values);
     batch->count = 0;
@@ -174,12 +200,22 @@ static void fill_row(struct channel_row *row, const char *part, const struct gli
     row->encoding = row->unit = "";
 }
 
+static bool read_stats_of_part(struct channel_row *rows, struct glint_capture *capture,
+                               const struct glint_part_info *part, struct glint_error *err) {
+    const size_t pixels = (size_t)part->width * part->height;
+    struct source source = {.capture = capture, .captured = part};
+    bool *nothing = NULL, ok = read_nothing(&nothing, &source, pixels, err);
+    source.nothing = nothing;
+    ok = ok && read_stats(rows, part->channels, part->channel_count, &source, pixels, err);
+    free(nothing);
+    return ok;
+}
+
 bool channels_of_capture(struct channel_table *table, struct glint_capture *capture, bool pixels,
                          glint_progress progress, void *user, struct glint_error *err) {
     size_t count = glint_capture_part_count(capture);
     for (size_t p = 0; p < count; p++) {
         const struct glint_part_info *part = glint_capture_part(capture, p);
-        const struct source source = {.capture = capture, .captured = part};
         struct channel_row *rows = new_rows(table, part->channel_count, err);
         if (!rows) return false;
         if (!progress(user, part->name, (double)p / (double)count))
@@ -188,9 +224,7 @@ bool channels_of_capture(struct channel_table *table, struct glint_capture *capt
             fill_row(&rows[i], part->name, &part->channels[i]);
             describe(&rows[i], part);
         }
-        if (pixels &&
-            !read_stats(rows, part->channels, part->channel_count, &source, (size_t)part->width * part->height, err))
-            return false;
+        if (pixels && !read_stats_of_part(rows, capture, part, err)) return false;
         order_channels(rows, part->channel_count);
     }
     return true;

@@ -13,11 +13,11 @@ struct channel_stats {
 
 struct channel_row {
     char part[256], channel[256];
-    const char *stored;   /* half, float, uint */
-    char storage[64];     /* the engine's own format */
-    const char *encoding; /* "" where none applies */
-    const char *unit;     /* after decoding; "" unknown */
-    bool has_stats;
+    const char *stored;          /* half, float, uint */
+    char storage[64];            /* the engine's own format */
+    const char *encoding;        /* "" where none applies */
+    const char *unit;            /* after decoding; "" unknown */
+    bool has_stats, of_surfaces; /* of_surfaces: stats leave out pixels whose depth says that there is none */
     struct channel_stats stats;
 };
 
@@ -39,8 +39,6 @@ bool channels_of_exr(struct channel_table *table, struct glint_exr *exr, bool pi
                      void *user, struct glint_error *err);
 void channel_table_finish(struct channel_table *table);
 
-/* Adds values of one kind; `u` or `f` is NULL. */
-void stats_add(struct channel_stats *stats, const float *f, const uint32_t *u, size_t count, size_t stride);
 void stats_merge(struct channel_stats *into, const struct channel_stats *from);
 double stats_mean(const struct channel_stats *stats);
 

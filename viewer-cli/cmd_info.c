@@ -67,9 +67,10 @@ static json_t *channels_json(const struct channel_table *all, const char *part) 
         const struct channel_stats *s = &row->stats;
         if (row->has_stats)
             json_object_set_new(channel, "range",
-                                json_pack("{s:o, s:o, s:o, s:I, s:I}", "min", json_number(s->min), "max",
-                                          json_number(s->max), "mean", json_number(stats_mean(s)), "nan",
-                                          (json_int_t)s->nan, "inf", (json_int_t)s->inf));
+                                json_pack("{s:I, s:o, s:o, s:o, s:I, s:I}", "values", (json_int_t)s->count, "min",
+                                          json_number(s->min), "max", json_number(s->max), "mean",
+                                          json_number(stats_mean(s)), "nan", (json_int_t)s->nan, "inf",
+                                          (json_int_t)s->inf));
         json_array_append_new(list, channel);
     }
     return list;
@@ -260,7 +261,9 @@ const struct command cmd_info = {
     .summary = "what a capture, a run or any EXR file holds",
     .description =
         "Shows a capture's camera, what its pixels call for (sky, reflecting pixels, roughness), its parts, channels "
-        "with type, encoding, unit and range, and its cube maps. Any other EXR file is listed as it is.",
+        "with type, encoding, unit and range, and its cube maps. Where depth says sky, or that there "
+        "is nothing, the part's other channels may hold anything: their ranges are of surfaces alone. Any other EXR "
+        "file is listed as it is.",
     .options = options,
     .parse = parse,
     .examples = examples,

@@ -87,6 +87,9 @@ void info_print_channels(const struct channel_table *all) {
     }
     table_print(table, stdout);
     table_destroy(&table);
+    bool of_surfaces = false;
+    for (size_t i = 0; i < all->count; i++) of_surfaces |= all->rows[i].of_surfaces;
+    if (of_surfaces) puts("\nRanges beside a depth.Z are of surfaces alone: not of sky, nor of where there is none.");
 }
 
 /* Parts of one stem and size are one line. */

@@ -1,4 +1,4 @@
-/* From a scene to a picture, as a user does it: sample, info, validate, plan, replay, view, on mirror_box at 160 × 90. */
+/* From a scene to a picture, as a user does it: sample, validate, plan, replay, view, on mirror_box at 160 × 90. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -25,79 +25,6 @@ static int make_run(void **state) {
     free(glint_ok("sample", "mirror_box", "-o", capture, "--size=160x90", "--cube-size", "64", "--probes=perfect"));
     free(glint_ok("replay", capture, "-o", run, "--diagnostics"));
     return 0;
-}
-
-static void info_tells_the_camera_and_the_ranges(void **state) {
-    (void)state;
-    char *text = glint_ok("info", capture), *json_text = glint_ok("info", capture, "--json");
-    json_t *json = parse_json(json_text);
-    const json_t *camera = json_object_get(json, "camera"), *position = json_object_get(camera, "position");
-    /* Inside the box of 8 × 4 × 6 m, looking along a unit vector. */
-    const double size[] = {8, 4, 6};
-    double length = 0;
-    for (size_t k = 0; k < 3; k++) {
-        double p = json_number_value(json_array_get(position, k));
-        double d = json_number_value(json_array_get(json_object_get(camera, "forward"), k));
-        assert_true(p > 0 && p < size[k]);
-        length += d * d;
-    }
-    assert_true(fabs(length - 1) < 1e-6);
-    double aspect = tan(number(camera, "fov_x_deg") * M_PI / 360) / tan(number(camera, "fov_y_deg") * M_PI / 360);
-    assert_true(fabs(aspect - 160.0 / 90) < 1e-6);
-
-    const json_t *gbuffer = named(json_object_get(json, "parts"), "name", "gbuffer");
-    assert_int_equal((int)number(gbuffer, "width"), 160);
-    assert_int_equal((int)number(gbuffer, "height"), 90);
-    const json_t *depth = named(json_object_get(gbuffer, "channels"), "name", "depth.Z");
-    const json_t *range = json_object_get(depth, "range");
-    assert_string_equal(json_string_value(json_object_get(depth, "unit")), "m");
-    assert_true(number(range, "min") > 0 && number(range, "max") < sqrt(8 * 8 + 4 * 4 + 6 * 6));
-    assert_int_equal((int)number(range, "nan"), 0);
-    /* Every wall is hit: no sky, and the survey counts each pixel once. */
-    const json_t *survey = json_object_get(json, "survey");
-    assert_int_equal((int)number(survey, "pixels"), 160 * 90);
-    assert_int_equal((int)number(survey, "sky"), 0);
-    double reflecting = 0;
-    for (size_t i = 0; i < 10; i++)
-        reflecting += json_number_value(json_array_get(json_object_get(survey, "roughness"), i));
-    assert_true(reflecting > 0 && fabs(reflecting - number(survey, "reflecting")) < 0.5);
-
-    assert_contains(text, "cubemap.NNN × 8");
-    assert_contains(text, "depth.Z");
-    assert_contains(text, "reflecting");
-    json_decref(json);
-    free(text);
-    free(json_text);
-}
-
-/* oiiotool reads the same file by itself. */
-static void ranges_equal_those_of_oiiotool(void **state) {
-    (void)state;
-    char *text = glint_ok("info", capture, "--json");
-    json_t *json = parse_json(text);
-    const json_t *lit = named(json_object_get(json, "parts"), "name", "lit");
-    size_t index = 0;
-    for (json_t *part; (part = json_array_get(json_object_get(json, "parts"), index)) != lit;) index++;
-    char subimage[16];
-    snprintf(subimage, sizeof subimage, "%zu", index);
-    struct outcome other = run_program("oiiotool", capture, "--subimage", subimage, "--printstats", NULL);
-    assert_int_equal(other.status, 0);
-    static const char *const keys[] = {"min", "max", "mean"}, *const titles[] = {"Min: ", "Max: ", "Avg: "};
-    static const char *const channels[] = {"R", "G", "B"};
-    for (size_t k = 0; k < 3; k++) {
-        const char *at = strstr(other.out, titles[k]);
-        assert_non_null(at);
-        char *end = (char *)at + strlen(titles[k]);
-        for (size_t c = 0; c < 3; c++) {
-            double theirs = strtod(end, &end);
-            const json_t *channel = named(json_object_get(lit, "channels"), "name", channels[c]);
-            double ours = number(json_object_get(channel, "range"), keys[k]);
-            assert_true(fabs(ours - theirs) <= 1e-6 + 1e-5 * fabs(theirs)); /* printed with six digits */
-        }
-    }
-    outcome_free(&other);
-    json_decref(json);
-    free(text);
 }
 
 static void validate_accepts_it_and_refuses_a_damaged_one(void **state) {
@@ -464,8 +391,6 @@ static void ctrl_c_leaves_no_half_file(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(info_tells_the_camera_and_the_ranges),
-        cmocka_unit_test(ranges_equal_those_of_oiiotool),
         cmocka_unit_test(validate_accepts_it_and_refuses_a_damaged_one),
         cmocka_unit_test(plan_lists_every_pass_with_a_reason),
         cmocka_unit_test(plan_says_what_the_scene_has_nothing_for),
