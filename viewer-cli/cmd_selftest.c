@@ -106,16 +106,18 @@ static void remove_folder(const char *folder) {
     if (folder[0]) rmdir(folder);
 }
 
-/* Groups run side by side, each worker on a device and in a folder of its own. */
+/* Groups run side by side, each worker on a device and in a folder of its own. A worker that gets no device, or whose device has
+   not the memory beside the others, leaves its group to those that go on; the last one finds all of the device its own. */
 struct work {
     const struct arguments *arguments;
     struct chosen *chosen;
-    struct glint_device *devices[MOST_GROUPS];
+    pthread_mutex_t lock; /* of all that follows */
+    bool waits[MOST_GROUPS], alone;
     struct glint_device_info info; /* of any: they are the same device */
     struct progress progress;
     size_t ready[MOST_GROUPS]; /* cases of each group */
-    pthread_mutex_t lock;      /* of info, progress, ready and error */
-    struct glint_error error;  /* the first */
+    struct glint_error error;  /* of the first group that has one */
+    size_t failed;             /* that group */
 };
 
 /* The bar goes by cases, those with a finding before all; what a replay says of itself is too small for it. */
@@ -148,55 +150,90 @@ static double seconds_since(const struct timespec *start) {
     return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
 }
 
-/* The worker's device, made when it is first asked for. */
-static struct glint_device *device_of(struct work *work, uint32_t worker, struct glint_error *err) {
-    const struct arguments *a = work->arguments;
-    if (work->devices[worker]) return work->devices[worker];
-    work->devices[worker] =
-        glint_device_create(&(struct glint_device_options){.select = a->device, .passes = a->passes}, err);
-    if (!work->devices[worker]) return NULL;
-    pthread_mutex_lock(&work->lock);
-    work->info = *glint_device_get_info(work->devices[worker]);
-    pthread_mutex_unlock(&work->lock);
-    return work->devices[worker];
-}
-
-static bool run_group(void *user, uint32_t worker, size_t g) {
-    struct work *work = user;
-    struct chosen_group *group = &work->chosen->groups[g];
+static bool run_group(struct work *work, struct glint_device *device, struct chosen_group *group,
+                      struct glint_error *err) {
     struct watch watch = {work, group};
-    struct glint_error err = {0};
     struct timespec start;
     char folder[256] = "";
     double filter_step = NAN;
-    if (!group->count) return true;
+    const struct selftest test = {device, folder, work->arguments->quick, &filter_step, show, &watch};
     clock_gettime(CLOCK_MONOTONIC, &start);
-    const struct selftest test = {
-        device_of(work, worker, &err), folder, work->arguments->quick, &filter_step, show, &watch};
-    bool ok = test.device && make_folder(folder, &err) && group->group->run(&test, group->cases, group->findings, &err);
-    group->seconds = seconds_since(&start);
+    memset(group->findings, 0, group->group->count() * sizeof *group->findings); /* of a worker that left */
+    const bool ok = make_folder(folder, err) && group->group->run(&test, group->cases, group->findings, err);
     remove_folder(folder);
+    if (!ok) return false;
+    group->seconds = seconds_since(&start);
+    return show(&watch, NULL, 1) || glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
+}
+
+static bool is_silent(const struct glint_device *device, struct glint_error *err) {
     const char *last = NULL;
-    const uint32_t messages = ok ? glint_device_messages(test.device, &last) : 0;
-    if (messages) ok = glint_fail(&err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
-    if (ok) return show(&watch, NULL, 1);
+    const uint32_t messages = glint_device_messages(device, &last);
+    return !messages || glint_fail(err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
+}
+
+/* The first group that waits; the number of groups when none does, or when there is no use in going on. */
+static size_t take_group(struct work *work) {
+    size_t g = 0;
     pthread_mutex_lock(&work->lock);
-    if (!work->error.code) work->error = err;
+    while (g < work->chosen->group_count && (work->error.code || !work->waits[g])) g++;
+    if (g < work->chosen->group_count) work->waits[g] = false;
     pthread_mutex_unlock(&work->lock);
-    return false;
+    return g;
+}
+
+/* starved: what failed may not fail where fewer devices are open. */
+static void leave_group(struct work *work, size_t g, bool starved, const struct glint_error *err) {
+    pthread_mutex_lock(&work->lock);
+    if (starved && !work->alone) work->waits[g] = true;
+    else if (!work->error.code || g < work->failed) work->error = *err, work->failed = g;
+    pthread_mutex_unlock(&work->lock);
+}
+
+static struct glint_device *open_device(struct work *work, struct glint_error *err) {
+    const struct glint_device_options options = {.select = work->arguments->device, .passes = work->arguments->passes};
+    struct glint_device *device = glint_device_create(&options, err);
+    if (!device) return NULL;
+    pthread_mutex_lock(&work->lock);
+    work->info = *glint_device_get_info(device);
+    pthread_mutex_unlock(&work->lock);
+    return device;
+}
+
+static bool run_worker(void *user, uint32_t worker, size_t index) {
+    struct work *work = user;
+    struct glint_device *device = NULL;
+    (void)worker, (void)index;
+    for (size_t g; (g = take_group(work)) < work->chosen->group_count;) {
+        struct glint_error err = {0};
+        if (!device) device = open_device(work, &err);
+        const bool ran = device && run_group(work, device, &work->chosen->groups[g], &err);
+        const bool starved = !device || err.code == GLINT_ERROR_DEVICE || err.code == GLINT_ERROR_MEMORY;
+        if (ran && is_silent(device, &err)) continue;
+        glint_device_destroy(&device); /* before others take what it starved for */
+        leave_group(work, g, starved, &err);
+        break;
+    }
+    glint_device_destroy(&device);
+    return true;
 }
 
 static bool run_groups(struct work *work, struct glint_error *err) {
-    const size_t count = work->chosen->group_count;
+    size_t count = 0;
+    for (size_t g = 0; g < work->chosen->group_count; g++) {
+        work->waits[g] = work->chosen->groups[g].count > 0;
+        count += work->waits[g];
+    }
     pthread_mutex_init(&work->lock, NULL);
     progress_begin(&work->progress);
-    const bool ok = glint_loop(count, glint_loop_workers(count, 0), run_group, work);
+    const uint32_t workers = glint_loop_workers(count, 0);
+    glint_loop(workers, workers, run_worker, work);
+    work->alone = true;
+    run_worker(work, 0, 0);
     progress_end(&work->progress);
     pthread_mutex_destroy(&work->lock);
-    for (size_t i = 0; i < MOST_GROUPS; i++)
-        if (work->devices[i]) glint_device_destroy(&work->devices[i]);
-    if (!ok) *err = work->error;
-    return ok;
+    if (work->error.code) *err = work->error;
+    return !work->error.code;
 }
 
 static enum status run(int argc, char **argv) {

@@ -1,5 +1,5 @@
-"""glint selftest: passes here, says what it claims, has a case for every shared function: selftest.py GLINT PASSES. With
-MUTANTS as a third argument: every case fails for a wrong function. Speaks TAP."""
+"""glint selftest: passes here, says what it claims, has a case for every shared function: selftest.py GLINT PASSES FEW_DEVICES, the
+last a library of few_devices.c. With MUTANTS as a fourth argument: every case fails for a wrong function. Speaks TAP."""
 import concurrent.futures
 import json
 import os
@@ -10,7 +10,7 @@ import tempfile
 
 import tap
 
-GLINT, PASSES = sys.argv[1:3]
+GLINT, PASSES, FEW_DEVICES = sys.argv[1:4]
 # A file of passes/ (of passes/shared, where it has no folder), a piece of it, what it becomes, and a case that must find out: each case is here.
 MUTANTS = [
     ("stable", "abs(x) > 0.35", "abs(x) > 0.0", ["expm1 near zero"]),
@@ -132,8 +132,8 @@ MUTANTS = [
 ]
 
 
-def selftest(*arguments, status=0):
-    run = subprocess.run([GLINT, "selftest", *arguments], capture_output=True, text=True, env={**os.environ, "GLINT_VALIDATION": "1"})
+def selftest(*arguments, status=0, **environment):
+    run = subprocess.run([GLINT, "selftest", *arguments], capture_output=True, text=True, env={**os.environ, "GLINT_VALIDATION": "1", **environment})
     assert run.returncode == status, (arguments, run.returncode, run.stdout, run.stderr)
     return run
 
@@ -209,6 +209,15 @@ class Tests:
         assert len(failed) == 1 and "ordered dither (Bayer's matrix" in failed[0] and "expected" in failed[0], lines
         assert lines[-1].endswith("1 cases, 1 failed"), lines[-1]
 
+    def test_groups_that_get_no_device_beside_others_run_after_them(self):
+        only = ("--json", "--quick", "--only", "versine", "--only", "roughness 0", "--only", "10^3 m", "--only", "inches")
+        wanted = json.loads(selftest(*only).stdout)
+        for what, refused in (("open", "refused a device"), ("memory", "refused memory")):
+            run = selftest(*only, LD_PRELOAD=FEW_DEVICES, FEW_DEVICES=what, ASAN_OPTIONS="verify_asan_link_order=0")
+            found = json.loads(run.stdout)
+            assert refused in run.stderr or os.cpu_count() == 1, (what, run.stderr)
+            assert found["cases"] == wanted["cases"] and [g["name"] for g in found["groups"]] == ["functions", "geometry", "numbers", "invariance"], found
+
     def test_every_shared_function_has_a_case(self):
         evaluated = " ".join(case.get("evaluated", "") for case in cases("--list"))
         missing = [name for name in functions() if not re.search(rf"\b{name}\b", evaluated)]
@@ -227,4 +236,4 @@ class Mutants:
         assert shared <= killed, shared - killed
 
 
-sys.exit(tap.run(Mutants() if sys.argv[3:] else Tests()))
+sys.exit(tap.run(Mutants() if sys.argv[4:] else Tests()))
