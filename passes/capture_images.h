@@ -9,7 +9,7 @@ CAPTURE(fresnel_full,     R16F,    "1",  FULL,     "gbuffer", "material.fresnel"
 CAPTURE(motion_full,      RG32F,   "uv", FULL,     "gbuffer", "motion.X motion.Y", false, 0, "uv one frame earlier minus uv now")
 CAPTURE(motion_depth_full, R32F,  "m",  FULL,     "gbuffer", "motion.Z", false, 0, "depth one frame earlier minus depth now")
 CAPTURE(stencil_full,     R8UI,    "id", FULL,     "gbuffer", "stencil.id", false, 0, "the engine's own ids, their lowest 8 bits; frame.foreground says which are of a class")
-CAPTURE(lit,              RGBA16F, "radiance", FULL, "lit",   "R G B -", true, 0, "diffuse shading with sky, no specular")
+CAPTURE(lit,              RGBA16F, "radiance", FULL, "lit",   "R G B -", true, 1, "diffuse shading with sky, no specular; a: 1")
 CAPTURE(scene,            RGBA16F, "radiance", FULL, "scene", "R G B -", false, 0, "the finished picture")
 CAPTURE(previous_lit,     RGBA16F, "radiance", FULL, "previous.lit", "R G B -", false, 0, "lit of the previous frame")
 CAPTURE(previous_scene,   RGBA16F, "radiance", FULL, "previous.scene", "R G B -", false, 0, "scene of the previous frame")

@@ -35,6 +35,7 @@
 #define NEEDS_BY(fact, parameter)
 #define READS_LEVELS(image, parameter)
 #define PASSES_ON(image, from)
+#define INSTEAD(image, captured)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
 #define ALONG_RAYS(image, normals)

@@ -27,6 +27,7 @@
 #undef NEEDS_BY
 #undef READS_LEVELS
 #undef PASSES_ON
+#undef INSTEAD
 #undef SHOWS_ALL
 #undef ASSUMED
 #undef ALONG_RAYS
@@ -96,6 +97,7 @@
 #define READS_LEVELS(image_, parameter) \
     {.kind = GLINT_ROW_READS_LEVELS, .id = __LINE__, .name = #parameter, .image = #image_},
 #define PASSES_ON(image_, from) {.kind = GLINT_ROW_PASSES_ON, .id = __LINE__, .name = #from, .image = #image_},
+#define INSTEAD(image_, captured) {.kind = GLINT_ROW_INSTEAD, .id = __LINE__, .name = #captured, .image = #image_},
 #define SHOWS_ALL(parameter) {.kind = GLINT_ROW_SHOWS_ALL, .id = __LINE__, .name = #parameter},
 #define ALONG_RAYS(image_, normals) {.kind = GLINT_ROW_ALONG_RAYS, .id = __LINE__, .name = #image_, .image = #normals},
 #define WITHIN(texels) {.kind = GLINT_ROW_WITHIN, .id = __LINE__, .name = "", .first = texels},

@@ -62,7 +62,8 @@ bool run_allocate(struct run *run, struct glint_error *err) {
     struct glint_replay *replay = run->replay;
     struct image *taken = NULL, **end = &taken;
     for (struct image *image = replay->images; image; image = image->next) {
-        image->used = image->listed = false;
+        image->used = false;
+        image_hide(image);
         if (image->lineage == run->options->lineage) image->kept = false;
     }
     for (size_t i = 0; i < run->graph.image_count; i++) {

@@ -59,14 +59,20 @@ static struct bad_values of_floats(const struct glint_row *row, const float *tex
     return found;
 }
 
-void bad_values_of_texels(struct image *image, uint32_t level, const void *texels) {
-    const struct glint_image *info = &image->levels[level].info;
+/* The capture's were counted when they were uploaded, whatever they are shown as. */
+static bool is_captured(const struct image_part *part) {
+    return part->info == &part->image->as;
+}
+
+void bad_values_of_texels(const struct image_part *part, const void *texels) {
+    const struct glint_image *info = part->info;
+    if (is_captured(part)) return;
     const size_t count = (size_t)info->width * info->height * info->components;
     struct bad_values found = {0};
     if (format_bytes(info->format) / info->components == 2) found = of_halves(info->row, texels, count);
     else if (!format_is_uint(info->format)) found = of_floats(info->row, texels, count);
-    image->levels[level].bad = found;
-    image->levels[level].bad_key = image->key;
+    part->image->levels[info->level].bad = found;
+    part->image->levels[info->level].bad_key = part->image->key;
 }
 
 /* ---- The list ---- */
@@ -78,9 +84,9 @@ static void name_channel(const struct glint_row *row, size_t component, char *na
     snprintf(name, size, "%.*s", (int)strcspn(word, " "), word);
 }
 
-static bool append(struct glint_replay *replay, const struct image *image, uint32_t level, struct glint_error *err) {
-    const struct glint_image *info = &image->levels[level].info;
-    const struct bad_values *bad = &image->levels[level].bad;
+static bool append(struct glint_replay *replay, const struct image_part *part, struct glint_error *err) {
+    const struct glint_image *info = part->info;
+    const struct bad_values *bad = &part->image->levels[info->level].bad;
     if (!bad->not_finite && !bad->clamped) return true;
     struct glint_bad_values *list = realloc(replay->bad, (replay->bad_count + 1) * sizeof *list);
     if (!list) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -103,7 +109,7 @@ bool bad_values_of_capture(struct run *run, struct glint_error *err) {
     bool ok = true;
     for (size_t i = 0; ok && i < run->graph.image_count; i++)
         if (run->graph.images[i].source == SOURCE_CAPTURE && run->needed[i] && run->images[i])
-            ok = append(replay, run->images[i], 0, err);
+            ok = append(replay, &(struct image_part){run->images[i], &run->images[i]->levels[0].info}, err);
     replay->bad_captured = replay->bad_count;
     return ok;
 }
@@ -118,12 +124,13 @@ bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad
         const size_t images = parts_of_pass(replay, replay->results[p].pass, parts, PASS_PARTS_MAX);
         for (size_t i = 0; ok && i < images; i++) {
             VkDeviceSize offset;
-            struct image *image = parts[i].image;
-            if (!image->key || image->levels[parts[i].level].bad_key != image->key) {
+            const struct image *image = parts[i].image;
+            const bool counted = image->key && image->levels[parts[i].info->level].bad_key == image->key;
+            if (!counted && !is_captured(&parts[i])) {
                 ok = readback_images(replay, &parts[i], 1, &buffer, &offset, err);
-                if (ok) bad_values_of_texels(image, parts[i].level, (const char *)buffer.map + offset);
+                if (ok) bad_values_of_texels(&parts[i], (const char *)buffer.map + offset);
             }
-            ok = ok && append(replay, image, parts[i].level, err);
+            ok = ok && append(replay, &parts[i], err);
         }
     }
     if (replay->device) host_buffer_finish(&buffer, replay->device);

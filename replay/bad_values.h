@@ -13,7 +13,8 @@ void bad_value(struct bad_values *found, const struct glint_row *row, bool half,
 /* Of later values too. */
 void bad_values_add(struct bad_values *found, const struct bad_values *more);
 /* Of a level that the device made, read back into `texels`. */
-void bad_values_of_texels(struct image *image, uint32_t level, const void *texels);
+struct image_part;
+void bad_values_of_texels(const struct image_part *part, const void *texels);
 
 /* What the capture's images of a run that has ended hold, kept with the results. */
 bool bad_values_of_capture(struct run *run, struct glint_error *err);

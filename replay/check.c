@@ -51,6 +51,13 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: PASSES_ON %s: expected an image that the pass writes, made of one that it reads",
                        pass->slot, pass->variant, row->image);
+        const struct glint_row *captured = row->kind == GLINT_ROW_INSTEAD ? capture_row(row->name) : NULL;
+        if (row->kind == GLINT_ROW_INSTEAD &&
+            (!own || !captured || own->format != captured->format || own->size != captured->size))
+            faults_add(
+                faults, GLINT_ERROR_USAGE,
+                "%s/%s: INSTEAD %s: expected an image that the pass writes, and one of the capture that is like it",
+                pass->slot, pass->variant, row->image);
         if (row->kind == GLINT_ROW_SELF && !own)
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: SELF %s: expected an image that the pass writes", pass->slot,
                        pass->variant, row->image);

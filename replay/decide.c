@@ -65,6 +65,18 @@ static bool is_read(const struct graph *graph, const struct graph_pass *maker, c
     return read;
 }
 
+/* A pass with nothing to do may leave an image as it is, unless its shader is the user's: what that makes is not known. */
+static void take_instead(struct graph_pass *pass) {
+    const struct glint_row *row = pass_row(pass->pass, GLINT_ROW_INSTEAD, NULL);
+    char text[128];
+    if (!row) return;
+    pass->runs = pass->entry->shader != NULL;
+    pass->instead = pass->runs ? NULL : row;
+    if (pass->runs) snprintf(text, sizeof text, "but the shader is the user's");
+    else snprintf(text, sizeof text, "%s is %s", row->image, row->name);
+    text_list(pass->reason, sizeof pass->reason, text);
+}
+
 /* Whether the frame gives the pass something to do, and which of its facts do not hold; the reason states the figures. */
 static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct graph_inputs *inputs,
                             struct faults *faults, struct glint_error *err) {
@@ -103,6 +115,7 @@ static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, 
         if (row->kind == GLINT_ROW_NEEDS && holds == pass->runs && !told)
             text_list(pass->reason, sizeof pass->reason, reason);
     }
+    if (!pass->runs) take_instead(pass);
     if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
     return true;
 }
@@ -176,6 +189,7 @@ static void cull(struct graph *graph, const struct glint_replay_options *options
                                      pass_remembers(graph->passes[j].pass, graph->passes[i].pass));
     }
     for (size_t i = graph->pass_count; i-- > 0;) {
+        if (!needed[i]) graph->passes[i].instead = NULL;
         if (graph->passes[i].runs && !needed[i]) {
             graph->passes[i].runs = false;
             snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason,

@@ -132,6 +132,19 @@ static void link_passed_on(struct graph *graph, const struct glint_pass *dropped
     }
 }
 
+/* What would have been made of the capture's image as it is, is that image. */
+static void link_instead(struct graph *graph, size_t dropped, const struct graph_inputs *inputs,
+                         struct faults *faults) {
+    const struct graph_pass *pass = &graph->passes[dropped];
+    if (!pass->instead) return;
+    link_read(graph, dropped, pass->instead->name, NULL, inputs, faults);
+    struct graph_image *image = graph_find(graph, pass->instead->name);
+    if (!image) return;
+    image->instead = pass_output(pass->pass, pass->instead->image);
+    image->instead_of = pass->pass;
+    image->wanted = !inputs->options->outputs || list_has(inputs->options->outputs, pass->instead->image);
+}
+
 /* Whether a row FACT is about the image, and does not hold. */
 static bool is_left_out(const struct graph_pass *pass, const char *image) {
     uint32_t fact = 0;
@@ -147,8 +160,8 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
     const struct glint_replay_options *options = inputs->options;
     for (size_t i = 0; i < graph->pass_count; i++) {
         const struct graph_pass *pass = &graph->passes[i];
-        if (!pass->runs) continue;
-        for (size_t r = 0; r < pass->pass->row_count; r++) {
+        link_instead(graph, i, inputs, faults);
+        for (size_t r = 0; pass->runs && r < pass->pass->row_count; r++) {
             const struct glint_row *row = &pass->pass->rows[r];
             const char *names[2];
             for (size_t n = reads_of(row, names); n-- > 0;)

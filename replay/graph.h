@@ -19,10 +19,12 @@ struct graph_image {
     const struct glint_row *row;   /* the WRITE, DIAGNOSTIC or CAPTURE row that defines it */
     const struct glint_pass *pass; /* whose row it is; NULL for a capture image */
     enum source source;
-    bool wanted;         /* written out: its memory is its own */
-    bool history;        /* of the frame before */
-    bool blank;          /* NOTHING, in all of its size */
-    bool kept;           /* the next frame's history: its memory is its own */
+    bool wanted;                     /* written out, where there is `instead` as that: its memory is its own */
+    bool history;                    /* of the frame before */
+    bool blank;                      /* NOTHING, in all of its size */
+    bool kept;                       /* the next frame's history: its memory is its own */
+    const struct glint_row *instead; /* what it is besides, a dropped pass's image, and whose; or NULL */
+    const struct glint_pass *instead_of;
     const char *kept_as; /* what it stands for there, when the pass that would have passed it on was dropped; or NULL */
     size_t maker;        /* MADE: place of the pass in the graph */
     size_t first_use, last_use; /* places of the passes that touch it */
@@ -37,8 +39,9 @@ struct graph_pass {
     const struct glint_pass *pass;
     enum rank rank;
     bool runs;
-    uint32_t lacks;   /* a bit for each FACT row, in order: the fact does not hold */
-    bool cached_work; /* it reads cube maps and nothing that changes with every frame */
+    const struct glint_row *instead; /* INSTEAD, where its image is the one of the capture; or NULL */
+    uint32_t lacks;                  /* a bit for each FACT row, in order: the fact does not hold */
+    bool cached_work;                /* it reads cube maps and nothing that changes with every frame */
     char reason[192];
 };
 

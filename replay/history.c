@@ -12,7 +12,7 @@ void replay_age_images(struct glint_replay *replay, const struct glint_frame *ne
     for (struct image *image = replay->images; image; image = image->next) {
         char name[sizeof image->name];
         const bool remembered = follows && image->kept && image->key;
-        image->kept = image->listed = false;
+        image->kept = false;
         if (!remembered) continue;
         snprintf(name, sizeof name, HISTORY_PREFIX "%.64s", image->kept_as ? image->kept_as : image->name);
         image_rename(image, name);

@@ -10,6 +10,16 @@ bool image_desc_equal(const struct image_desc *a, const struct image_desc *b) {
            a->cube == b->cube && a->levels == b->levels && a->buffer == b->buffer;
 }
 
+const struct glint_image *image_shown(const struct image *image, uint32_t i) {
+    if (image->as.row && i-- == 0) return &image->as;
+    return image->listed && i < image->desc.levels ? &image->levels[i].info : NULL;
+}
+
+void image_hide(struct image *image) {
+    image->listed = false;
+    image->as.row = NULL;
+}
+
 uint32_t image_layers(const struct image_desc *desc) {
     return desc->layers ? desc->layers : 1;
 }

@@ -55,6 +55,7 @@ struct image {
     struct block *block;
     uint64_t key;            /* hash of all that its contents depend on; 0: contents undefined */
     bool listed;             /* shown to callers */
+    struct glint_image as;   /* shown to them besides, as what a dropped pass would have made; row NULL: no */
     bool used;               /* in this run */
     bool transient;          /* shares its memory */
     bool kept;               /* the next frame's history */
@@ -64,6 +65,10 @@ struct image {
     char name[80];
     struct image *next;
 };
+
+/* What callers see of it, one after the other; NULL: no more. */
+const struct glint_image *image_shown(const struct image *image, uint32_t i);
+void image_hide(struct image *image);
 
 bool image_desc_equal(const struct image_desc *a, const struct image_desc *b);
 uint32_t image_layers(const struct image_desc *desc); /* at least 1 */

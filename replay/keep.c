@@ -69,11 +69,16 @@ void run_adopt(struct run *run, size_t i, struct image *image) {
     image->kept_as = wanted->kept_as;
     image->lineage = run->options->lineage;
     image->listed = (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE ||
-                    wanted->wanted || (wanted->source == SOURCE_CAPTURE && run->options->captured);
+                    (wanted->wanted && !wanted->instead) ||
+                    (wanted->source == SOURCE_CAPTURE && run->options->captured);
     for (uint32_t l = 0; l < image->desc.levels; l++) {
         image->levels[l].info.row = wanted->row;
         image->levels[l].info.pass = wanted->pass;
     }
+    image->as = image->levels[0].info;
+    image->as.row = wanted->wanted ? wanted->instead : NULL;
+    image->as.pass = wanted->instead_of;
+    image->as.name = image->as.row ? image->as.row->name : NULL;
     run->images[i] = image;
 }
 
@@ -85,7 +90,8 @@ static void replace(struct run *run, size_t i, struct image *image) {
     *at = image;
     old->next = run->replay->images;
     run->replay->images = old;
-    old->used = old->kept = old->listed = false;
+    old->used = old->kept = false;
+    image_hide(old);
     run_adopt(run, i, image);
 }
 

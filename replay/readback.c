@@ -29,7 +29,7 @@ bool readback_images(struct glint_replay *replay, const struct image_part *parts
     VkDeviceSize size = 0;
     for (size_t i = 0; i < count; i++) {
         offsets[i] = size;
-        size += aligned(image_bytes(&parts[i].image->desc, parts[i].level));
+        size += aligned(image_bytes(&parts[i].image->desc, parts[i].info->level));
     }
     if (buffer->size < size) {
         host_buffer_finish(buffer, replay->device);
@@ -37,7 +37,7 @@ bool readback_images(struct glint_replay *replay, const struct image_part *parts
     }
     if (!device_begin(replay->device, err)) return false;
     for (size_t i = 0; i < count; i++)
-        image_record_readback(parts[i].image, replay->device, buffer, offsets[i], parts[i].level);
+        image_record_readback(parts[i].image, replay->device, buffer, offsets[i], parts[i].info->level);
     record_host_barrier(replay->device);
     bool ok = device_submit(replay->device, "reading images back", err);
     for (size_t i = 0; ok && i < count; i++)
@@ -51,10 +51,10 @@ size_t parts_of_pass(const struct glint_replay *replay, const struct glint_pass 
     size_t count = 0;
     for (size_t r = 0; r < pass->row_count; r++)
         for (struct image *image = replay->images; image; image = image->next) {
-            const struct glint_image *info = &image->levels[0].info;
-            if (!image->listed || info->pass != pass || info->row != &pass->rows[r]) continue;
-            for (uint32_t l = 0; l < image->desc.levels && count < capacity; l++)
-                parts[count++] = (struct image_part){image, l};
+            const struct glint_image *info;
+            for (uint32_t i = 0; (info = image_shown(image, i)) && count < capacity; i++)
+                if (info->pass == pass && info->row == &pass->rows[r])
+                    parts[count++] = (struct image_part){image, info};
         }
     return count;
 }
@@ -62,8 +62,9 @@ size_t parts_of_pass(const struct glint_replay *replay, const struct glint_pass 
 bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *info, enum glint_type type,
                              void *out, struct glint_error *err) {
     struct image *image = replay->images;
-    while (image && &image->levels[info->level].info != info) image = image->next;
-    if (!image || !image->listed) return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
+    for (uint32_t i = 0; image && image_shown(image, i) != info;)
+        if (!image_shown(image, i++)) image = image->next, i = 0;
+    if (!image) return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
     const size_t value_bytes = format_bytes(image->desc.format) / info->components;
     const bool uint = format_is_uint(image->desc.format);
     const bool same =
@@ -73,7 +74,7 @@ bool glint_replay_read_image(struct glint_replay *replay, const struct glint_ima
                           format_name(image->desc.format), uint ? "uint" : "float");
     struct host_buffer buffer = {0};
     VkDeviceSize offset;
-    bool ok = readback_images(replay, &(struct image_part){image, info->level}, 1, &buffer, &offset, err);
+    bool ok = readback_images(replay, &(struct image_part){image, info}, 1, &buffer, &offset, err);
     const size_t count = (size_t)info->width * info->height * info->components;
     if (ok && same) memcpy(out, buffer.map, count * value_bytes);
     else if (ok && uint)

@@ -34,7 +34,7 @@ static void forget_results(struct glint_replay *replay) {
     replay->bad_count = replay->bad_captured = 0;
     json_decref(replay->record);
     replay->record = NULL;
-    for (struct image *image = replay->images; image; image = image->next) image->listed = false;
+    for (struct image *image = replay->images; image; image = image->next) image_hide(image);
 }
 
 void glint_replay_destroy(struct glint_replay **pointer) {
@@ -114,7 +114,10 @@ static bool store_results(struct run *run, struct glint_error *err) {
     for (size_t p = 0; p < count; p++) {
         const struct graph_pass *pass = &run->graph.passes[p];
         struct glint_pass_result *result = &replay->results[p];
-        *result = (struct glint_pass_result){.pass = pass->pass, .ran = pass->runs, .cached_work = pass->cached_work};
+        *result = (struct glint_pass_result){.pass = pass->pass,
+                                             .ran = pass->runs,
+                                             .shown = pass->runs || pass->instead,
+                                             .cached_work = pass->cached_work};
         memcpy(result->reason, pass->reason, sizeof result->reason);
         result->texels = work[p].texels;
         if (!pass->runs) continue;
@@ -199,23 +202,23 @@ const struct glint_pass_result *glint_replay_results(const struct glint_replay *
 size_t glint_replay_image_count(const struct glint_replay *replay) {
     size_t count = 0;
     for (const struct image *image = replay->images; image; image = image->next)
-        count += image->listed ? image->desc.levels : 0;
+        for (uint32_t i = 0; image_shown(image, i); i++) count++;
     return count;
 }
 
 const struct glint_image *glint_replay_image(const struct glint_replay *replay, size_t i) {
-    for (const struct image *image = replay->images; image; image = image->next) {
-        if (!image->listed) continue;
-        if (i < image->desc.levels) return &image->levels[i].info;
-        i -= image->desc.levels;
-    }
+    const struct glint_image *shown;
+    for (const struct image *image = replay->images; image; image = image->next)
+        for (uint32_t l = 0; (shown = image_shown(image, l)); l++)
+            if (i-- == 0) return shown;
     return NULL;
 }
 
 const struct glint_image *glint_replay_find_image(const struct glint_replay *replay, const char *name) {
+    const struct glint_image *shown;
     for (const struct image *image = replay->images; image; image = image->next)
-        for (uint32_t l = 0; image->listed && l < image->desc.levels; l++)
-            if (strcmp(image->levels[l].info.name, name) == 0) return &image->levels[l].info;
+        for (uint32_t l = 0; (shown = image_shown(image, l)); l++)
+            if (strcmp(shown->name, name) == 0) return shown;
     return NULL;
 }
 

@@ -41,7 +41,9 @@ bool list_has(const char *const *list, const char *name) {
 
 struct graph_image *graph_find(const struct graph *graph, const char *name) {
     for (size_t i = 0; i < graph->image_count; i++)
-        if (strcmp(graph->images[i].name, name) == 0) return &graph->images[i];
+        if (strcmp(graph->images[i].name, name) == 0 ||
+            (graph->images[i].instead && strcmp(graph->images[i].instead->name, name) == 0))
+            return &graph->images[i];
     return NULL;
 }
 

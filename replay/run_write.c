@@ -46,7 +46,7 @@ static void split_channels(const struct glint_row *row, char *names, size_t size
 
 static bool fill_part(const struct job *job, size_t i, struct part_memory *memory, struct glint_exr_part *part,
                       struct glint_error *err) {
-    const struct glint_image *image = &job->parts[i].image->levels[job->parts[i].level].info;
+    const struct glint_image *image = job->parts[i].info;
     const struct glint_row *row = image->row;
     const uint32_t components = image->components;
     const size_t bytes = format_bytes(image->format) / components;
@@ -67,7 +67,7 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
                                                                                                  : GLINT_STORED_FLOAT,
                                                          .data = data + c * stored_bytes,
                                                          .x_stride_bytes = components * stored_bytes};
-    const char *const texts[][2] = {{"glint.image", job->parts[i].image->name},
+    const char *const texts[][2] = {{"glint.image", row->name},
                                     {"glint.slot", job->pass->slot},
                                     {"glint.variant", job->pass->variant},
                                     {"glint.unit", row->unit},
@@ -99,7 +99,7 @@ static void *write_file(void *argument) {
     struct part_memory *memory = calloc(job->count, sizeof *memory);
     job->ok = (parts && memory) || glint_fail(&job->err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     for (size_t i = 0; job->ok && i < job->count; i++) {
-        bad_values_of_texels(job->parts[i].image, job->parts[i].level, (const char *)job->buffer.map + job->offsets[i]);
+        bad_values_of_texels(&job->parts[i], (const char *)job->buffer.map + job->offsets[i]);
         job->ok = fill_part(job, i, &memory[i], &parts[i], &job->err);
     }
     job->ok = job->ok && glint_exr_write(job->path, parts, job->count, 0, &job->err);
@@ -125,7 +125,7 @@ static void job_start(struct job *job) {
 }
 
 static json_t *image_record(const struct image_part *part, const char *file) {
-    const struct glint_image *image = &part->image->levels[part->level].info;
+    const struct glint_image *image = part->info;
     const struct glint_row *row = image->row;
     json_t *record = json_pack("{ssssssssssss si si ss}", "name", image->name, "file", file, "part", image->name,
                                "channels", row->channels, "unit", row->unit, "meaning", row->help, "width",
@@ -242,9 +242,9 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
     size_t turn = 0;
     struct image_part first;
     for (size_t p = 0; ok && p < replay->result_count; p++) {
-        if (!replay->results[p].ran || parts_of_pass(replay, replay->results[p].pass, &first, 1) == 0) continue;
-        ok = report_progress(progress, user, replay->results[p].pass->slot, (double)p / (double)replay->result_count,
-                             err) &&
+        const struct glint_pass_result *result = &replay->results[p];
+        if (!result->shown || parts_of_pass(replay, result->pass, &first, 1) == 0) continue;
+        ok = report_progress(progress, user, result->pass->slot, (double)p / (double)replay->result_count, err) &&
              write_pass(replay, p, folder, &jobs[turn], &jobs[1 - turn], root, err);
         if (jobs[turn].busy) turn = 1 - turn;
     }

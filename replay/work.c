@@ -145,7 +145,8 @@ static uint64_t count_tiles(const struct run *run, const struct dispatch *dispat
 
 static bool count_tiles_of(struct run *run, struct image *list, struct host_buffer *buffer, struct glint_error *err) {
     VkDeviceSize offset;
-    if (!readback_images(run->replay, &(struct image_part){list, 0}, 1, buffer, &offset, err)) return false;
+    if (!readback_images(run->replay, &(struct image_part){list, &list->levels[0].info}, 1, buffer, &offset, err))
+        return false;
     for (size_t p = 0; p < run->graph.pass_count; p++)
         for (size_t d = 0; d < run->steps[p].dispatch_count; d++)
             if (run->steps[p].dispatches[d].list == list && !run->steps[p].dispatches[d].rest)
@@ -183,7 +184,9 @@ static bool count_image(struct glint_replay *replay, const char *name, uint64_t 
     VkDeviceSize offset;
     struct image *image = replay->images;
     while (image && !(image->used && strcmp(image->name, name) == 0)) image = image->next;
-    if (!image || !readback_images(replay, &(struct image_part){image, 0}, 1, &buffer, &offset, err)) return false;
+    if (!image ||
+        !readback_images(replay, &(struct image_part){image, &image->levels[0].info}, 1, &buffer, &offset, err))
+        return false;
     const uint64_t texels = (uint64_t)image->desc.width * image->desc.height;
     *found = image->desc.buffer ? count_items(buffer.map, image->desc.width, texels) : count_rays(buffer.map, texels);
     host_buffer_finish(&buffer, replay->device);

@@ -173,6 +173,9 @@ static void print_pass(const struct glint_pass *pass, const char *previous_slot,
         if (pass->rows[i].image) printf(" by %s", pass->rows[i].image);
         any = true;
     }
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (pass->rows[i].kind == GLINT_ROW_INSTEAD)
+            printf("; without it %s is %s", pass->rows[i].image, pass->rows[i].name);
     if (any) fputs(markdown ? ".\n\n" : "\n\n", stdout);
     print_reference(pass);
     print_inputs(pass, markdown);

@@ -39,11 +39,11 @@ void main() {
     vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (fact_reflecting && tile_works && reflects(depth_m, surface.xyz)) {
+    if (tile_works && reflects(depth_m, surface.xyz)) {
         vec3 weight = intensity * weight_of(pixel, depth_m, surface);
         probe_pixel(pixel);
         probe(PROBE_reflectance, vec4(weight, 0.0));
-        if (any(greaterThan(weight, vec3(0.0)))) color += weight * reflected_color(pixel);
+        if (any(greaterThan(weight, vec3(0.0)))) color = storable(color + weight * reflected_color(pixel), frame.up.w);
     }
-    imageStore(composed, pixel, vec4(storable(color, frame.up.w), 1.0));
+    imageStore(composed, pixel, vec4(color, 1.0));
 }

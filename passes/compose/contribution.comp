@@ -41,6 +41,6 @@ void main() {
     vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (fact_reflecting && tile_works && reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
+    if (tile_works && reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
     imageStore(composed, pixel, vec4(color, 1.0));
 }

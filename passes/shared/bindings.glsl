@@ -29,6 +29,7 @@
 //
 // PASSES_ON(image, from) says that the pass, where its facts do not hold, would make the image of what it reads as it is: dropped,
 // it is remembered as that. Of several rows the first whose image is made counts.
+// INSTEAD(image, captured) says the same of an image of the capture, for this frame: while the pass is dropped, its image is that one.
 // FACT(name) gives a constant fact_NAME: false when the survey has found that the frame has nothing of the kind, so that the
 // code for it is left out (see replay/facts.c for the names). Of an image that the pass makes it is false when no pass that runs
 // reads it: it is not made then, and must not be written.
@@ -88,6 +89,7 @@ layout(constant_id = 998) const bool tile_works = true;      // false: over the 
 #define NEEDS_BY(fact, parameter)
 #define READS_LEVELS(image, parameter)
 #define PASSES_ON(image, from)
+#define INSTEAD(image, captured)
 #define SHOWS_ALL(parameter)
 #define ASSUMED(parameter)
 #define ALONG_RAYS(image, normals)

@@ -63,7 +63,7 @@ const struct glint_image *glint_study_reflection_image(struct glint_replay *repl
     const struct glint_image *last = NULL;
     const struct glint_pass *compose = NULL;
     for (size_t i = 0; i < count; i++)
-        if (results[i].ran && !strcmp(results[i].pass->slot, COMPOSE)) compose = results[i].pass;
+        if (results[i].shown && !strcmp(results[i].pass->slot, COMPOSE)) compose = results[i].pass;
     for (size_t i = 0; i < count; i++) {
         const struct glint_image *image =
             results[i].ran && results[i].pass != compose ? reflection_of(replay, results[i].pass, compose) : NULL;

@@ -23,7 +23,7 @@ const struct glint_image *glint_study_picture(struct glint_replay *replay) {
     bool composed = false;
     for (size_t i = 0; i < count; i++) {
         composed = composed || !strcmp(results[i].pass->slot, "compose");
-        const struct glint_image *image = composed && results[i].ran ? picture_of(replay, results[i].pass) : NULL;
+        const struct glint_image *image = composed && results[i].shown ? picture_of(replay, results[i].pass) : NULL;
         if (image) last = image;
     }
     return last;

@@ -161,7 +161,7 @@ static bool link_all(struct measuring *m, struct glint_error *err) {
                           "stability: at most %d images of the capture and %d decisions, found %d and %d", INPUTS_MAX,
                           DECISIONS_MAX, inputs, decisions);
     for (size_t p = 0; p < count; p++)
-        if (results[p].ran) link_pass(m, results[p].pass);
+        if (results[p].shown) link_pass(m, results[p].pass);
     return true;
 }
 
@@ -179,7 +179,7 @@ static bool begin(struct measuring *m, struct glint_error *err) {
     if (!s->images || !m->tracked || !m->decided[0] || !m->decided[1] || !m->decided[2]) return no_memory(err);
     bool ok = track_all(m, NULL, err);
     for (size_t p = 0; ok && p < count; p++)
-        if (results[p].ran) ok = track_all(m, results[p].pass, err);
+        if (results[p].shown) ok = track_all(m, results[p].pass, err);
     return ok && link_all(m, err);
 }
 

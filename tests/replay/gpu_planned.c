@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "glint/samples.h"
-#include "pair.h"
+#include "painted.h"
 #include "plain_capture.h"
 #include "ways.h"
 
@@ -233,45 +233,6 @@ static void the_device_counts_as_the_host_does(void **state) {
 
 /* ---- A shot whose materials change from frame to frame ---- */
 
-enum look { MATTE, MIRROR, GLOSSY, ROUGH, MIXED, LOOKS };
-
-static enum look look_now;
-static const float *fresnel_now;
-
-static void paint(const struct plain *plain, float *values) {
-    const size_t pixels = (size_t)plain->width * plain->height;
-    static const float roughness[MIXED] = {0.5f, 0, 0.09f, 0.6f};
-    for (size_t i = 0; i < pixels; i++) {
-        const size_t column = i % plain->width * MIXED / plain->width;
-        const enum look look = look_now == MIXED ? (enum look)column : look_now;
-        values[PLAIN_ROUGHNESS * pixels + i] = roughness[look];
-        values[PLAIN_METALNESS * pixels + i] = 0;
-        values[PLAIN_SPECULAR * pixels + i] = look == MATTE ? 0.0f : 0.5f;
-    }
-}
-
-static struct glint_capture *painted(const struct fixture *fixture, enum look look, uint32_t number) {
-    struct glint_error err = {0};
-    char path[256];
-    const struct plain plain = {.width = 48,
-                                .height = 32,
-                                .fov_y_degrees = 60,
-                                .floor = true,
-                                .frame = number,
-                                .cut = number % 8 == 0,
-                                .fresnel = fresnel_now,
-                                .spoil = paint,
-                                .cube_size = FACE,
-                                .cube_count = 1,
-                                .cube = pair_cube};
-    snprintf(path, sizeof path, "%s/painted.exr", fixture->folder);
-    look_now = look;
-    pair_check(plain_write(path, &plain, &err), &err);
-    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-    pair_check(capture != NULL, &err);
-    return capture;
-}
-
 /* Catches: history that a frame without some class of surfaces would have handed to one that has them. Every look follows
    every other one. */
 static void a_plan_may_change_from_frame_to_frame(void **state) {
@@ -284,7 +245,8 @@ static void a_plan_may_change_from_frame_to_frame(void **state) {
         pair_use(pair, presets[p]);
         size_t before = 0, changes = 0;
         for (uint32_t i = 0; i < sizeof shot / sizeof *shot; i++) {
-            struct glint_capture *capture = painted(pair->fixture, shot[i], i + 1);
+            struct glint_capture *capture =
+                painted_capture(pair->fixture, &(struct painted){.look = shot[i], .number = i + 1});
             size_t left_out = 0;
             const size_t differ = pair_differences(pair, capture, &left_out);
             if (differ) print_error("%s, frame %u: %zu values differ\n", presets[p], i + 1, differ);
@@ -298,6 +260,34 @@ static void a_plan_may_change_from_frame_to_frame(void **state) {
         assert_true(changes > 0);
     }
     assert_int_equal(faults, 0);
+    fixture_check_messages(pair->fixture);
+}
+
+/* Catches: a picture that is not lit where nothing reflects, of whatever light; water and panes that do not lie over it. */
+static void where_nothing_reflects_the_picture_is_lit(void **state) {
+    struct pair *pair = pair_of(state);
+    static const enum look shot[] = {MATTE, MATTE, MIXED, MATTE};
+    static const char *const presets[] = {"mafia3", "kf2", "gtav", "mafia_de"};
+    const struct glint_pass_result *results;
+    size_t faults = 0, instead = 0, count;
+    for (size_t p = 0; p < 2 * sizeof presets / sizeof *presets; p++) {
+        pair_use(pair, presets[p / 2]);
+        for (uint32_t i = 0; i < sizeof shot / sizeof *shot; i++) {
+            const struct painted frame = {.look = shot[i], .number = i + 1, .bad_light = p % 2, .layers = !(p % 2)};
+            struct glint_capture *capture = painted_capture(pair->fixture, &frame);
+            size_t left_out = 0;
+            const size_t differ = pair_differences(pair, capture, &left_out);
+            if (differ) print_error("%s, %zu, frame %u: %zu values differ\n", presets[p / 2], p % 2, i + 1, differ);
+            faults += differ > 0;
+            results = glint_replay_results(pair->planned, &count);
+            for (size_t r = 0; r < count; r++) instead += results[r].shown && !results[r].ran;
+            pair_check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL),
+                       NULL);
+            glint_capture_close(&capture);
+        }
+    }
+    assert_int_equal(faults, 0);
+    assert_int_equal(instead, 3 * 2 * sizeof presets / sizeof *presets);
     fixture_check_messages(pair->fixture);
 }
 
@@ -395,6 +385,8 @@ static void a_wrong_rule_is_found(void **state) {
         const char *name, *scene, *preset;
         void (*lie)(struct glint_survey *survey);
     } rules[] = {{"reflecting", "room", "mafia3", nothing_reflects},
+                 {"reflecting", "street", "kf2", nothing_reflects},
+                 {"reflecting", "lake", "gtav", nothing_reflects},
                  {"smooth", "room", "mafia3", nothing_is_smooth},
                  {"rough", "room", "mafia3", nothing_is_rough},
                  {"cones", "room", "mafia3", all_are_mirrors},
@@ -421,11 +413,13 @@ static void a_wrong_rule_is_found(void **state) {
 }
 
 /* Replays painted frames with both, and returns in how many values the last of them differs. */
-static size_t last_difference(struct pair *pair, uint32_t frames, void (*lie)(struct glint_survey *survey)) {
+static size_t last_difference(struct pair *pair, uint32_t frames, const float *fresnel,
+                              void (*lie)(struct glint_survey *survey)) {
     size_t differ = 0, left_out = 0;
     pair_use(pair, "mafia3");
     for (uint32_t i = 1; i <= frames; i++) {
-        struct glint_capture *capture = painted(pair->fixture, MIXED, i);
+        struct glint_capture *capture =
+            painted_capture(pair->fixture, &(struct painted){.look = MIXED, .number = i, .fresnel = fresnel});
         pair->lie = i == frames ? lie : NULL;
         differ = pair_differences(pair, capture, &left_out);
         pair_check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL), NULL);
@@ -438,12 +432,10 @@ static size_t last_difference(struct pair *pair, uint32_t frames, void (*lie)(st
 static void a_wrong_rule_about_made_frames_is_found(void **state) {
     struct pair *pair = pair_of(state);
     static const float flat = 0.1f;
-    fresnel_now = &flat;
-    assert_int_equal(last_difference(pair, 1, NULL), 0);
-    assert_int_not_equal(last_difference(pair, 1, materials_say_nothing), 0);
-    fresnel_now = NULL;
-    assert_int_equal(last_difference(pair, 3, NULL), 0);
-    assert_int_not_equal(last_difference(pair, 3, there_was_no_frame_before), 0);
+    assert_int_equal(last_difference(pair, 1, &flat, NULL), 0);
+    assert_int_not_equal(last_difference(pair, 1, &flat, materials_say_nothing), 0);
+    assert_int_equal(last_difference(pair, 3, NULL, NULL), 0);
+    assert_int_not_equal(last_difference(pair, 3, NULL, there_was_no_frame_before), 0);
     fixture_check_messages(pair->fixture);
 }
 
@@ -470,6 +462,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_device_counts_as_the_host_does),
         cmocka_unit_test(a_plan_may_change_from_frame_to_frame),
+        cmocka_unit_test(where_nothing_reflects_the_picture_is_lit),
         cmocka_unit_test(alpha_alone_shows_the_sky),
         cmocka_unit_test(a_wrong_rule_is_found),
         cmocka_unit_test(faces_that_no_ray_comes_to_are_left_out),

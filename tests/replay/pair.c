@@ -101,6 +101,11 @@ static uint16_t *picture_of(struct glint_replay *replay, size_t *count) {
     return bits;
 }
 
+/* Which of the NaNs a device stores is its own affair. */
+static bool same_half(uint16_t a, uint16_t b) {
+    return a == b || ((a & 0x7FFF) > 0x7C00 && (b & 0x7FFF) > 0x7C00);
+}
+
 size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t *left_out) {
     struct glint_error err = {0};
     pair_check(glint_replay_load(pair->planned, capture, &err), &err);
@@ -121,7 +126,7 @@ size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t
     for (size_t i = 0; i < passes; i++) *left_out += !results[i].ran;
     uint16_t *bits[] = {picture_of(pair->planned, &counts[0]), picture_of(pair->whole, &counts[1])};
     assert_int_equal(counts[0], counts[1]);
-    for (size_t i = 0; i < counts[0]; i++) differ += bits[0][i] != bits[1][i];
+    for (size_t i = 0; i < counts[0]; i++) differ += !same_half(bits[0][i], bits[1][i]);
     free(bits[0]), free(bits[1]);
     return differ;
 }

@@ -109,6 +109,47 @@ static void readers_of_a_dropped_pass_get_nothing(void **state) {
     graph_finish(&graph);
 }
 
+/* A pass that makes an image like the capture's, and one that reads it. */
+static void what_a_dropped_pass_would_have_passed_on_is_the_captures(void **state) {
+    static const struct glint_row last[] = {
+        READS("lit"), WRITES("l"), NEEDED("no"), {.kind = GLINT_ROW_INSTEAD, .name = "lit", .image = "l"}};
+    struct glint_row like[4];
+    memcpy(like, last, sizeof like);
+    like[1].format = GLINT_FORMAT_RGBA16F;
+    const struct glint_pass unlike = {.slot = "last", .variant = "v", .rows = last, .row_count = 4};
+    const struct glint_pass pass = {.slot = "last", .variant = "v", .rows = like, .row_count = 4};
+    DEFINE_PASS(later, "v", READS("l"), WRITES("t"));
+    const char *const outputs[] = {"t", NULL}, *const others[] = {"z", NULL}, *const skip[] = {"last", NULL};
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &unlike);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    fixture_says(&err, "INSTEAD l: expected an image that the pass writes");
+    MAKE(&made, &pass, &later, &zeta);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_false(graph.passes[0].runs);
+    assert_string_equal(graph.passes[0].reason, "0 of 10, l is lit");
+    assert_ptr_equal(graph_find(&graph, "l"), graph_find(&graph, "lit"));
+    assert_int_equal(graph_find(&graph, "l")->source, SOURCE_CAPTURE);
+    assert_true(graph_find(&graph, "l")->wanted);
+    graph_finish(&graph);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs}, &err));
+    assert_false(graph_find(&graph, "l")->wanted);
+    graph_finish(&graph);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.outputs = others}, &err));
+    assert_null(graph_find(&graph, "l"));
+    graph_finish(&graph);
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){.skip = skip}, &err));
+    assert_int_equal(graph_find(&graph, "l")->source, SOURCE_NOTHING); /* that is no fact of the frame's */
+    graph_finish(&graph);
+    char shader[] = "own.comp";
+    made.passes[0].shader = shader;
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_true(graph.passes[0].runs && graph_find(&graph, "l")->source == SOURCE_MADE);
+    graph_finish(&graph);
+}
+
 static void only_what_wanted_images_need_runs(void **state) {
     struct pipeline made;
     struct graph graph;
@@ -301,6 +342,7 @@ int main(void) {
         cmocka_unit_test(passes_run_in_the_order_of_their_images),
         cmocka_unit_test(what_the_frame_does_not_call_for_is_dropped_with_the_figure),
         cmocka_unit_test(readers_of_a_dropped_pass_get_nothing),
+        cmocka_unit_test(what_a_dropped_pass_would_have_passed_on_is_the_captures),
         cmocka_unit_test(only_what_wanted_images_need_runs),
         cmocka_unit_test(diagnostic_images_exist_only_on_request),
         cmocka_unit_test(a_missing_input_names_the_pass_that_makes_it),

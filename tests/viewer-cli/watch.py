@@ -67,7 +67,7 @@ class Tests:
         shutil.copy(os.path.join(PASSES, "compose/brdf.comp"), self.path("my.comp"))
         with open(self.path("my.comp"), encoding="utf-8") as file:
             shader = file.read()
-        store = "vec4(storable(color, frame.up.w), 1.0)"
+        store = "vec4(color, 1.0)"
         assert store in shader
         with open(os.path.join(os.path.dirname(PASSES), "samples/presets/mafia3.json"), encoding="utf-8") as file:
             preset = json.load(file)

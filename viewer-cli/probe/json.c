@@ -55,7 +55,7 @@ static json_t *side_json(const struct probe_side *side) {
     json_t *passes = json_array();
     for (size_t p = 0; p < side->pass_count; p++) {
         const struct glint_pass *pass = side->passes[p].pass;
-        if (!side->passes[p].ran) continue;
+        if (!side->passes[p].shown) continue;
         json_t *steps = json_array();
         const struct glint_probe_record *ray = NULL;
         for (size_t i = 0; i < side->story.count; i++) {

@@ -83,7 +83,7 @@ static bool read_side(struct probe *probe, struct probe_side *side, struct glint
     memcpy(side->passes, passes, side->pass_count * sizeof *passes);
     if (!glint_replay_probe(replay, 0, &side->story, err) || !read_values(probe, side, replay, NULL, err)) return false;
     for (size_t p = 0; p < side->pass_count; p++)
-        if (side->passes[p].ran && !read_values(probe, side, replay, side->passes[p].pass, err)) return false;
+        if (side->passes[p].shown && !read_values(probe, side, replay, side->passes[p].pass, err)) return false;
     return read_places(side, replay, err) && read_picture(side, replay, err) &&
            read_image(&side->depth_half, replay, "depth_half", err) &&
            read_image(&side->cubemap_distance, replay, "cubemap_distance", err) &&

@@ -150,7 +150,7 @@ static void print_side(const struct probe_side *side) {
         if (!side->values[i].pass) print_value(&side->values[i]);
     for (size_t p = 0; p < side->pass_count; p++) {
         const struct glint_pass *pass = side->passes[p].pass;
-        if (!side->passes[p].ran || !tells(side, pass)) continue;
+        if (!side->passes[p].shown || !tells(side, pass)) continue;
         printf("\n%s/%s  %s\n", pass->slot, pass->variant, pass->title);
         print_records(side, pass);
         for (size_t i = 0; i < side->value_count; i++)

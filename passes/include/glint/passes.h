@@ -27,6 +27,7 @@ enum glint_row_kind {
     GLINT_ROW_READS_LEVELS, /* reads `image` where the parameter `name` is not 0, though no ray has a cone */
     GLINT_ROW_PASSES_ON, /* where its facts do not hold, the pass would make `image` of this one, as it is: so the next
                                   frame finds it, though the pass is dropped */
+    GLINT_ROW_INSTEAD, /* where its facts do not hold, `image` is this one of the capture: one on the device, with both names */
     GLINT_ROW_SHOWS_ALL, /* while this parameter is off, every surface's reflection is shown, whatever its material */
     GLINT_ROW_SELF,      /* all levels of an image that this pass writes; `name` is the binding's */
     GLINT_ROW_HISTORY,   /* what an image held at the end of the previous frame; `name` is the binding's */

@@ -161,7 +161,8 @@ struct glint_time {
 };
 struct glint_pass_result {
     const struct glint_pass *pass;
-    bool ran, cached; /* cached: unchanged since the last run in this process */
+    bool ran, shown;  /* shown: it ran, or its image is one of the capture's, which it would have passed on as it is */
+    bool cached;      /* unchanged since the last run in this process */
     bool cached_work; /* it reads cube maps and nothing of the frame: paid when a cube map changes, not every frame */
     char reason[192];
     struct glint_time time; /* n = 0 when not timed */
