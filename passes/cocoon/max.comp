@@ -9,31 +9,46 @@
 #include "shared/cocoon.glsl"
 #include "shared/cube_chain.glsl"
 
-float captured(ivec3 at) { return texelFetch(cubemap_distance, at, 0).x; }
-float texel_of(ivec3 at, int level) { return level == 0 ? captured(at) : texelFetch(faces, at, level).x; }
+// A constant in the two phases that read the most: not all devices jump over the fetch that is not asked for.
+bool is_captured(int level) { return dispatch_phase == 0u || (dispatch_phase > 1u && level == 0); }
 
-// Top-down: the farthest that is not sky. The finest level, the captured distances, is written last.
+float captured(ivec3 at) { return texelFetch(cubemap_distance, at, 0).x; }
+float texel_of(ivec3 at, int level) { return is_captured(level) ? captured(at) : texelFetch(faces, at, level).x; }
+
+float farther(float most, float distance_m) { return distance_m < LARGEST ? max(most, distance_m) : most; }
+
+// Of the four texels that meet at a corner.
+float farthest_around(ivec3 corner, int level) {
+    float most = -1.0;
+    if (is_captured(level)) {
+        vec3 place = vec3(vec2(corner.xy) / float(face_size(cubemap_distance, 0)), corner.z);
+        vec4 four = textureGather(sampler2DArray(cubemap_distance, nearest_clamp), place);
+        for (int i = 0; i < 4; ++i) most = farther(most, four[i]);
+    } else {
+        for (int i = 0; i < 4; ++i) most = farther(most, texelFetch(faces, corner - ivec3(i & 1, i >> 1, 0), level).x);
+    }
+    return most;
+}
+
+// Top-down: the farthest that is not sky, of 2x2 texels of the finer level, or of 3x3 where that is odd. The finest level, the
+// captured distances, is written last.
 float farthest_child(ivec3 at, int width, int level) {
     if (level == 0) return captured(at);
-    int finer = face_size(faces, level - 1);
-    Footprint x = footprint(at.x, width, finer), y = footprint(at.y, width, finer);
+    int odd = face_size(faces, level - 1) - 2 * width;
+    ivec2 first = 2 * at.xy + 1, corner = first;
     float most = -1.0;
-    for (int j = 0; j < y.count; ++j) {
-        for (int i = 0; i < x.count; ++i) {
-            float distance_m = texel_of(ivec3(x.first + i, y.first + j, at.z), level - 1);
-            if (distance_m < LARGEST) most = max(most, distance_m);
-        }
-    }
+    do {
+        most = max(most, farthest_around(ivec3(corner, at.z), level - 1));
+        corner = corner.x < first.x + odd ? ivec2(corner.x + 1, corner.y) : ivec2(first.x, corner.y + 1);
+    } while (corner.y <= first.y + odd);
     return most < 0.0 ? INFINITE : most;
 }
 
 // The coarsest level has nothing coarser to be filled from: a face of sky takes the farthest of the whole cube map.
 float farthest_of_map(int layer, int level) {
     float most = -1.0;
-    for (int face = 0; face < 6; ++face) {
-        float distance_m = farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level);
-        if (distance_m < LARGEST) most = max(most, distance_m);
-    }
+    for (int face = 0; face < 6; ++face)
+        most = farther(most, farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level));
     return most < 0.0 ? INFINITE : most;
 }
 
@@ -53,9 +68,9 @@ float weighted_max(vec4 direction, int level) {
     tangent_frame(axis, tangent, bitangent);
     float rim = cone_tangent_of_level(0.0, float(face_size(faces, coarser)), kernel);
     float power = cone_power(rim, threshold), depth_m = pivot;
-    for (int y = 0; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) {
-            if (!is_tap(ivec2(x, y), reach) || (y == 0 && x <= 0)) continue; // the other one of its pair
+    for (int y = 0; y <= reach && reach > 0; ++y) { // of each pair one: the taps of a row, from the pivot on
+        int wide = taps_beside(y, reach), x = y == 0 ? 1 : -wide;
+        do {
             vec2 offset = vec2(x, y) * rim / (float(reach) + 0.5);
             vec3 aside = offset.x * tangent + offset.y * bitangent;
             float length_of_both = sqrt(1.0 + dot(offset, offset)), weight = pow(length_of_both, -power);
@@ -66,7 +81,7 @@ float weighted_max(vec4 direction, int level) {
             } else {
                 depth_m = max(depth_m, pivot + (max(one, other) - pivot) * weight);
             }
-        }
+        } while (++x <= wide);
     }
     return depth_m;
 }
@@ -86,8 +101,10 @@ void fill_level(ivec3 at, int width, int level) {
 
 // Levels finer than the cocoon's take it where they see sky.
 void cap_level(ivec3 at, int width, int level) {
-    float distance_m = texel_of(at, level);
-    if (fact_cube_sky && cap_sky && !(distance_m < LARGEST)) {
+    bool caps = fact_cube_sky && cap_sky;
+    if (!caps && level > 0) return;
+    float distance_m = caps ? texel_of(at, level) : captured(at);
+    if (caps && !(distance_m < LARGEST)) {
         float cap_m = seen(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_level());
         distance_m = cap_m < LARGEST ? -cap_m : INFINITE;
     } else if (level > 0) {
@@ -105,13 +122,14 @@ void keep_cocoon(ivec3 at) {
 
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (dispatch_phase == 4u) {
+    if (dispatch_phase == 5u) {
         keep_cocoon(at);
         return;
     }
+    if (dispatch_phase == 2u && !fact_cube_sky) return; // levels coarser than the cocoon's fill nothing
     int width = imageSize(cocoon_distance).x, level = int(dispatch_level);
     if (at.x >= width || at.y >= width) return;
-    if (dispatch_phase == 0u) imageStore(cocoon_distance, at, vec4(farthest_child(at, width, level)));
-    else if (dispatch_phase < 3u) fill_level(at, width, level);
+    if (dispatch_phase < 2u) imageStore(cocoon_distance, at, vec4(farthest_child(at, width, level)));
+    else if (dispatch_phase < 4u) fill_level(at, width, level);
     else cap_level(at, width, level);
 }

@@ -28,6 +28,9 @@ Footprint footprint(int texel, int size, int finer) {
 // cone's rim, texel_scale texels away, lies half a step beyond the last.
 bool is_tap(ivec2 point, int reach) { return point.x * point.x + point.y * point.y <= reach * reach; }
 
+// How many of them lie in row y on either side of the middle. The half keeps the root of a square from rounding below it.
+int taps_beside(int y, int reach) { return int(sqrt(float(reach * reach - y * y) + 0.5)); }
+
 // A tap of a cube map: the lattice lies in the plane that touches the unit sphere. weight: the lobe cosⁿ whose cone the
 // level stands for, times cos³ for the solid angle of a piece of that plane.
 struct Tap {
