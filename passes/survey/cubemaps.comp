@@ -6,20 +6,27 @@
 #include "shared/push_begin.glsl"
 #include "cubemaps.pass.h"
 };
+#include "shared/cocoon.glsl"
 #include "shared/constants.glsl"
 
-bool has_sky(ivec3 texel) {
-    return dispatch_phase == 0u ? !(texelFetch(cubemap_distance, texel, 0).x < LARGEST) : !(texelFetch(cubemap_color, texel, 0).a >= 1.0);
+// Whether the sky is seen in one of the four texels that meet at a corner.
+bool has_sky(vec3 corner) {
+    if (dispatch_phase == 0u)
+        return any(not(lessThan(textureGather(sampler2DArray(cubemap_distance, nearest_clamp), corner), vec4(LARGEST))));
+    return any(not(greaterThanEqual(textureGather(sampler2DArray(cubemap_color, nearest_clamp), corner, 3), vec4(1.0))));
 }
 
+// Of an odd square the last texels' neighbours are looked at, too: they are of the same face.
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
-    int squares = imageSize(cubemap_sky).x, size = int(frame.counts.z);
-    if (any(greaterThanEqual(at.xy, ivec2(squares)))) return;
-    ivec2 first = at.xy * size / squares, end = (at.xy + 1) * size / squares;
+    if (any(greaterThanEqual(at.xy, ivec2(COCOON_SIZE)))) return;
+    int size = int(frame.counts.z);
+    ivec2 first = at.xy * size / COCOON_SIZE + 1, end = (at.xy + 1) * size / COCOON_SIZE, corner = first;
     bool sky = false;
-    for (int y = first.y; y < end.y; ++y)
-        for (int x = first.x; x < end.x; ++x) sky = sky || has_sky(ivec3(x, y, at.z));
+    do {
+        sky = has_sky(vec3(vec2(corner) / float(size), at.z)) || sky;
+        corner = corner.x + 2 <= end.x ? ivec2(corner.x + 2, corner.y) : ivec2(first.x, corner.y + 2);
+    } while (corner.y <= end.y);
     if (dispatch_phase == 0u) imageStore(cubemap_open, at, uvec4(sky));
     else imageStore(cubemap_sky, at, uvec4(sky));
 }
