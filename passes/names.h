@@ -28,6 +28,7 @@
 #define DISPATCH_TILES(range)
 #define DISPATCH_TILES_BY(range, parameter)
 #define WORKGROUP(width, height)
+#define BLOCKS(across)
 #define FACT(fact)
 #define PER_RAY
 #define ACCUMULATE(image)

@@ -20,6 +20,7 @@
 #undef DISPATCH_TILES
 #undef DISPATCH_TILES_BY
 #undef WORKGROUP
+#undef BLOCKS
 #undef FACT
 #undef PER_RAY
 #undef ACCUMULATE
@@ -89,6 +90,7 @@
 #define DISPATCH_TILES_BY(range, parameter) \
     {.kind = GLINT_ROW_DISPATCH_TILES, .id = __LINE__, .name = #range, .image = #parameter},
 #define WORKGROUP(width, height) {.kind = GLINT_ROW_WORKGROUP, .id = __LINE__, .name = "", .first = width, .last = height},
+#define BLOCKS(across) {.kind = GLINT_ROW_BLOCKS, .id = __LINE__, .name = "", .first = across},
 #define FACT(fact) {.kind = GLINT_ROW_FACT, .id = __LINE__, .name = #fact},
 #define PER_RAY {.kind = GLINT_ROW_PER_RAY, .id = __LINE__, .name = ""},
 #define ACCUMULATE(image) {.kind = GLINT_ROW_ACCUMULATE, .id = __LINE__, .name = #image},

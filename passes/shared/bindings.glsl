@@ -27,6 +27,8 @@
 // tiles.glsl. DISPATCH_TILES_BY(smooth or rough, parameter): the parameter is the largest roughness of a smooth surface, or
 // the least of a rough one.
 //
+// BLOCKS(across): an invocation works on so many texels each way, BLOCK * gl_GlobalInvocationID and what follows.
+//
 // PASSES_ON(image, from) says that the pass, where its facts do not hold, would make the image of what it reads as it is: dropped,
 // it is remembered as that. Of several rows the first whose image is made counts.
 // INSTEAD(image, captured) says the same of an image of the capture, for this frame: while the pass is dropped, its image is that one.
@@ -82,6 +84,7 @@ layout(constant_id = 998) const bool tile_works = true;      // false: over the 
 #define DISPATCH_TILES(range)
 #define DISPATCH_TILES_BY(range, parameter)
 #define WORKGROUP(width, height)
+#define BLOCKS(across) const int BLOCK = across;
 #define FACT(fact) layout(constant_id = __LINE__) const bool fact_##fact = true;
 #define PER_RAY
 #define ACCUMULATE(image)

@@ -12,6 +12,7 @@
 #undef CHOICE4
 #undef PUSH
 #undef FACT
+#undef BLOCKS
 #define READ(kind, name)
 #define OPTIONAL_READ(kind, name, format, size, nothing)
 #define SELF(kind, name, image)
@@ -23,6 +24,7 @@
 #define CHOICE3(name, initial, a, b, c, source, help)
 #define CHOICE4(name, initial, a, b, c, d, source, help)
 #define FACT(fact)
+#define BLOCKS(across)
 #define PUSH(type, name, initial, lowest, highest, unit, source, help) type name;
 layout(push_constant, std430) uniform Parameters {
     uint dispatch_level;

@@ -50,9 +50,8 @@ void follow(vec3 origin, vec3 direction) {
     }
 }
 
-// A pixel's ray, if the picture shows it.
 void follow_pixel(ivec2 pixel) {
-    if (!inside(pixel, ivec2(frame.size.xy)) || !is_shown(pixel)) return;
+    if (!inside(pixel, ivec2(frame.size.xy))) return;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
     if (!reflects(depth_m, surface.xyz)) return;
@@ -60,6 +59,15 @@ void follow_pixel(ivec2 pixel) {
     vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     if (surface.w > 0.0) for (int word = 0; word < 8; ++word) faces[word] = 0xFFFFFFFFu; // from a lobe: anywhere
     else follow(origin, mirror_direction(origin, surface.xyz));
+}
+
+// The rays of those of a block's pixels whose reflection the picture shows.
+void follow_block(ivec2 block) {
+    if (!inside(block, ivec2(frame.size.xy))) return;
+    for (uint left = shown_in_block(block); left != 0u; left &= left - 1u) {
+        int i = findLSB(left);
+        follow_pixel(block + ivec2(i & 1, i >> 1));
+    }
 }
 
 // Each workgroup joins one word of all tiles.
@@ -79,10 +87,11 @@ void main() {
     if (lane < 8u) faces[lane] = 0u;
     barrier();
     if (dispatch_phase == 0u) {
-        follow_pixel(ivec2(gl_GlobalInvocationID.xy));
+        follow_block(BLOCK * ivec2(gl_GlobalInvocationID.xy));
         barrier();
         if (lane < 8u) imageStore(tile_ways, LIST_ITEMS + int(8u * workgroup_index() + lane), uvec4(faces[lane]));
     } else {
-        join_tiles((frame.size.xy + gl_WorkGroupSize.xy - 1u) / gl_WorkGroupSize.xy);
+        uvec2 tile = uint(BLOCK) * gl_WorkGroupSize.xy;
+        join_tiles((frame.size.xy + tile - 1u) / tile);
     }
 }

@@ -1,6 +1,7 @@
 /* Faces of the active cube maps that the ways of mirror rays cross, as the centres see them. */
 PASS("Faces that rays come to", "glint")
-WORKGROUP(16, 16)
+WORKGROUP(8, 8)
+BLOCKS(2)
 #line 102
 SLOT("What a frame holds, for the plan")
 READ(texture2D, depth_full)
