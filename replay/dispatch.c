@@ -70,6 +70,11 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
     if (!dispatch->layers) step->texels += texels;
     for (uint32_t i = 0; i < dispatch->layer_runs; i++)
         step->texels += texels / dispatch->groups[2] * dispatch->layers[i].count;
+    if (size != GLINT_SIZE_TILES) return;
+    dispatch->tile_wide = TILE_WIDE;
+    if (run->sizes.tile_wide == TILE_WIDE) return;
+    step->dispatches[step->dispatch_count] = *dispatch; /* the list of strips, from that of tiles */
+    step->dispatches[step->dispatch_count++].tile_wide = run->sizes.tile_wide;
 }
 
 static double value_of(const struct graph_pass *pass, const char *parameter) {
@@ -148,24 +153,25 @@ static const struct glint_row *tiles_after(const struct run *run, const struct s
 static bool add_tiles(const struct run *run, struct step *step, uint32_t phase, const struct image *image,
                       const struct glint_row *row, struct glint_error *err) {
     const struct workgroup group = pass_workgroup(step->pass->pass);
-    const VkExtent2D size = tile_extent(run, image);
-    const uint32_t wide = size.width * (STRIP_WIDE / run->sizes.tile_wide); /* of a strip */
-    const uint32_t strips = group.width * group.height / (wide * size.height);
+    const VkExtent2D size = tile_extent(run, image, STRIP_WIDE);
+    const uint32_t strips = group.width * group.height / (size.width * size.height),
+                   wide = tile_wide(run, step->pass->pass);
     uint32_t range = 0;
     while (range < RANGES && strcmp(range_names[range], row->name) != 0) range += 2;
     if (range >= RANGES || (strips != 2 && strips != 4 && strips != 8))
         return glint_fail(
             err, GLINT_ERROR_USAGE,
             "%s/%s: DISPATCH_TILES %s: expected a range of tiles, 2, 4 or 8 times %u x %u texels in a workgroup",
-            step->pass->pass->slot, step->pass->pass->variant, row->name, wide, size.height);
+            step->pass->pass->slot, step->pass->pass->variant, row->name, size.width, size.height);
     for (uint32_t rest = 0; rest < 2; rest++)
-        step->dispatches[step->dispatch_count++] =
-            (struct dispatch){.phase = phase,
-                              .list = tile_list(run, step->pass->pass),
-                              .from = 4 * (VkDeviceSize)(12 * (range + rest) + 4 * (strips / 4)),
-                              .tiles = range + rest,
-                              .over = image,
-                              .rest = rest};
+        step->dispatches[step->dispatch_count++] = (struct dispatch){
+            .phase = phase,
+            .list = tile_list(run, step->pass->pass),
+            .from = 4 * (VkDeviceSize)(tile_begin(&run->sizes, wide) + 12 * (range + rest) + 4 * (strips / 4)),
+            .tiles = range + rest,
+            .over = image,
+            .tile_wide = wide,
+            .rest = rest};
     return true;
 }
 

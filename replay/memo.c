@@ -98,7 +98,7 @@ static uint64_t mix_faces(uint64_t key, const struct run *run) {
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
     const struct glint_pass *pass = step->pass->pass;
     if (!spirv_find(&step->spirv, &run->replay->device->shaders, step->pass->entry, err) ||
-        !constants_init(&step->constants, &run->graph, step->pass, &step->spirv, run->options, run->sizes.tile_wide,
+        !constants_init(&step->constants, &run->graph, step->pass, &step->spirv, run->options, tile_wide(run, pass),
                         err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);

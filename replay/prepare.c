@@ -62,6 +62,7 @@ static bool find_programs(struct glint_replay *replay, struct step *step, struct
         constants.data[CONSTANT_PHASE] = dispatch->phase;
         constants.data[PLACE_TILES] = dispatch->tiles;
         constants.data[PLACE_WORKS] = !dispatch->rest;
+        if (dispatch->tile_wide) constants.data[PLACE_TILE_WIDE] = dispatch->tile_wide;
         dispatch->program = programs_get(replay->device, step->pass->pass, &step->spirv, &constants, err);
         if (!dispatch->program) return false;
     }

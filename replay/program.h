@@ -16,7 +16,14 @@ struct workgroup pass_workgroup(const struct glint_pass *pass);
 
 enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64, CONSTANT_PHASE = 4 /* its id and its place */, CONSTANT_PROBE = 999 };
 /* Those of DISPATCH_TILES: ids, and places among the constants. */
-enum { CONSTANT_TILE_WIDE = 996, CONSTANT_TILES = 997, CONSTANT_WORKS = 998, PLACE_TILES = 6, PLACE_WORKS = 7 };
+enum {
+    CONSTANT_TILE_WIDE = 996,
+    CONSTANT_TILES = 997,
+    CONSTANT_WORKS = 998,
+    PLACE_TILES = 6,
+    PLACE_WORKS = 7,
+    PLACE_TILE_WIDE = 8
+};
 #define ALL_TILES UINT32_MAX
 
 /* Values of a pass's parameters as the shader takes them. */

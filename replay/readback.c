@@ -17,10 +17,11 @@ static void blank_list(const struct image *image, uint32_t *words) {
     const uint32_t head = image->desc.width, end = head * image->desc.height;
     const bool tiles = image->levels[0].info.row->size == GLINT_SIZE_TILES;
     for (uint32_t i = 4; i < head && !tiles; i++) words[i] = UINT32_MAX;
-    const uint64_t items = !tiles       ? words[3]
-                           : end > head ? (uint64_t)words[TILE_RANGES + 1] + words[TILE_RANGES + 3]
-                                        : 0;
-    for (uint64_t i = head + items; i < end; i++) words[i] = UINT32_MAX;
+    for (uint64_t at = 0, next = end; at + head < end; at = next, next = end) {
+        if (tiles && words[at + TILE_NEXT] > at && words[at + TILE_NEXT] < end - head) next = words[at + TILE_NEXT];
+        const uint64_t items = tiles ? (uint64_t)words[at + TILE_RANGES + 1] + words[at + TILE_RANGES + 3] : words[3];
+        for (uint64_t i = at + head + items; i < next; i++) words[i] = UINT32_MAX;
+    }
 }
 
 bool readback_images(struct glint_replay *replay, const struct image_part *parts, size_t count,

@@ -51,21 +51,32 @@ static bool traces_all_pixels(const struct glint_pipeline *pipeline) {
     return false;
 }
 
-VkExtent2D tile_extent(const struct run *run, const struct image *over) {
+uint32_t tile_wide(const struct run *run, const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if ((row_is_sampled(row) && strstr(row->glsl, "textureCube")) ||
+            (row_is_output(row) && row->size == GLINT_SIZE_TILES))
+            return run->sizes.tile_wide;
+    }
+    return TILE_WIDE;
+}
+VkExtent2D tile_extent(const struct run *run, const struct image *over, uint32_t wide) {
     const uint32_t scale = over->desc.width == run->sizes.full[0] ? 1 : 2;
-    return (VkExtent2D){run->sizes.tile_wide / scale, TILE_HIGH / scale};
+    return (VkExtent2D){wide / scale, TILE_HIGH / scale};
 }
 static uint32_t parts_of(uint32_t length, uint32_t part) {
     return (length + part - 1) / part;
 }
-uint32_t tile_count(const struct frame_sizes *sizes) {
-    return parts_of(sizes->full[0], sizes->tile_wide) * parts_of(sizes->full[1], TILE_HIGH);
+uint32_t tile_count(const struct frame_sizes *sizes, uint32_t wide) {
+    return parts_of(sizes->full[0], wide) * parts_of(sizes->full[1], TILE_HIGH);
 }
-/* What the maker of a list notes behind its tiles: 4 bits of each, and two words of each region. */
-static uint32_t tile_notes(const struct frame_sizes *sizes) {
-    const uint32_t wide = REGION_WIDE * STRIP_WIDE;
-    return parts_of(sizes->full[0], wide) * parts_of(sizes->full[1], REGION_HIGH * TILE_HIGH) *
-           (wide / sizes->tile_wide * REGION_HIGH / 8 + 2);
+static uint32_t tile_words(const struct frame_sizes *sizes, uint32_t wide) {
+    const uint32_t regions =
+        parts_of(sizes->full[0], REGION_WIDE * STRIP_WIDE) * parts_of(sizes->full[1], REGION_HIGH * TILE_HIGH);
+    return TILE_WORDS(regions, wide);
+}
+uint32_t tile_begin(const struct frame_sizes *sizes, uint32_t wide) {
+    return wide == TILE_WIDE ? 0 : tile_words(sizes, TILE_WIDE);
 }
 uint32_t list_blocks(const struct frame_sizes *sizes) {
     return parts_of(sizes->half[0], LIST_BLOCK) * parts_of(sizes->half[1], LIST_BLOCK);
@@ -171,7 +182,7 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
         break;
     case GLINT_SIZE_TILES:
         expected[0] = LIST_WIDTH;
-        expected[1] = 1 + (tile_count(sizes) + tile_notes(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
+        expected[1] = parts_of(tile_begin(sizes, sizes->tile_wide) + tile_words(sizes, sizes->tile_wide), LIST_WIDTH);
         break;
     case GLINT_SIZE_LIST:
         expected[0] = LIST_WIDTH; /* behind the items a maker notes marks and a count of each block (compact.glsl) */

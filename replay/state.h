@@ -76,6 +76,7 @@ struct dispatch {
     VkDeviceSize from;
     uint32_t tiles;           /* GLINT_ROW_DISPATCH_TILES: the range that it is over; ALL_TILES */
     const struct image *over; /* and the image */
+    uint32_t tile_wide;       /* of those that it is over or that it lists; 0: neither */
     bool rest;                /* where the pass has nothing to do; beside the dispatch before it */
 };
 
@@ -141,9 +142,12 @@ bool run_sizes(struct run *run, struct glint_error *err);
 bool run_describe_image(const struct run *run, const struct graph_image *image, struct image_desc *desc,
                         struct glint_error *err);
 
-/* In texels of an image over all of the picture. */
-VkExtent2D tile_extent(const struct run *run, const struct image *over);
-uint32_t tile_count(const struct frame_sizes *sizes);
+/* Pixels across the tiles that a pass is run over, or the widest that it lists; tiles in texels of an image over all of the picture;
+   how many there are; where the list of them begins. */
+uint32_t tile_wide(const struct run *run, const struct glint_pass *pass);
+VkExtent2D tile_extent(const struct run *run, const struct image *over, uint32_t wide);
+uint32_t tile_count(const struct frame_sizes *sizes, uint32_t wide);
+uint32_t tile_begin(const struct frame_sizes *sizes, uint32_t wide);
 uint32_t list_blocks(const struct frame_sizes *sizes);
 uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */
 

@@ -33,7 +33,7 @@ static uint64_t texels_of(const struct run *run, const struct graph_pass *entry,
 uint64_t dispatch_texels(const struct run *run, const struct image_desc *desc, enum glint_size_class size,
                          uint32_t level) {
     const VkExtent3D extent = image_extent(desc, level);
-    if (size == GLINT_SIZE_TILES) return tile_count(&run->sizes);
+    if (size == GLINT_SIZE_TILES) return tile_count(&run->sizes, TILE_WIDE);
     if (desc->buffer) return (uint64_t)run->sizes.half[0] * run->sizes.half[1];
     return (uint64_t)extent.width * extent.height * image_layers(desc);
 }
@@ -131,12 +131,14 @@ const struct glint_cube_faces *glint_replay_cube_faces(const struct glint_replay
 
 /* Tiles at the picture's border are cut off there. */
 static uint64_t count_tiles(const struct run *run, const struct dispatch *dispatch, const uint32_t *words) {
-    const uint32_t total = tile_count(&run->sizes), *range = words + TILE_RANGES + 2 * dispatch->tiles;
+    const uint32_t *list = words + tile_begin(&run->sizes, dispatch->tile_wide);
+    const uint32_t total = tile_count(&run->sizes, dispatch->tile_wide),
+                   *range = list + TILE_RANGES + 2 * dispatch->tiles;
     const uint32_t width = dispatch->over->desc.width, height = dispatch->over->desc.height;
-    const VkExtent2D size = tile_extent(run, dispatch->over);
+    const VkExtent2D size = tile_extent(run, dispatch->over, dispatch->tile_wide);
     uint64_t texels = 0;
     for (uint32_t i = 0; i < range[1]; i++) {
-        const uint32_t tile = words[TILE_ITEMS + (range[0] + i) % total];
+        const uint32_t tile = list[TILE_ITEMS + (range[0] + i) % total];
         const uint32_t left = width - size.width * (tile & 0xFFFF), below = height - size.height * (tile >> 16);
         texels += (uint64_t)(left < size.width ? left : size.width) * (below < size.height ? below : size.height);
     }

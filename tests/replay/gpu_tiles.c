@@ -60,7 +60,7 @@ static size_t differences_of_tiles(struct pair *pair, double *worked) {
         const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);
         json_t *all = json_object_get(pair->planned->record, "passes");
         for (size_t p = 0; p < passes && frame == TILED_FRAMES; p++) {
-            if (strcmp(results[p].pass->slot, "compose") != 0) continue;
+            if (strcmp(results[p].pass->slot, "resolve") != 0) continue;
             json_t *work = json_object_get(json_array_get(all, p), "work");
             *worked = (double)json_integer_value(json_object_get(work, "texels")) /
                       (double)json_integer_value(json_object_get(work, "of"));

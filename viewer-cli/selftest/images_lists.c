@@ -19,7 +19,8 @@ static const struct kind kinds[] = {
     {257, 40, 0.1, 0.9}, {300, 260, 0, 1}, {40, 130, 1, 0}, /* more blocks than a workgroup has invocations; nothing */
 };
 enum { KINDS = sizeof kinds / sizeof *kinds, CLASSES = 2, ITEMS = 256 };
-enum { HIGH = 2, STRIP = 16, REGION_WIDE = 4, REGION_HIGH = 16 }; /* pixels of a tile and a strip, strips of a region */
+enum { WIDE = 2, HIGH = 2, STRIP = 16 };    /* pixels of a tile, and of a strip */
+enum { REGION_WIDE = 4, REGION_HIGH = 16 }; /* strips */
 static const uint32_t no_item = 0xFFFFFFFF;
 
 static int class_of(const struct kind *kind, uint32_t x, uint32_t y) {
@@ -163,7 +164,7 @@ static bool check_pixels(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
-/* ---- Tiles, as wide as the device takes them ---- */
+/* ---- Tiles of 2 x 2 pixels, and on some devices strips ---- */
 
 /* In the order of the list: rough, rough and smooth, smooth, nothing. */
 static int kind_of_tile(const struct kind *kind, uint32_t wide, uint32_t column, uint32_t row) {
@@ -174,48 +175,60 @@ static int kind_of_tile(const struct kind *kind, uint32_t wide, uint32_t column,
     return has[1] ? has[0] : has[0] ? 2 : 3;
 }
 
-static uint32_t tile_wide(const struct frames *frames) {
-    return glint_device_get_info(frames->test->device)->tile_wide;
-}
-
 static const char *const with_classes[] = {"classify_tiles=shown", "temporal.least_roughness=0.105", NULL};
 static const char *const whole_texels[] = {"classify_tiles=shown", "downsample.jitter=false", NULL};
 static const char *const half_texels[] = {"classify_tiles=shown", "downsample=pick", "downsample.jitter=false", NULL};
 
+/* Of a list of tiles, with its maker's notes. */
+static size_t words_of(const struct kind *kind, uint32_t wide) {
+    const uint32_t regions_wide = (kind->width + REGION_WIDE * STRIP - 1) / (REGION_WIDE * STRIP),
+                   regions_high = (kind->height + REGION_HIGH * HIGH - 1) / (REGION_HIGH * HIGH);
+    const uint32_t tiles = REGION_WIDE * REGION_HIGH * (STRIP / wide);
+    return ITEMS + (size_t)regions_wide * regions_high * (tiles + tiles / 8 + 2);
+}
+
+/* The list of one picture's tiles by its definition. */
+static void compare_tiles(const uint32_t *list, size_t picture, uint32_t wide, struct selftest_finding *finding) {
+    const struct kind *kind = &kinds[picture];
+    const uint32_t each = STRIP / wide, across = (kind->width + wide - 1) / wide,
+                   down = (kind->height + HIGH - 1) / HIGH;
+    const uint32_t count = across * down, columns = (across + each - 1) / each, strips = REGION_HIGH * columns;
+    uint32_t ends[4], at = 0;
+    for (int class = 0; class < 4; ends[class ++] = at)
+        for (uint32_t tile = 0; tile < each * columns * (down + REGION_HIGH); tile++) { /* strips by columns */
+            const uint32_t strip = tile / each, x = strip / REGION_HIGH % columns * each + tile % each,
+                           y = strip / strips * REGION_HIGH + strip % REGION_HIGH;
+            if (x >= across || y >= down || kind_of_tile(kind, wide, x, y) != class) continue;
+            const uint32_t item = y << 16 | x;
+            image_compare(finding, list[ITEMS + at], item, item, "picture %zu, tile %u of %u", picture, at, wide);
+            at++;
+        }
+    for (uint32_t i = 0; i < 6; i++) { /* shown, smooth, rough, each with the rest behind it */
+        const uint32_t first[] = {0, ends[2], ends[0], ends[2], 0, ends[1]};
+        const uint32_t end[] = {ends[2], count, ends[2], count + ends[0], ends[1], count};
+        const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i], list[12 * i + 8],
+                                  list[12 * i + 10]};
+        const uint32_t tiles = end[i] - first[i], two = 2 * each, eight = 8 * each,
+                       expected[] = {first[i], tiles, (tiles + two - 1) / two, (tiles + eight - 1) / eight, 1};
+        for (int w = 0; w < 5; w++)
+            image_compare(finding, found[w], expected[w], expected[w], "picture %zu, range %u of %u", picture, i, wide);
+    }
+}
+
 static bool check_tiles(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
                         struct glint_error *err) {
     static const char *const passes[] = {"classify_tiles", NULL};
-    const uint32_t wide = tile_wide(frames), each = STRIP / wide; /* tiles of a strip */
+    const bool strips = glint_device_get_info(frames->test->device)->tile_wide == STRIP;
     bool ok = true;
     for (size_t k = 0; ok && k < KINDS; k++) {
-        const uint32_t across = (kinds[k].width + wide - 1) / wide, down = (kinds[k].height + HIGH - 1) / HIGH;
-        const uint32_t count = across * down, columns = (across + each - 1) / each, strips = REGION_HIGH * columns;
+        const size_t next = words_of(&kinds[k], WIDE), words = strips ? next + words_of(&kinds[k], STRIP) : next;
         size_t room = 0;
-        uint32_t ends[4], at = 0;
         ok = run(frames, &kinds[k], passes, which->with, NULL, err);
         uint32_t *list = ok ? read(frames, "tile_list", GLINT_U32, &room, err) : NULL;
-        ok = list && (ITEMS + count <= room ||
+        ok = list && (words <= room ||
                       glint_fail(err, GLINT_ERROR_DEVICE, "self-test: a list of %zu words is too short", room));
-        for (int class = 0; ok && class < 4; ends[class ++] = at)
-            for (uint32_t tile = 0; tile < each * columns * (down + REGION_HIGH); tile++) { /* strips by columns */
-                const uint32_t strip = tile / each, x = strip / REGION_HIGH % columns * each + tile % each,
-                               y = strip / strips * REGION_HIGH + strip % REGION_HIGH;
-                if (x >= across || y >= down || kind_of_tile(&kinds[k], wide, x, y) != class) continue;
-                const uint32_t item = y << 16 | x;
-                image_compare(finding, list[ITEMS + at], item, item, "picture %zu, tile %u", k, at);
-                at++;
-            }
-        for (uint32_t i = 0; ok && i < 6; i++) { /* shown, smooth, rough, each with the rest behind it */
-            const uint32_t first[] = {0, ends[2], ends[0], ends[2], 0, ends[1]};
-            const uint32_t end[] = {ends[2], count, ends[2], count + ends[0], ends[1], count};
-            const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i], list[12 * i + 8],
-                                      list[12 * i + 10]};
-            const uint32_t tiles = end[i] - first[i],
-                           expected[] = {first[i], tiles, (tiles + 2 * each - 1) / (2 * each),
-                                         (tiles + 8 * each - 1) / (8 * each), 1};
-            for (int w = 0; w < 5; w++)
-                image_compare(finding, found[w], expected[w], expected[w], "picture %zu, range %u", k, i);
-        }
+        if (ok) compare_tiles(list, k, WIDE, finding);
+        if (ok && strips) compare_tiles(list + next, k, STRIP, finding);
         free(list);
     }
     return ok;
@@ -229,7 +242,6 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
 static bool check_texels(struct frames *frames, const struct image_case *which, struct selftest_finding *finding,
                          struct glint_error *err) {
     static const char *const passes[] = {"classify_tiles", "downsample", "screen_trace", NULL};
-    const uint32_t wide = tile_wide(frames);
     char *shader = image_shader("linear",
                                 "#include \"shared/camera.glsl\"\n#include \"shared/tiles.glsl\"\n"
                                 "void main() {\n    %s;\n}\n",
@@ -243,7 +255,7 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
         ok = found != NULL;
         for (size_t i = 0; ok && i < count; i++) {
             const uint32_t x = (uint32_t)i % width, y = (uint32_t)i / width;
-            const bool works = kind_of_tile(&kinds[k], wide, x * scale / wide, y * scale / HIGH) < 3;
+            const bool works = kind_of_tile(&kinds[k], WIDE, x * scale / WIDE, y * scale / HIGH) < 3;
             const double expected = x + 512.0 * y + (works ? 0.25 : 0.5);
             image_compare(finding, (double)found[i], expected, expected, "picture %zu, texel %u,%u", k, x, y);
         }
@@ -253,7 +265,7 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
-#define TILES "tile_grid(size), tile_count(size)"
+#define TILES "tile_grid(size), tile_count(size), region_count(size), list_begin()"
 #define COMPACT                                                                                                        \
     "compact(marked, list): mark_block(list), place_block(marked, list), add_up(marked), write_header(list, total), "  \
     "gather_items(marks), marks_of_square(), count_of(marks), pack(counts), unpack(counts), square_corner(), "         \

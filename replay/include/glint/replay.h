@@ -18,7 +18,7 @@ struct glint_device_info {
     char reason[256]; /* why not usable */
     uint32_t api_version;
     uint64_t memory_bytes;
-    uint32_t tile_wide; /* pixels across a tile of the lists that passes run over: passes/shared/tile_list.h */
+    uint32_t tile_wide; /* pixels across a tile for passes that look cube maps up: passes/shared/tile_list.h */
 };
 /* Fills up to `capacity` entries, best first, and returns how many devices there are; 0 with an error when Vulkan
    itself cannot start. */
