@@ -105,13 +105,19 @@ static void a_wrong_list_is_found(void **state) {
         {"the order of kinds", "ROUGH_ALONE = 0u, ROUGH_AND_SMOOTH = 1u", "ROUGH_ALONE = 1u, ROUGH_AND_SMOOTH = 0u"},
         {"a range without its last tile", "uvec2(first, end - first)", "uvec2(first, max(end - first, 1u) - 1u)"},
         {"tiles elsewhere", "uvec4(tile.x |", "uvec4(tile.x + 1u |"},
+        {"strips by what is not smooth", "!= 0u ? SMOOTH : 0u", "== 0u ? SMOOTH : 0u"},
+        {"strips by the word beside", "own_region() + strip)", "own_region() + (strip ^ 1u))"},
     };
+    uint32_t *wide = &pair->fixture->device->info.tile_wide;
+    const uint32_t own = *wide;
+    *wide = STRIP_WIDE; /* both lists, whatever the device */
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         double worked;
         pair_use(pair, "mafia3");
         pair_spoil(pair, "classify_tiles", "shown", lists[i].right, lists[i].wrong);
         if (differences_of_tiles(pair, &worked) == 0) fail_msg("a wrong list changes nothing: %s", lists[i].name);
     }
+    *wide = own;
     fixture_check_messages(pair->fixture);
 }
 
