@@ -42,10 +42,12 @@ vec3 box(vec2 uv, float radius, bool finished_picture) {
         probe_sample(uv, finished_picture, 1.0, color);
         return color;
     }
+    // Half the distance of two taps. Places are whole multiples of it, so that they do not depend on how the shader was specialized:
+    // a quotient of constants is rounded exactly where the loop is unrolled, and a product with a rounded reciprocal where it is not.
+    precise vec2 apart = radius / (float(taps) * vec2(frame.size.xy));
     vec4 sum = vec4(0.0);
     for (int i = 0; i < taps * taps; ++i) {
-        vec2 at = (vec2(i % taps, i / taps) + 0.5) / float(taps) * 2.0 - 1.0;
-        vec2 place = uv + at * radius / vec2(frame.size.xy);
+        precise vec2 place = uv + vec2(2 * ivec2(i % taps, i / taps) + 1 - taps) * apart;
         vec3 color = picture(place, finished_picture);
         bool usable = all(lessThan(abs(color), vec3(LARGEST)));
         probe_sample(place, finished_picture, float(usable), color);

@@ -76,7 +76,7 @@ Result march(ScreenRay ray, ivec2 texel) {
     bool in_front = true;
     Hidden hidden = Hidden(0.0, 0.0);
     for (int i = 1; i <= steps; ++i) {
-        float s = path.end * pow((float(i) - shift) / float(steps), exponent);
+        precise float s = path.end * pow((float(i) - shift) * (1.0 / float(steps)), exponent);
         vec2 cell = cell_at(path, s);
         if (cell == visit.cell) continue;
         visit = visit_of(path, cell, s_before);

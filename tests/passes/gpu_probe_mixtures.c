@@ -309,12 +309,13 @@ static void mixtures(struct gpu *gpu, const struct way *way) {
     probed_scene(gpu, way->scene);
     arrange(gpu, way->words);
     draw_pixels(pixels);
-    probed_run(gpu, NULL, false, &plain);
-    probed_run(gpu, pixels, false, &probed);
-    same_images(&plain, &probed);
-    free_images(&plain);
-    free_images(&probed);
-    probed_run(gpu, pixels, true, &probed); /* what is stored is what was computed */
+    for (int floats = 0; floats < 2; floats++) { /* of floats, the last, what is stored is what was computed */
+        free_images(&probed);
+        probed_run(gpu, NULL, floats, &plain);
+        probed_run(gpu, pixels, floats, &probed);
+        same_images(&plain, &probed);
+        free_images(&plain);
+    }
     for (size_t i = 0; i < PIXELS; i++) {
         struct glint_probe_story story;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
