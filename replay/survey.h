@@ -18,6 +18,9 @@ bool channels_add_row(struct channels *channels, const struct glint_row *row, st
 size_t channels_find(const struct channels *channels, const char *name, size_t length);
 bool channels_read(struct channels *channels, struct glint_capture *capture, struct glint_error *err);
 void channels_finish(struct channels *channels);
+/* enlarge.c. A cube map at another size: between its texels colours are interpolated, and distances where they are of one
+   surface. */
+bool channels_enlarge(struct channels *channels, uint32_t face, struct glint_error *err);
 bool channels_add_survey(struct channels *channels, struct glint_error *err);
 
 /* Whether a fact is known without a look at any pixel; whether it is about what cube maps show. */

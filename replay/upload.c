@@ -108,20 +108,6 @@ static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, 
                                 false);
 }
 
-/* Cube maps share one array: of a smaller one each texel there is the one that its centre lies in. */
-static bool enlarge(struct channels *channels, uint32_t face, struct glint_error *err) {
-    const size_t own = channels->part->width, count = channels->count;
-    float *data = malloc(6 * (size_t)face * face * count * sizeof *data), *to = data;
-    if (!data) return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", channels->part->name);
-    for (size_t y = 0; y < 6 * (size_t)face; y++)
-        for (size_t x = 0; x < face; x++, to += count)
-            memcpy(to, channels->data + ((2 * y + 1) * own / (2 * face) * own + (2 * x + 1) * own / (2 * face)) * count,
-                   count * sizeof *data);
-    free(channels->data);
-    channels->data = data;
-    return true;
-}
-
 /* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
 static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role,
                         struct channels *channels, uint32_t first, uint32_t layers, struct glint_error *err) {
@@ -148,7 +134,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
             channels->names[c--] = channels->names[--channels->count];
         }
     if (!channels->data && channels->count && !channels_read(channels, capture, err)) return false;
-    if (channels->data && part->width != width && !enlarge(channels, width, err)) return false;
+    if (channels->data && part->width != width && !channels_enlarge(channels, width, err)) return false;
     replay->seconds[PHASE_READ] += now_seconds() - start;
     start = now_seconds();
     if (!replay_staging(replay, offset, err) || !device_begin(replay->device, err)) return false;

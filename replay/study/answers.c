@@ -120,9 +120,25 @@ static bool value_text(const struct glint_pipeline *pipeline, const char *slot, 
     return false;
 }
 
+/* Of each pixel, 0 where the part declares none. Where no draw arrived nothing is known, of which that is said. */
+static bool truth_errors(struct glint_capture *capture, const struct glint_part_info *part, float **error,
+                         struct glint_error *err) {
+    const char *const channels[] = {glint_part_has_channel(part, "error") ? "error" : NULL, "weight"};
+    const size_t pixels = (size_t)part->width * part->height;
+    float *read = malloc(2 * pixels * sizeof *read);
+    if (!read) return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+    if (!glint_capture_read(capture, part, channels, 2, GLINT_F32, read, 0, err)) {
+        free(read);
+        return false;
+    }
+    for (size_t i = 0; i < pixels; i++) read[i] = read[2 * i + 1] > 0 ? read[2 * i] : INFINITY;
+    *error = read;
+    return true;
+}
+
 bool glint_study_truth(struct glint_capture *capture, const struct glint_pipeline *pipeline,
                        struct glint_pixels *pixels, float **error, struct glint_error *err) {
-    static const char *const rgb[] = {"R", "G", "B"}, *const declared[] = {"error"};
+    static const char *const rgb[] = {"R", "G", "B"};
     char name[96];
     *pixels = (struct glint_pixels){0};
     *error = NULL;
@@ -134,10 +150,7 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_pipelin
     if (!allocate(pixels, part->width, part->height, 3, err) ||
         !glint_capture_read(capture, part, rgb, 3, GLINT_F32, pixels->values, 0, err))
         return false;
-    if (!glint_part_has_channel(part, declared[0])) return true;
-    *error = malloc((size_t)part->width * part->height * sizeof **error);
-    return *error ? glint_capture_read(capture, part, declared, 1, GLINT_F32, *error, 0, err)
-                  : glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
+    return truth_errors(capture, part, error, err);
 }
 
 /* What is asked for, and not how well it is answered. */

@@ -77,6 +77,7 @@ static void look_at_rows(void *user, size_t first, size_t last) {
                         *truth = c->truth->values + i * c->truth->components;
             c->use[i] = LEFT_OUT;
             if (c->options->mask && !c->options->mask[i]) continue;
+            if (c->options->truth_error && isinf(c->options->truth_error[i])) continue;
             bool found_valid = is_finite(found, c->found_at, c->channels),
                  truth_valid = is_finite(truth, c->truth_at, c->channels);
             c->use[i] = found_valid && truth_valid ? COMPARED : INVALID;

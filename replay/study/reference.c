@@ -141,7 +141,8 @@ bool glint_study_missing(const struct glint_pixels *reference, const float *refe
         }
         const double of_truth = truth_error ? (double)truth_error[i] : 0,
                      of_own = reference_error ? (double)reference_error[i] : 0;
-        if (truth2 > 0) both[i] = (float)sqrt(of_truth * of_truth + of_own * of_own * own2 / truth2);
+        if (isinf(of_truth)) both[i] = INFINITY; /* not known there */
+        else if (truth2 > 0) both[i] = (float)sqrt(of_truth * of_truth + of_own * of_own * own2 / truth2);
     }
     bool ok = glint_study_image(reference, truth, 3, surfaces, both, errors, err);
     free(both);

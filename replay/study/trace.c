@@ -71,18 +71,20 @@ static int by_error(const void *a, const void *b) {
 /* Samples are sorted by error, so that each group's are too. */
 static void summarize(const struct sample *samples, size_t count, uint32_t first, uint32_t last,
                       struct glint_trace_row *row) {
-    size_t right = 0, seen = 0;
+    size_t right = 0, seen = 0, lit = 0;
     for (size_t i = 0; i < count; ++i) {
         if (samples[i].group < first || samples[i].group > last) continue;
         ++row->rays;
         ++row->truth[samples[i].truth];
         right += samples[i].error <= 0.05;
+        if (isnan(samples[i].radiance_error)) continue;
         row->radiance_error += samples[i].radiance_error;
+        lit++;
     }
     if (row->rays == 0) return;
     row->share = (double)row->rays / (double)count;
     row->right = (double)right / (double)row->rays;
-    row->radiance_error /= (double)row->rays;
+    row->radiance_error = lit ? row->radiance_error / (double)lit : (double)NAN;
     for (size_t i = 0; i < count; ++i) {
         if (samples[i].group < first || samples[i].group > last) continue;
         if (seen == row->rays / 2) row->median_error = samples[i].error;
@@ -109,19 +111,19 @@ static void fill(struct sample *samples, size_t count, struct glint_trace_table 
 struct inputs {
     struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, screen_fetches, cubemap_fetches,
         reflection;
-    float *mirror, *radiance; /* mirror: distance, visible */
+    float *mirror, *radiance; /* distance, visible; R G B, weight */
     uint32_t width, height;   /* of the truth */
 };
 
 static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct glint_capture *capture,
                         struct glint_error *err) {
-    static const char *const rgb[] = {"R", "G", "B"}, *const mirror[] = {"distance.Z", "visible"};
+    static const char *const radiance[] = {"R", "G", "B", "weight"}, *const mirror[] = {"distance.Z", "visible"};
     in->mirror = read_truth(capture, "truth.mirror", mirror, 2, err);
     if (!in->mirror) return false;
     in->width = glint_capture_find(capture, "truth.mirror")->width;
     in->height = glint_capture_find(capture, "truth.mirror")->height;
     if (glint_capture_find(capture, "truth.reflection.ggx")) {
-        in->radiance = read_truth(capture, "truth.reflection.ggx", rgb, 3, err);
+        in->radiance = read_truth(capture, "truth.reflection.ggx", radiance, 4, err);
         if (!in->radiance) return false;
     }
     return get(replay, "normal_half", GLINT_F32, true, &in->normal, err) &&
@@ -152,10 +154,10 @@ static uint32_t reason_at(const struct pixels *image, size_t i) {
 }
 
 static double radiance_error(const struct inputs *in, size_t texel, size_t pixel) {
-    if (!in->reflection.data.f || !in->radiance) return NAN;
+    if (!in->reflection.data.f || !in->radiance || !(in->radiance[4 * pixel + 3] > 0)) return NAN;
     double sum = 0;
     for (size_t k = 0; k < 3; ++k) {
-        double found = (double)in->reflection.data.f[4 * texel + k], truth = (double)in->radiance[3 * pixel + k];
+        double found = (double)in->reflection.data.f[4 * texel + k], truth = (double)in->radiance[4 * pixel + k];
         sum += fabs(found - truth) / (found + truth + GLINT_SYMMETRIC_EPSILON) / 3;
     }
     return sum;

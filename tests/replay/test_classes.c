@@ -89,10 +89,47 @@ static void hits_are_binned_and_know_the_sky(void **state) {
     glint_capture_close(&capture);
 }
 
+/* A truth of the left half alone; what it holds elsewhere is nothing. */
+static void pixels_of_which_the_truth_knows_nothing_are_not_compared(void **state) {
+    const struct fixture *fixture = *state;
+    static float truth[H][W][5];
+    static const char *const names[] = {"R", "G", "B", "weight", "error"};
+    struct glint_channel channels[5];
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W / 2; x++)
+            for (int c = 0; c < 5; c++) truth[y][x][c] = c < 3 ? 2 : 0.25F;
+    for (int c = 0; c < 5; c++)
+        channels[c] = (struct glint_channel){names[c], GLINT_F32, &truth[0][0][c], sizeof truth[0][0], 0, NULL};
+    for (size_t count = 4; count <= 5; count++) { /* with errors and without */
+        const struct glint_part part = {"truth.reflection.ggx", W, H, channels, count, {0}, NULL, NULL, NULL, NULL, 0};
+        struct glint_pixels answer;
+        struct glint_image_errors errors;
+        struct glint_error err = {0};
+        float *error = NULL;
+        char path[128];
+        snprintf(path, sizeof path, "%s/half.exr", fixture->folder);
+        if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err))
+            fail_msg("%s", err.message);
+        struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+        if (!capture || !glint_study_truth(capture, fixture->pipeline, &answer, &error, &err))
+            fail_msg("%s", err.message);
+        static float three[H * W * 3];
+        for (size_t i = 0; i < sizeof three / sizeof *three; i++) three[i] = 3;
+        const struct glint_pixels found = {W, H, 3, three};
+        assert_true(glint_study_image(&found, &answer, 3, NULL, error, &errors, &err));
+        assert_int_equal(errors.of[0].pixels, H * (W / 2));
+        assert_true(errors.of[0].mean == 1); /* where nothing is known 3 */
+        free(error);
+        glint_pixels_finish(&answer);
+        glint_capture_close(&capture);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(angles_and_distances_are_those_of_the_room),
         cmocka_unit_test(hits_are_binned_and_know_the_sky),
+        cmocka_unit_test(pixels_of_which_the_truth_knows_nothing_are_not_compared),
     };
     return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);
 }

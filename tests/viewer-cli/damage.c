@@ -145,16 +145,11 @@ static double as_radial(const double *p, double x, double y, double z, double st
     return z * sqrt(u * u + v * v + 1);
 }
 static double as_hundreds(const double *p, double x, double y, double z, double strength) {
-    (void)p;
-    (void)x;
-    (void)y;
-    (void)strength;
+    (void)p, (void)x, (void)y, (void)strength;
     return z * 100;
 }
 static double with_far_sky(const double *p, double x, double y, double z, double strength) {
-    (void)p;
-    (void)x;
-    (void)y;
+    (void)p, (void)x, (void)y;
     return isfinite(z) ? z : floor(5000 + 60000 * strength);
 }
 static bool depth_radial(struct rewrite *r, double strength) {
@@ -206,6 +201,21 @@ static void set_text(struct rewrite *r, const char *name, const char *value) {
     g->part.attribute_count += i == g->part.attribute_count;
     g->attributes[i] =
         (struct glint_exr_attribute){.name = name, .type = GLINT_EXR_STRING, .type_name = "string", .string = value};
+}
+/* No mistake: held in a reversed depth buffer without a far plane, over NDC from -1 to 1. */
+static double as_infinite(const double *p, double x, double y, double z, double strength) {
+    (void)p, (void)x, (void)y, (void)strength;
+    return 0.1 / z;
+}
+static bool depth_infinite(struct rewrite *r, double strength) {
+    double p[16];
+    if (!each_depth(r, as_infinite, strength)) return false;
+    memcpy(p, matrix(r, "glint.viewToClip"), sizeof p);
+    p[10] = -p[14], p[11] = 2 * 0.1;
+    set_matrix(r, "glint.viewToClip", p);
+    set_text(r, "glint.depth", "reversed_infinite");
+    set_text(r, "glint.clipZ", "minus_one_to_one");
+    return true;
 }
 static bool camera_clip_y(struct rewrite *r, double strength) {
     (void)strength;
@@ -433,6 +443,14 @@ static bool metres_per_unit(struct rewrite *r, double strength) {
     return true;
 }
 
+/* No mistake, but too little to tell: faces of two texels. */
+static bool cubes_tiny(struct rewrite *r, double strength) {
+    (void)strength;
+    for (size_t i = 0; i < r->count; i++)
+        if (is_cube(&r->parts[i])) r->parts[i].part.width = 2, r->parts[i].part.height = 12;
+    return true;
+}
+
 const struct damage damages[] = {
     {"normal.view_space", BASE_PLAIN, normals_in_view_axes},
     {"normal.unorm", BASE_PLAIN, normals_unorm},
@@ -475,5 +493,7 @@ const struct damage damages[] = {
     {NULL, BASE_PLAIN, roughness_squared},
     {NULL, BASE_PLAIN, roughness_inverted},
     {NULL, BASE_PLAIN, metres_per_unit},
+    {NULL, BASE_PLAIN, depth_infinite},
+    {NULL, BASE_PLAIN, cubes_tiny},
 };
 const size_t damage_count = sizeof damages / sizeof *damages;

@@ -54,6 +54,11 @@ static void ray(const struct lint_data *data, const struct lint_reading *reading
     out[2] = view->s;
 }
 
+/* What a depth buffer holds where NDC z is z. */
+static double stored_of(const struct lint_reading *reading, double z) {
+    return reading->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? (z + 1) / 2 : z;
+}
+
 static bool along_axis(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                        double v, double *depth) {
     const bool reversed = reading->depth == GLINT_DEPTH_REVERSED || reading->depth == GLINT_DEPTH_REVERSED_INFINITE ||
@@ -62,7 +67,8 @@ static bool along_axis(const struct lint_data *data, const struct lint_reading *
     const bool projected = reading->depth == GLINT_DEPTH_DEVICE || reading->depth == GLINT_DEPTH_REVERSED ||
                            reading->depth == GLINT_DEPTH_REVERSED_INFINITE;
     if (projected && (view->B > 0) != reversed) return false;
-    if (reading->depth == GLINT_DEPTH_REVERSED_INFINITE && fabs(view->A) > 1e-9) return false;
+    if (reading->depth == GLINT_DEPTH_REVERSED_INFINITE && fabs(stored_of(reading, view->A * view->s)) > 1e-5)
+        return false;
     if (reading->depth == GLINT_DEPTH_VIEW_LINEAR) *depth = v * reading->depth_scale;
     else if (reversed ? v <= 0 : v >= 1) return false;
     else if (reading->depth == GLINT_DEPTH_LOGARITHMIC || reading->depth == GLINT_DEPTH_LOGARITHMIC_REVERSED) {

@@ -95,6 +95,7 @@ bool lint_moved(const struct lint_data *data, const struct lint_reading *reading
 int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
                const double direction[3]) {
     const double away = sqrt(dot(direction, direction)), slack = away * (0.02 + 3.0 / cube->size);
+    if (slack >= away) return 0; /* texels so wide that whatever is nearer agrees: nothing is told by them */
     const double distance = lint_cube_distance(reading, texel, direction);
     if (fabs(distance - away) <= slack) return 1;
     return distance > away + 3 * slack ? -1 : 0;

@@ -82,7 +82,8 @@ struct glint_metric_options {
         *mask; /* pixels that are 0 here are left out, and are black in both images for SSIM and FLIP; NULL: none */
     const struct glint_classes *classes; /* sets of classes, each labelling every pixel */
     size_t class_sets;
-    /* One value a pixel or NULL: the standard error of a truth that is itself a mean of samples, relative to its value. */
+    /* One value a pixel or NULL: the standard error of a truth that is itself a mean of samples, relative to its value; pixels
+       of which it is +inf are left out, as by the mask. */
     const float *truth_error;
     double epsilon;  /* of the relative MSE; 0: GLINT_RELATIVE_EPSILON */
     double peak;     /* of PSNR; 0: the highest absolute value of the truth, among what is compared */

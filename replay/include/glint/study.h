@@ -41,8 +41,8 @@ bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pi
 const struct glint_image *glint_study_reflection_image(struct glint_replay *replay);
 /* The reflection of a run folder. */
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err);
-/* truth.reflection.LOBE of the lobe that the pipeline draws from (downsample.ndf), R G B; *error receives its
-   standard error in each pixel (channel `error`), malloc'd, NULL when the part has none. */
+/* truth.reflection.LOBE of the lobe that the pipeline draws from (downsample.ndf), R G B; *error receives its standard error in
+   each pixel, malloc'd: channel `error`, 0 when the part has none, +inf where nothing is known (`weight` 0). */
 bool glint_study_truth(struct glint_capture *capture, const struct glint_pipeline *pipeline,
                        struct glint_pixels *pixels, float **error, struct glint_error *err);
 /* The preset `reference`, asked the same question as `pipeline`: its lobe and its fog. */
@@ -101,7 +101,7 @@ struct glint_trace_row {
     double p95_error;
     double
         radiance_error; /* mean of |found - truth|/(found + truth + GLINT_SYMMETRIC_EPSILON) over R G B of reflection_half and
-                              truth.reflection.ggx; NAN when one is missing. The truth has no fog: compare without */
+                              truth.reflection.ggx, where it is known; NAN when it is nowhere. The truth has no fog: compare without */
 };
 struct glint_trace_table {
     struct glint_trace_row rows[32]; /* those with rays, tracer by tracer; the last one is all of them */
