@@ -13,6 +13,7 @@
 
 #include "device.h"
 #include "glint/exr.h"
+#include "graph.h"
 #include "pipeline.h"
 
 struct stored_image {
@@ -32,6 +33,19 @@ struct glint_run {
 static const char *text_of(const json_t *object, const char *key) {
     const char *text = json_string_value(json_object_get(object, key));
     return text ? text : "";
+}
+
+/* Levels go by their image's name. What a pass made that is not known here can only be told by its shape. */
+static bool holds_cubes(const struct glint_run_image *image) {
+    const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
+    const char *level = strstr(image->name, ".level");
+    const size_t length = level ? (size_t)(level - image->name) : strlen(image->name);
+    for (size_t i = 0; pass && i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind == GLINT_ROW_WRITE && strlen(row->name) == length && !strncmp(row->name, image->name, length))
+            return size_is_cube(row->size);
+    }
+    return image->height % (6 * image->width) == 0;
 }
 
 static bool add_image(struct glint_run *run, const json_t *pass, const json_t *image, struct glint_error *err) {
@@ -63,6 +77,7 @@ static bool add_image(struct glint_run *run, const json_t *pass, const json_t *i
                           stored.info.name, stored.file);
     stored.info.width = (uint32_t)width;
     stored.info.height = (uint32_t)height;
+    stored.info.cube = holds_cubes(&stored.info);
     run->images[run->count++] = stored;
     return true;
 }

@@ -92,7 +92,7 @@ bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixe
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
         if (strcmp(image->unit, "radiance") || !strcmp(image->slot, COMPOSE) || image->integer) continue;
-        if (image->height % (6 * image->width) == 0 || image->width < widest) continue; /* cubes; half resolution */
+        if (image->cube || image->width < widest) continue; /* cubes; half resolution */
         if (compose && !reads(compose, image->name)) continue;
         widest = image->width;
         last = image;

@@ -35,6 +35,12 @@ static bool is_cube(const struct rewrite_part *p) {
     return !strncmp(p->name, "cubemap.", 8);
 }
 
+#define DAMAGE(name, done)                                                                                             \
+    static bool name(struct rewrite *r, double strength) {                                                             \
+        (void)strength;                                                                                                \
+        return done;                                                                                                   \
+    }
+
 static const double *matrix(struct rewrite *r, const char *name) {
     return rewrite_attribute(r, "gbuffer", name)->numbers;
 }
@@ -243,34 +249,29 @@ static bool previous_missing(struct rewrite *r, double strength) {
 
 /* ---- Motion ---- */
 
-static bool each_motion(struct rewrite *r, double x_factor, double y_factor) {
+/* Some uv, then a factor. */
+static bool each_motion(struct rewrite *r, double x_shift, double y_shift, double x_factor, double y_factor) {
     float *x = floats(r, "gbuffer", "motion.X"), *y = floats(r, "gbuffer", "motion.Y");
     for (size_t i = 0; i < texels_of(r, "gbuffer"); i++) {
-        x[i] = (float)((double)x[i] * x_factor);
-        y[i] = (float)((double)y[i] * y_factor);
+        x[i] = (float)(((double)x[i] + x_shift) * x_factor);
+        y[i] = (float)(((double)y[i] + y_shift) * y_factor);
     }
     return true;
 }
-static bool motion_negated(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_motion(r, -1, -1);
-}
-static bool motion_y(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_motion(r, 1, -1);
-}
-static bool motion_ndc(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_motion(r, 2, -2);
-}
+DAMAGE(motion_negated, each_motion(r, 0, 0, -1, -1))
+DAMAGE(motion_y, each_motion(r, 0, 0, 1, -1))
+DAMAGE(motion_ndc, each_motion(r, 0, 0, 2, -2))
 static bool motion_pixels(struct rewrite *r, double strength) {
     const struct rewrite_part *g = rewrite_find(r, "gbuffer");
     (void)strength;
-    return each_motion(r, g->part.width, g->part.height);
+    return each_motion(r, 0, 0, g->part.width, g->part.height);
 }
-static bool motion_zero(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_motion(r, 0, 0);
+DAMAGE(motion_zero, each_motion(r, 0, 0, 0, 0))
+
+static bool motion_unjittered(struct rewrite *r, double strength) {
+    const double *now = matrix(r, "glint.viewToClip"), *before = matrix(r, "glint.previousViewToClip");
+    (void)strength; /* both look along -z, where an offset counts the other way */
+    return each_motion(r, (before[2] - now[2]) / 2, (now[6] - before[6]) / 2, 1, 1);
 }
 
 /* ---- Cube maps ---- */
@@ -309,14 +310,8 @@ static bool faces_rotated(struct rewrite *r, double strength) {
     for (int f = 0; f < 6; f++) from[f] = (f + by) % 6;
     return each_face(r, from, 0);
 }
-static bool faces_mirrored(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_face(r, in_order, 1);
-}
-static bool faces_upside_down(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_face(r, in_order, 2);
-}
+DAMAGE(faces_mirrored, each_face(r, in_order, 1))
+DAMAGE(faces_upside_down, each_face(r, in_order, 2))
 static bool each_distance(struct rewrite *r, double factor, bool planar) {
     for (size_t i = 0; i < r->count; i++) {
         if (!is_cube(&r->parts[i])) continue;
@@ -329,18 +324,9 @@ static bool each_distance(struct rewrite *r, double factor, bool planar) {
     }
     return true;
 }
-static bool distance_planar(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_distance(r, 1, true);
-}
-static bool distance_hundreds(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_distance(r, 100, false);
-}
-static bool distance_hundredths(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_distance(r, 0.01, false);
-}
+DAMAGE(distance_planar, each_distance(r, 1, true))
+DAMAGE(distance_hundreds, each_distance(r, 100, false))
+DAMAGE(distance_hundredths, each_distance(r, 0.01, false))
 static bool each_center(struct rewrite *r, double factor) {
     static double kept[REWRITE_PARTS][3];
     for (size_t i = 0; i < r->count; i++) {
@@ -351,14 +337,8 @@ static bool each_center(struct rewrite *r, double factor) {
     }
     return true;
 }
-static bool center_negated(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_center(r, -1);
-}
-static bool center_hundreds(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_center(r, 100);
-}
+DAMAGE(center_negated, each_center(r, -1))
+DAMAGE(center_hundreds, each_center(r, 100))
 static bool sky_inverted(struct rewrite *r, double strength) {
     (void)strength;
     for (size_t i = 0; i < r->count; i++) {
@@ -428,14 +408,8 @@ static bool each_roughness(struct rewrite *r, bool invert) {
     for (size_t i = 0; i < texels_of(r, "gbuffer"); i++) v[i] = invert ? 1 - v[i] : v[i] * v[i];
     return true;
 }
-static bool roughness_squared(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_roughness(r, false);
-}
-static bool roughness_inverted(struct rewrite *r, double strength) {
-    (void)strength;
-    return each_roughness(r, true);
-}
+DAMAGE(roughness_squared, each_roughness(r, false))
+DAMAGE(roughness_inverted, each_roughness(r, true))
 static bool metres_per_unit(struct rewrite *r, double strength) {
     static double hundredth = 0.01;
     (void)strength;
@@ -475,6 +449,7 @@ const struct damage damages[] = {
     {"motion.y", BASE_PLAIN, motion_y},
     {"motion.ndc", BASE_PLAIN, motion_ndc},
     {"motion.pixels", BASE_PLAIN, motion_pixels},
+    {"motion.unjittered", BASE_PLAIN, motion_unjittered},
     {"motion.zero", BASE_PLAIN, motion_zero},
     {"cubemap.faces_exchanged", BASE_PLAIN, faces_exchanged},
     {"cubemap.faces_exchanged", BASE_PLAIN, faces_rotated},

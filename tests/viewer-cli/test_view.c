@@ -318,6 +318,22 @@ static void wrong_use_and_bad_files(void **state) {
     free(path);
 }
 
+/* Six times as high as wide, as a cube map's faces below each other are. */
+static void a_narrow_picture_is_no_cube_map(void **state) {
+    char *capture = strdup(in_folder("narrow.exr")), *run = strdup(in_folder("narrow"));
+    (void)state;
+    free(glint_ok("sample", "matte", "-o", capture, "--size", "8x48", "--cube-size", "8", "--light", "1"));
+    free(glint_ok("replay", capture, "-o", run));
+    for (int k = 0; k < 2; k++) {
+        free(glint_ok("view", k ? run : capture, "-o", in_folder("narrow.png")));
+        struct pixels p = read_png(in_folder("narrow.png"));
+        assert_int_equal(p.width, 8);
+        assert_int_equal(p.height, 48);
+        free(p.rgb);
+    }
+    free(capture), free(run);
+}
+
 /* A terminal would obey what a stranger wrote into a name. */
 static void control_characters_in_names_do_not_reach_the_terminal(void **state) {
     (void)state;
@@ -354,6 +370,7 @@ int main(void) {
         cmocka_unit_test(indices_and_reasons_have_colours_of_their_own),
         cmocka_unit_test(crop_and_zoom),
         cmocka_unit_test(cube_map_is_a_seamless_cross),
+        cmocka_unit_test(a_narrow_picture_is_no_cube_map),
         cmocka_unit_test(layers_are_named_after_a_colon),
         cmocka_unit_test(wrong_use_and_bad_files),
         cmocka_unit_test(control_characters_in_names_do_not_reach_the_terminal),

@@ -182,6 +182,11 @@ void lint_motion(const struct lint_data *data, const struct lint_reading *readin
         else if (reading->motion == GLINT_MOTION_PACKED16) v = (v - 32768) / 32767 * data->frame.motion_range * size[i];
         out[i] = v * reading->motion_sign[i];
     }
+    if (!reading->motion_unjittered || (out[0] == 0 && out[1] == 0)) return; /* 0 may as well be no motion at all */
+    const double *now = data->frame.camera.view_to_clip, *before = data->frame.previous.view_to_clip;
+    const double down = reading->clip_y == GLINT_CLIP_Y_UP ? -1 : 1;
+    out[0] += (before[2] * before[14] - now[2] * now[14]) / 2 * size[0];
+    out[1] += (before[6] * before[14] - now[6] * now[14]) / 2 * size[1] * down;
 }
 
 void lint_turn(int turn, double *u, double *v) {

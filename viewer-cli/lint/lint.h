@@ -47,6 +47,7 @@ struct lint_reading {
     int normal_axis[3]; /* which stored channel is X, Y, Z */
     enum glint_motion_encoding motion;
     double motion_sign[2];
+    bool motion_unjittered; /* as if the centres of both pictures were in one place */
     enum glint_clip_y clip_y;
     enum glint_clip_z clip_z;
     double view_sign[3]; /* axes of the view turned around */

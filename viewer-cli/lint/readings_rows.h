@@ -34,6 +34,7 @@ READING("motion.negated", (r->motion_sign[0] = -r->motion_sign[0], r->motion_sig
 READING("motion.uv", r->motion = GLINT_MOTION_UV, "motion is in uv", "glint.motion", "uv")
 READING("motion.ndc", r->motion = GLINT_MOTION_NDC, "motion is in NDC", "glint.motion", "ndc")
 READING("motion.pixels", r->motion = GLINT_MOTION_PIXELS, "motion is in pixels", "glint.motion", "pixels")
+READING("motion.unjittered", r->motion_unjittered = true, "motion leaves out how the jitter moved", "", "")
 READING("motion.y", r->motion_sign[1] = -r->motion_sign[1], "motion has Y the wrong way", "", "")
 READING("motion.x", r->motion_sign[0] = -r->motion_sign[0], "motion has X the wrong way", "", "")
 READING("cubemap.planar", r->cube_planar = true, "distances of cube maps are along the face's axis, not from the centre", "", "")

@@ -136,7 +136,7 @@ static bool read_capture(struct source *source, struct glint_capture *capture, c
         s.channels[s.count++] = &z;
     }
     fill_source(source, part->name, layer, part->width, part->height, &s);
-    source->cube = part->width * 6 == part->height;
+    source->cube = part->width * 6 == part->height && (!part->role || part->role->shape != GLINT_SHAPE_FRAME);
     snprintf(source->unit, sizeof source->unit, "%s", role_unit(part, s.channels[0]->name));
     if (!strncmp(s.channels[0]->name, "motion.", 7)) source->integer = false;
     const char *names[4] = {0};
@@ -247,7 +247,7 @@ static bool read_run(struct source *source, const struct source_choice *choice, 
         source->height = image->height;
         source->components = image->components;
         source->integer = image->integer;
-        source->cube = image->width > 0 && image->height % (6 * image->width) == 0;
+        source->cube = image->cube;
         const char *name = image->channels;
         for (uint32_t i = 0; i < source->components; i++) {
             size_t length = strcspn(name, " ");

@@ -42,7 +42,7 @@ enum glint_roughness_encoding {
     GLINT_ROUGHNESS_POWER       /* Blinn-Phong power 2/r⁴ - 2 */
 };
 enum glint_motion_encoding {
-    GLINT_MOTION_UV,      /* uv of the same surface point in the previous frame minus uv now; uv is (0,0) top left */
+    GLINT_MOTION_UV,      /* uv of the same surface point in the previous frame minus uv now, each with its jitter */
     GLINT_MOTION_NDC,     /* the same difference in NDC, y as clip_y says */
     GLINT_MOTION_PIXELS,  /* the same difference in pixels */
     GLINT_MOTION_PACKED16 /* uint channels: uv = (v - 32768)/32767 · motion_range */
@@ -99,7 +99,7 @@ struct glint_frame {
     bool cut;               /* nothing of the previous frame is of use */
     bool has_player;        /* false: cube maps are selected around the camera */
     double player[3];       /* world position */
-    double jitter_px[2];    /* sub-pixel offset contained in view_to_clip; +x right, +y down */
+    double jitter_px[2];    /* sub-pixel offset by which view_to_clip moves the picture; +x right, +y down */
     double exposure;        /* factor from scene-referred to display; 0: 1 */
     double pre_exposure;    /* factor contained in pre-exposed colour; 0: 1 */
     double metres_per_unit; /* 0: 1 */

@@ -247,7 +247,7 @@ struct glint_run;
 struct glint_run_image {
     const char *slot, *variant, *name, *unit, *meaning, *channels; /* channels as in the row: "R G B A" */
     uint32_t width, height, components;
-    bool integer;
+    bool integer, cube; /* cube: of cube maps, six faces below each other for each */
 };
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
 void glint_run_close(struct glint_run **run);
