@@ -15,6 +15,12 @@ void tune_value_text(const struct tune_axis *axis, double value, char text[TUNE_
     else snprintf(text, TUNE_TEXT, "%.9g", value);
 }
 
+bool tune_slot_counts(const struct tune *tune, const char *slot) {
+    bool counts = !tune->slots.count;
+    for (size_t k = 0; k < tune->slots.count; k++) counts |= !strcmp(slot, tune->slots.items[k]);
+    return counts;
+}
+
 static const struct glint_pass *find_pass(const struct glint_pipeline *pipeline, const char *name) {
     const size_t length = strcspn(name, ".");
     for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {

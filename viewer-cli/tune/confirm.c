@@ -3,54 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glint/sort.h"
 #include "tune/tune.h"
 
 const char *const tune_contenders[TUNE_CONTENDERS] = {"start", "tuned", "scaled"};
 
 static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
-/* Order statistics between which the true median lies with 95 %, whatever the distribution: each value is below it with a half. */
-struct tune_median tune_median(double *values, size_t count) {
-    if (!count) return (struct tune_median){NAN, NAN, NAN};
-    glint_sort_doubles(values, count);
-    double probability = exp2(-(double)count), below = probability;
-    size_t k = 0; /* the largest with P(at most k below) <= 2.5 % */
-    while (below <= 0.025 && k < count) {
-        k++;
-        probability *= (double)(count - k + 1) / (double)k;
-        below += probability;
-    }
-    const size_t low = k ? k - 1 : 0;
-    return (struct tune_median){(values[(count - 1) / 2] + values[count / 2]) / 2, values[low],
-                                values[count - 1 - low]};
-}
-
-/* Who is first changes from round to round. */
-bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
-                        struct tune_times times[TUNE_CONTENDERS], struct glint_error *err) {
-    const size_t rounds = tune->repeat;
-    double *values = calloc((TUNE_CONTENDERS + 1) * rounds + 1, sizeof *values),
-           *parts = values + TUNE_CONTENDERS * rounds;
-    bool ok = values || no_memory(err);
-    for (uint32_t r = 0; ok && r < rounds; r++) {
-        snprintf(tune->label, sizeof tune->label, "measured again, round %u", r + 1);
-        glint_judge_next_round(subject->judge);
-        for (size_t turn = 0; ok && turn < TUNE_CONTENDERS; turn++) {
-            const size_t k = (turn + r) % TUNE_CONTENDERS;
-            ok = !pipelines[k] || tune_time(tune, subject, pipelines[k], true, &values[k * rounds + r], err);
-        }
-    }
-    for (size_t k = 0; ok && k < TUNE_CONTENDERS; k++) {
-        for (size_t r = 0; r < rounds; r++) parts[r] = values[TUNE_TUNED * rounds + r] / values[k * rounds + r];
-        times[k].part = tune_median(parts, pipelines[k] ? rounds : 0);
-        if (k != TUNE_TUNED) times[k].ms = tune_median(values + k * rounds, pipelines[k] ? rounds : 0);
-    }
-    if (ok) times[TUNE_TUNED].ms = tune_median(values + TUNE_TUNED * rounds, rounds);
-    free(values);
-    return ok;
 }
 
 /* How much of what it may take a point takes: beside the baseline, of its time where that is most and as much as the interval

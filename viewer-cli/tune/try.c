@@ -9,72 +9,6 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-bool tune_report(void *user, const char *what, double done) {
-    struct tune *tune = user;
-    (void)what;
-    (void)done;
-    return progress_report(tune->progress, tune->label, tune->done);
-}
-
-void tune_unload_subject(struct tune *tune, size_t s) {
-    struct tune_subject *subject = &tune->subjects[s];
-    if (subject->judge) glint_judge_destroy(&subject->judge);
-    if (subject->capture) glint_capture_close(&subject->capture);
-}
-
-bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
-    struct tune_subject *subject = &tune->subjects[s];
-    struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
-    options.all = tune->all;
-    options.metrics = GLINT_METRICS_CHEAP | 1u << tune->metric;
-    options.resamples = resamples;
-    options.keep_resampled = resamples != 0;
-    options.seed = 1;
-    const enum glint_answer answer = answer_args_kind(&tune->against);
-    const float *error;
-    return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
-           (subject->judge = glint_judge_create(tune->device, &options, err)) &&
-           glint_judge_load(subject->judge, subject->capture, err) &&
-           glint_judge_answer(subject->judge, answer, tune->base, &error, progress_report, tune->progress, err);
-}
-
-bool tune_load(struct tune *tune, struct glint_error *err) {
-    tune->subject_count = tune->captures.count + tune->unseen.count;
-    tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
-    if (!tune->subjects) return no_memory(err);
-    for (size_t s = 0; s < tune->subject_count; s++) {
-        struct tune_subject *subject = &tune->subjects[s];
-        subject->unseen = s >= tune->captures.count;
-        subject->path = subject->unseen ? tune->unseen.items[s - tune->captures.count] : tune->captures.items[s];
-        if (subject->unseen) continue;
-        struct glint_verdict verdict;
-        snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
-        if (!tune_load_subject(tune, s, 0, err) ||
-            !glint_judge_look(subject->judge, tune->base, 0, &verdict, tune_report, tune, err))
-            return false;
-        glint_verdict_finish(&verdict);
-    }
-    return true;
-}
-
-bool tune_slot_counts(const struct tune *tune, const char *slot) {
-    bool counts = !tune->slots.count;
-    for (size_t k = 0; k < tune->slots.count; k++) counts |= !strcmp(slot, tune->slots.items[k]);
-    return counts;
-}
-
-bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
-               double *ms, struct glint_error *err) {
-    struct glint_cost cost;
-    uint64_t ns = 0;
-    if (!glint_judge_time(subject->judge, pipeline, 0, whole, &cost, tune_report, tune, err)) return false;
-    for (size_t i = 0; i < cost.pass_count; i++)
-        if (!cost.passes[i].cached_work && tune_slot_counts(tune, cost.passes[i].pass->slot)) ns += cost.passes[i].ns;
-    glint_cost_finish(&cost);
-    *ms = (double)ns * 1e-6;
-    return true;
-}
-
 /* ---- What is kept ---- */
 
 static json_t *axes_json(const struct tune *tune) {
@@ -273,58 +207,15 @@ void tune_set_yard(struct tune *tune, const double *values) {
     json_decref(list);
 }
 
-static struct glint_search_figures as_searched(const struct tune *tune, struct tune_figures found) {
-    return (struct glint_search_figures){tune->by_error ? found.cost : found.error,
-                                         tune->by_error ? found.error : found.cost};
-}
-
-static bool try_values(void *user, const double *values, struct glint_search_figures *figures,
-                       struct glint_error *err) {
-    const struct tune *tune = user;
-    struct tune_figures found;
-    if (!tune_evaluate(user, values, &found, err)) return false;
-    *figures = as_searched(tune, found);
-    return true;
-}
-
-/* The start, and what is compared with the search: both set what others are measured by. */
-static bool begin(struct tune *tune, const double *start, struct glint_error *err) {
-    if (!tune_evaluate(tune, start, &tune->start, err)) return false;
-    tune_set_yard(tune, start);
-    tune->asked = tune->limit * (tune->part ? (tune->by_error ? tune->start.error : tune->start.cost) : 1);
-    tune->within = tune->asked;
-    return !tune->baseline || (tune_find_scale(tune, err) && tune_evaluate(tune, start, &tune->start, err));
-}
-
-/* `count` known points, one after the other. */
-static bool search(struct tune *tune, uint32_t tries, const double *known, size_t count, struct glint_error *err) {
-    enum { NOISE_PER_CENT = 2 };
-    const struct glint_search_options options = {.limit = tune->within,
-                                                 .tries = tries,
-                                                 .seed = tune->seed,
-                                                 .noise = tune->fetches ? 0 : NOISE_PER_CENT * 0.01,
-                                                 .known = known,
-                                                 .known_count = count};
-    struct glint_search_axis *axes = calloc(tune->axis_count + 1, sizeof *axes);
-    if (!axes) return no_memory(err);
-    for (size_t a = 0; a < tune->axis_count; a++) {
-        axes[a] = tune->axes[a].axis;
-        axes[a].hidden = tune->axes[a].other;
+void tune_correct(struct tune *tune, const double *values, double part, const double *parts) {
+    json_t *list = values_json(tune, values);
+    const json_t *line = find_line(tune, list);
+    tune->within = tune->scaled_within ? 0 : sum_up(tune, line).cost / part;
+    for (size_t s = 0; s < tune->captures.count && tune->scaled_within; s++) {
+        tune->subjects[s].yard.cost = figures_on(line, s).cost / parts[s];
+        tune->within += tune->subjects[s].yard.cost / (double)tune->captures.count;
     }
-    glint_search_result_finish(&tune->found);
-    const bool ok = glint_search(axes, tune->axis_count, &options, try_values, tune, &tune->found, err);
-    tune->chosen = tune->found.best;
-    free(axes);
-    return ok;
-}
-
-bool tune_search(struct tune *tune, struct glint_error *err) {
-    double *start = calloc(tune->axis_count + 1, sizeof *start);
-    for (size_t a = 0; start && a < tune->axis_count; a++) start[a] = tune->axes[a].axis.start;
-    const bool ok = start ? begin(tune, start, err) && search(tune, tune->tries, tune->scaling, tune->baseline, err)
-                          : no_memory(err);
-    free(start);
-    return ok;
+    json_decref(list);
 }
 
 /* Of a line that is kept. */
@@ -338,19 +229,10 @@ static void values_of(const struct tune *tune, const json_t *line, double *value
     }
 }
 
-bool tune_search_again(struct tune *tune, double part, const double *parts, struct glint_error *err) {
-    const size_t n = tune->axis_count, count = json_array_size(tune->lines);
-    double *known = calloc(n * count + 1, sizeof *known);
-    json_t *list = values_json(tune, tune->found.points[tune->chosen].values);
-    const json_t *line = find_line(tune, list);
-    tune->within = tune->scaled_within ? 0 : sum_up(tune, line).cost / part;
-    for (size_t s = 0; s < tune->captures.count && tune->scaled_within; s++) {
-        tune->subjects[s].yard.cost = figures_on(line, s).cost / parts[s];
-        tune->within += tune->subjects[s].yard.cost / (double)tune->captures.count;
-    }
-    for (size_t i = 0; known && i < count; i++) values_of(tune, json_array_get(tune->lines, i), known + n * i);
-    const bool ok = known ? search(tune, (uint32_t)count + tune->tries / 4, known, count, err) : no_memory(err);
-    json_decref(list);
-    free(known);
-    return ok;
+bool tune_all_tried(const struct tune *tune, double **values, size_t *count, struct glint_error *err) {
+    *count = json_array_size(tune->lines);
+    *values = calloc(tune->axis_count * *count + 1, sizeof **values);
+    for (size_t i = 0; *values && i < *count; i++)
+        values_of(tune, json_array_get(tune->lines, i), *values + tune->axis_count * i);
+    return *values || no_memory(err);
 }

@@ -1,0 +1,112 @@
+/* The captures: loaded, run once, and what they are timed by. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glint/sort.h"
+#include "tune/tune.h"
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+bool tune_report(void *user, const char *what, double done) {
+    struct tune *tune = user;
+    (void)what;
+    (void)done;
+    return progress_report(tune->progress, tune->label, tune->done);
+}
+
+void tune_unload_subject(struct tune *tune, size_t s) {
+    struct tune_subject *subject = &tune->subjects[s];
+    if (subject->judge) glint_judge_destroy(&subject->judge);
+    if (subject->capture) glint_capture_close(&subject->capture);
+}
+
+bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
+    struct tune_subject *subject = &tune->subjects[s];
+    struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
+    options.all = tune->all;
+    options.metrics = GLINT_METRICS_CHEAP | 1u << tune->metric;
+    options.resamples = resamples;
+    options.keep_resampled = resamples != 0;
+    options.seed = 1;
+    const enum glint_answer answer = answer_args_kind(&tune->against);
+    const float *error;
+    return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
+           (subject->judge = glint_judge_create(tune->device, &options, err)) &&
+           glint_judge_load(subject->judge, subject->capture, err) &&
+           glint_judge_answer(subject->judge, answer, tune->base, &error, progress_report, tune->progress, err);
+}
+
+bool tune_load(struct tune *tune, struct glint_error *err) {
+    tune->subject_count = tune->captures.count + tune->unseen.count;
+    tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
+    if (!tune->subjects) return no_memory(err);
+    for (size_t s = 0; s < tune->subject_count; s++) {
+        struct tune_subject *subject = &tune->subjects[s];
+        subject->unseen = s >= tune->captures.count;
+        subject->path = subject->unseen ? tune->unseen.items[s - tune->captures.count] : tune->captures.items[s];
+        if (subject->unseen) continue;
+        struct glint_verdict verdict;
+        snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
+        if (!tune_load_subject(tune, s, 0, err) ||
+            !glint_judge_look(subject->judge, tune->base, 0, &verdict, tune_report, tune, err))
+            return false;
+        glint_verdict_finish(&verdict);
+    }
+    return true;
+}
+
+bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
+               double *ms, struct glint_error *err) {
+    struct glint_cost cost;
+    uint64_t ns = 0;
+    if (!glint_judge_time(subject->judge, pipeline, 0, whole, &cost, tune_report, tune, err)) return false;
+    for (size_t i = 0; i < cost.pass_count; i++)
+        if (!cost.passes[i].cached_work && tune_slot_counts(tune, cost.passes[i].pass->slot)) ns += cost.passes[i].ns;
+    glint_cost_finish(&cost);
+    *ms = (double)ns * 1e-6;
+    return true;
+}
+
+/* Order statistics between which the true median lies with 95 %, whatever the distribution: each value is below it with a half. */
+struct tune_median tune_median(double *values, size_t count) {
+    if (!count) return (struct tune_median){NAN, NAN, NAN};
+    glint_sort_doubles(values, count);
+    double probability = exp2(-(double)count), below = probability;
+    size_t k = 0; /* the largest with P(at most k below) <= 2.5 % */
+    while (below <= 0.025 && k < count) {
+        k++;
+        probability *= (double)(count - k + 1) / (double)k;
+        below += probability;
+    }
+    const size_t low = k ? k - 1 : 0;
+    return (struct tune_median){(values[(count - 1) / 2] + values[count / 2]) / 2, values[low],
+                                values[count - 1 - low]};
+}
+
+/* Who is first changes from round to round. */
+bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
+                        struct tune_times times[TUNE_CONTENDERS], struct glint_error *err) {
+    const size_t rounds = tune->repeat;
+    double *values = calloc((TUNE_CONTENDERS + 1) * rounds + 1, sizeof *values),
+           *parts = values + TUNE_CONTENDERS * rounds;
+    bool ok = values || no_memory(err);
+    for (uint32_t r = 0; ok && r < rounds; r++) {
+        snprintf(tune->label, sizeof tune->label, "measured again, round %u", r + 1);
+        glint_judge_next_round(subject->judge);
+        for (size_t turn = 0; ok && turn < TUNE_CONTENDERS; turn++) {
+            const size_t k = (turn + r) % TUNE_CONTENDERS;
+            ok = !pipelines[k] || tune_time(tune, subject, pipelines[k], true, &values[k * rounds + r], err);
+        }
+    }
+    for (size_t k = 0; ok && k < TUNE_CONTENDERS; k++) {
+        for (size_t r = 0; r < rounds; r++) parts[r] = values[TUNE_TUNED * rounds + r] / values[k * rounds + r];
+        times[k].part = tune_median(parts, pipelines[k] ? rounds : 0);
+        if (k != TUNE_TUNED) times[k].ms = tune_median(values + k * rounds, pipelines[k] ? rounds : 0);
+    }
+    if (ok) times[TUNE_TUNED].ms = tune_median(values + TUNE_TUNED * rounds, rounds);
+    free(values);
+    return ok;
+}
