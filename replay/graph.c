@@ -19,12 +19,28 @@ static bool capture_has(struct glint_capture *capture, const struct glint_row *r
     return false;
 }
 
+/* "a, b": the variants of a slot that make an image. */
+static void name_makers(const char *slot, const char *image, char *text, size_t size) {
+    size_t count, length = 0;
+    const struct glint_pass *all = glint_passes(&count);
+    text[0] = 0;
+    for (size_t i = 0; i < count && length < size; i++)
+        if (!strcmp(all[i].slot, slot) && pass_output(&all[i], image))
+            length += (size_t)snprintf(text + length, size - length, "%s%s", length ? ", " : "", all[i].variant);
+}
+
+/* `left_out`: the pipeline has no such slot; else it was not asked for. */
 static void complain_missing(const struct graph_pass *reader, const char *image, const struct glint_pass *maker,
-                             const struct glint_replay_options *options, struct faults *faults) {
+                             bool left_out, const struct glint_replay_options *options, struct faults *faults) {
     const char *inputs = options->inputs ? options->inputs : "no run was given as inputs";
+    char makers[200], without[280] = "it does not run";
+    if (maker && left_out) {
+        name_makers(maker->slot, image, makers, sizeof makers);
+        snprintf(without, sizeof without, "the pipeline leaves that slot out (it may be %s)", makers);
+    }
     if (maker)
-        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which %s makes; it does not run, and %s%s",
-                   reader->pass->slot, reader->pass->variant, image, maker->slot, inputs,
+        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which %s makes; %s, and %s%s", reader->pass->slot,
+                   reader->pass->variant, image, maker->slot, without, inputs,
                    options->inputs ? " does not hold it" : "");
     else
         faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which no known pass makes", reader->pass->slot,
@@ -50,7 +66,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     if (image) {
         image->last_use = reader;
         if (!optional && image->row->optional)
-            complain_missing(&graph->passes[reader], name, image->pass, inputs->options, faults);
+            complain_missing(&graph->passes[reader], name, image->pass, false, inputs->options, faults);
         return;
     }
     struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader};
@@ -63,7 +79,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     char part[128];
     snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
     if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
-    else if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, inputs->options, faults);
+    else if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, false, inputs->options, faults);
     else if (!fresh.pass) {
         fresh.source = capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_NOTHING;
         if (fresh.source == SOURCE_NOTHING && fresh.row->required)
@@ -75,7 +91,8 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     else if (inputs->run && glint_run_find(inputs->run, name)) fresh.source = SOURCE_RUN;
     else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
     else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
-    else complain_missing(&graph->passes[reader], name, fresh.pass, inputs->options, faults);
+    else
+        complain_missing(&graph->passes[reader], name, fresh.pass, maker >= graph->pass_count, inputs->options, faults);
     const bool given = fresh.source == SOURCE_RUN || fresh.source == SOURCE_ENGINE;
     if (given && glint_pipeline_rays(inputs->pipeline) > 1 && graph->passes[reader].rank == RANK_RAY &&
         pass_row(fresh.pass, GLINT_ROW_PER_RAY, NULL))
@@ -110,7 +127,7 @@ static void link_history(struct graph *graph, size_t reader, const struct glint_
     struct graph_image *place = &graph->images[graph->image_count];
     fresh.row = graph_row(graph, row->image, &fresh.pass);
     if (!fresh.row) {
-        complain_missing(&graph->passes[reader], row->image, NULL, inputs->options, faults);
+        complain_missing(&graph->passes[reader], row->image, NULL, false, inputs->options, faults);
         return;
     }
     snprintf(fresh.history_name, sizeof fresh.history_name, HISTORY_PREFIX "%s", row->image);
