@@ -1,6 +1,7 @@
 /* Judges pipelines on one capture, all on one replay. */
 #include "glint/judge.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -162,14 +163,15 @@ static bool compare(struct glint_judge *judge, const struct answer *answer, stru
 }
 
 /* Why rays ended, with the errors of their pixels by the truth, or by the reference without one. */
-static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *pipeline,
-                       const struct glint_pixels *answer, struct glint_verdict *verdict, struct glint_error *err) {
+static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *pipeline, const struct answer *answer,
+                       struct glint_verdict *verdict, struct glint_error *err) {
     uint8_t *compared = answer ? malloc(judge->pixels + 1) : NULL;
     if (answer && !compared) return no_memory(err);
     for (size_t i = 0; compared && i < judge->pixels; i++)
-        compared[i] = verdict->given[i] && judge->surfaces[i] != GLINT_SURFACE_NONE;
-    bool ok =
-        glint_study_ends(judge->replay, judge->surfaces, &verdict->reflection, answer, compared, &verdict->ends, err);
+        compared[i] = verdict->given[i] && judge->surfaces[i] != GLINT_SURFACE_NONE &&
+                      !(answer->error && isinf(answer->error[i])); /* not known there */
+    bool ok = glint_study_ends(judge->replay, judge->surfaces, &verdict->reflection, answer ? &answer->pixels : NULL,
+                               compared, &verdict->ends, err);
     const double rays = (double)verdict->ends.rays * glint_pipeline_rays(pipeline) / (double)judge->pixels;
     verdict->steps_px = verdict->ends.steps * rays;
     verdict->fetches_px = verdict->ends.fetches * rays;
@@ -204,7 +206,7 @@ bool glint_judge_look(struct glint_judge *judge, const struct glint_pipeline *pi
     const double ran = now_seconds();
     for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++) ok = !answers[k] || compare(judge, answers[k], verdict, err);
     const struct answer *best = answers[answers[GLINT_ANSWER_TRUTH] ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE];
-    ok = ok && count_rays(judge, pipeline, best ? &best->pixels : NULL, verdict, err);
+    ok = ok && count_rays(judge, pipeline, best, verdict, err);
     verdict->run_seconds = ran - start;
     verdict->metric_seconds = now_seconds() - ran;
     if (!ok) glint_verdict_finish(verdict);

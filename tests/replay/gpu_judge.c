@@ -70,6 +70,45 @@ static void rays_of_surfaces_that_reflect_nothing_are_not_counted(void **state) 
     fixture_check_messages(fixture);
 }
 
+/* A truth that knows nothing of what lies right: neither errors nor the rows of rays go by what it holds there. */
+static void what_the_truth_does_not_know_counts_nowhere(void **state) {
+    enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT };
+    struct fixture *fixture = fixture_need_device(state);
+    static const char *const names[] = {"R", "G", "B", "weight"};
+    static float truth[H][W][4];
+    struct glint_channel channels[4];
+    struct glint_error err = {0};
+    struct glint_verdict verdict;
+    char path[128];
+    for (int i = 0; i < H * W; i++)
+        for (int c = 0; c < 4; c++) truth[i / W][i % W][c] = i % W < W / 2 ? 0.5F : c < 3 ? 1000 : 0;
+    for (int c = 0; c < 4; c++)
+        channels[c] = (struct glint_channel){names[c], GLINT_F32, &truth[0][0][c], sizeof truth[0][0], 0, NULL};
+    const struct glint_part part = {"truth.reflection.ggx", W, H, channels, 4, {0}, NULL, NULL, NULL, NULL, 0};
+    snprintf(path, sizeof path, "%s/half.exr", fixture->folder);
+    assert_true(fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err));
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    struct glint_judge *judge = judge_of(fixture, capture, false);
+    if (!glint_judge_look(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    const uint8_t *surfaces = glint_judge_surfaces(judge);
+    size_t known = 0, given = 0, counted = 0;
+    for (size_t i = 0; i < W * H; i++) {
+        const bool reflects = i % W < W / 2 && surfaces[i] != GLINT_SURFACE_NONE;
+        known += reflects, given += reflects && verdict.given[i];
+    }
+    for (size_t r = 0; r < verdict.ends.count; r++) {
+        counted += verdict.ends.rows[r].pixels;
+        assert_false(verdict.ends.rows[r].error > 0.95); /* as it is against 1000 */
+    }
+    assert_int_equal(verdict.errors[GLINT_ANSWER_TRUTH].rows[0].pixels, known);
+    assert_true(counted > 100 && counted <= given);
+    glint_verdict_finish(&verdict);
+    glint_judge_destroy(&judge);
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
 /* Catches: a pass that costs one pipeline something and the other nothing, sums that leave a pass out, and rounds that
    repeat the figures of the round before. */
 static void pipelines_pay_alike_for_what_they_share(void **state) {
@@ -110,6 +149,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_are_those_of_the_reflection),
         cmocka_unit_test(rays_of_surfaces_that_reflect_nothing_are_not_counted),
+        cmocka_unit_test(what_the_truth_does_not_know_counts_nowhere),
         cmocka_unit_test(pipelines_pay_alike_for_what_they_share),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
