@@ -191,6 +191,29 @@ static void legend_stands_below_the_picture(void **state) {
     free(p.rgb);
 }
 
+static int ticks_of(const char *path, const char *range) {
+    free(glint_ok("view", path, "--scale=linear", range, "-o", in_folder("t.png")));
+    struct pixels p = read_png(in_folder("t.png"));
+    uint32_t y = p.height;
+    int ticks = 0;
+    while (y > 0 && abs(pixel(&p, 10, y - 1)[2] - 84) > 4) y--; /* the last row of the bar, whose left end is 68,1,84 */
+    assert_true(y > 0 && y < p.height);
+    for (uint32_t x = 0; x < p.width; x++) ticks += memcmp(pixel(&p, x, y), "\xe6\xe8\xeb", 3) == 0;
+    free(p.rgb);
+    return ticks;
+}
+
+/* 360 pixels hold five short numbers, and three long ones. */
+static void a_legend_has_as_many_ticks_as_its_labels_leave_room_for(void **state) {
+    const float v[] = {0, 1};
+    (void)state;
+    write_exr(in_folder("t.exr"), "travelled", 2, 1, "Z", v, GLINT_STORED_FLOAT, "m");
+    char *path = strdup(in_folder("t.exr"));
+    assert_int_equal(ticks_of(path, "--range=0,1"), 5);
+    assert_int_equal(ticks_of(path, "--range=1,4.29e9"), 3);
+    free(path);
+}
+
 static void normals_are_half_and_offset(void **state) {
     (void)state;
     const float v[] = {1, 0, 0, 0, -1, 0, 0, 0, 1};
@@ -366,6 +389,7 @@ int main(void) {
         cmocka_unit_test(wide_lengths_are_shown_logarithmically),
         cmocka_unit_test(range_is_the_percentiles_without_the_outliers),
         cmocka_unit_test(legend_stands_below_the_picture),
+        cmocka_unit_test(a_legend_has_as_many_ticks_as_its_labels_leave_room_for),
         cmocka_unit_test(normals_are_half_and_offset),
         cmocka_unit_test(indices_and_reasons_have_colours_of_their_own),
         cmocka_unit_test(crop_and_zoom),

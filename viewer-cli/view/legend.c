@@ -62,8 +62,22 @@ static void tick_label(const struct legend *l, double t, char label[32]) {
     snprintf(label, 32, "%.3g", fabs(v) < 1e-12 * fmax(fabs(l->low), fabs(l->high)) ? 0 : v);
 }
 
+/* As many as leave room between the labels; those at the ends do not stick out, and come half a label nearer. */
+static int intervals_that_fit(const struct flow *flow, const struct legend *l, int width) {
+    int intervals = 4, widest = 0;
+    for (int i = 0; i <= intervals; i++) {
+        char label[32];
+        tick_label(l, (double)i / intervals, label);
+        const int own = text_measure(flow->text, label);
+        widest = own > widest ? own : widest;
+    }
+    while (intervals > 1 && (3 * widest / 2 + FONT_PX / 2) * intervals > width) intervals /= 2;
+    return intervals;
+}
+
 static void bar(struct flow *flow, const struct legend *l) {
     int width = flow->width - 2 * MARGIN_PX;
+    const int intervals = flow->picture ? intervals_that_fit(flow, l, width) : 0;
     for (int x = 0; flow->picture && x < width; x++) {
         double t = (double)x / (width - 1);
         uint8_t grey = (uint8_t)(t * 255 + 0.5);
@@ -71,10 +85,10 @@ static void bar(struct flow *flow, const struct legend *l) {
                      l->kind == KIND_RAW ? (struct rgb){grey, grey, grey} : colormap_viridis(t));
     }
     flow->y += 12;
-    for (int i = 0; flow->picture && i <= 4; i++) {
+    for (int i = 0; flow->picture && i <= intervals; i++) {
         char label[32];
-        int x = MARGIN_PX + (width - 1) * i / 4;
-        tick_label(l, i / 4.0, label);
+        int x = MARGIN_PX + (width - 1) * i / intervals;
+        tick_label(l, (double)i / intervals, label);
         int half = text_measure(flow->text, label) / 2;
         int left = x - half < MARGIN_PX ? MARGIN_PX : x - half;
         if (x + half > flow->width - MARGIN_PX) left = flow->width - MARGIN_PX - 2 * half;
