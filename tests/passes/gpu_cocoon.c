@@ -236,9 +236,48 @@ static void all_sky_stays_sky_and_one_texel_works(void **state) {
     }
 }
 
+static void unlike(uint32_t number, const double d[3], float out[5]) {
+    const double any = 1e4 * sin(12 * d[0] + 78 * d[1] + 37 * d[2]);
+    out[0] = out[1] = out[2] = out[3] = 1;
+    out[4] = (float)(2 + number + any - floor(any));
+}
+
+/* Faces of 13, 6, 3 and 1 texels: of all texels of the captured face that a texel's own square overlaps, level by level. */
+static void odd_levels_take_the_farthest_of_all_that_they_cover(void **state) {
+    struct gpu *gpu = *state;
+    enum { ODD = 13 };
+    float finer[6 * ODD * ODD], out[5];
+    start(gpu, "odd", ODD, 1, unlike);
+    gpu_set(gpu, "cocoon.size=1");
+    gpu_run(gpu);
+    for (uint32_t i = 0; i < 6 * ODD * ODD; ++i) {
+        double d[3];
+        plain_direction(i / (ODD * ODD), i % ODD, i / ODD % ODD, ODD, d);
+        unlike(0, d, out);
+        finer[i] = out[4];
+    }
+    for (uint32_t level = 0; level < 4; ++level) {
+        const uint32_t width = ODD >> level, fine = level ? ODD >> (level - 1) : ODD;
+        uint32_t found_width;
+        float *found = level_of(gpu, level, &found_width), most[6 * ODD * ODD] = {0};
+        assert_int_equal(found_width, width);
+        for (uint32_t i = 0; i < 6 * width * width; ++i)
+            for (uint32_t k = 0; k < fine * fine; ++k) {
+                const uint32_t x = i % width, y = i / width % width, u = k % fine, v = k / fine;
+                if (u * width < (x + 1) * fine && (u + 1) * width > x * fine && v * width < (y + 1) * fine &&
+                    (v + 1) * width > y * fine)
+                    most[i] = fmaxf(most[i], finer[i / (width * width) * fine * fine + k]);
+            }
+        for (uint32_t i = 0; i < 6 * width * width; ++i) assert_float_equal(found[i], most[i], 0);
+        memcpy(finer, most, sizeof finer);
+        free(found);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_level_is_the_slides_maximum),
+        cmocka_unit_test(odd_levels_take_the_farthest_of_all_that_they_cover),
         cmocka_unit_test(all_sky_stays_sky_and_one_texel_works),
     };
     return cmocka_run_group_tests_name("gpu_cocoon", tests, gpu_set_up, gpu_tear_down);
