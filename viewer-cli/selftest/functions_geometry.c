@@ -166,6 +166,10 @@ static void expect_footprint(const double *x, double *y) {
 static void expect_is_tap(const double *x, double *y) {
     y[0] = hypot(x[0], x[1]) <= x[2] + 1e-9;
 }
+static void expect_taps_beside(const double *x, double *y) {
+    y[0] = 0;
+    while ((y[0] + 1) * (y[0] + 1) + x[0] * x[0] <= x[1] * x[1]) y[0]++;
+}
 
 /* ---- edges.glsl ---- */
 
@@ -279,6 +283,7 @@ static const struct function list[] = {
     {"footprint of a texel", "exact shares of two or three finer texels, odd sizes", "footprint(int(a.x), int(a.y), int(a.z)).share.xy, footprint(int(a.x), int(a.y), int(a.z)).first, footprint(int(a.x), int(a.y), int(a.z)).count", "texel size finer",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 1, 4096, 0}}, odd_or_even, expect_footprint, 4, ABSOLUTE, 1.6e-7, "one division, 2.5 ULP of up to 1"},
     {"taps of a lattice", "points within reach", "is_tap(ivec2(a.xy), int(a.z))", "x y reach", {{WHOLE, -5, 5, 0}, {WHOLE, -5, 5, 0}, {WHOLE, 1, 5, 0}}, NULL, expect_is_tap, 1, ABSOLUTE, 0, "integers"},
+    {"taps of a row", "points within reach, on either side", "taps_beside(int(a.x), int(a.y))", "y reach", {{WHOLE, -5, 5, 0}, {WHOLE, 5, 64, 0}}, NULL, expect_taps_beside, 1, ABSOLUTE, 0, "integers"},
     {"packed edges", "four sides in a byte and back", "open_side(packed_side(a.x, 0u) | packed_side(a.y, 1u) | packed_side(a.z, 2u) | packed_side(a.w, 3u), 0u), "
      "open_side(packed_side(a.y, 1u), 1u), open_side(packed_side(a.z, 2u), 2u), open_side(packed_side(a.w, 3u), 3u)", "left right up down",
      {{LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}}, thirds, expect_side, 4, ABSOLUTE, 1.8e-7, "a third, 2.5 ULP of a division (Vulkan)"},
