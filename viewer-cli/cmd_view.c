@@ -72,7 +72,7 @@ static const struct argp_option options[] = {
     {"faces",     KEY_FACES,     NULL,       0, "Cube maps as they are stored, faces below each other, not as a cross", 0},
     {"latlong",   KEY_LATLONG,   NULL,       0, "Cube maps by longitude and latitude, not as a cross", 0},
     {"levels",    KEY_LEVELS,    NULL,       0, "A run's image with all its MIP levels", 0},
-    {"crop",      KEY_CROP,      "X,Y,W,H",  0, "Only this part of the picture, in pixels", 0},
+    {"crop",      KEY_CROP,      "X,Y,W,H",  0, "Only this part of the picture and its figures, in pixels", 0},
     {"zoom",      KEY_ZOOM,      "N",        0, "Each pixel as N × N", 0},
     {"exposure",  KEY_EXPOSURE,  "EV",       0, "Colour: brighter by this many stops", 0},
     {"view",      KEY_VIEW,      "NAME",     0, "Colour: the view of the OpenColorIO configuration; built in: ", 0},
@@ -259,13 +259,33 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     return output == ARGP_ERR_UNKNOWN ? parse_color(key, arg, state, a) : output;
 }
 
+/* Of what --crop leaves: its rows moved together. */
+static bool print_statistics(const struct source *source, const struct arguments *a, struct glint_error *err) {
+    const uint32_t *crop = a->render.crop;
+    struct source part = *source;
+    if (!a->render.has_crop) return statistics_print(source, &a->statistics, err);
+    if (source->cube && !a->render.faces)
+        return glint_fail(err, GLINT_ERROR_USAGE, "--crop of a cube map's figures wants --faces, too");
+    if (!picture_holds(source->width, source->height, crop, err)) return false;
+    const size_t texel = source->components * sizeof *part.texels;
+    part.width = crop[2], part.height = crop[3];
+    part.texels = malloc(texel * part.width * part.height);
+    bool ok = part.texels || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", source->title);
+    for (size_t y = 0; ok && y < part.height; y++)
+        memcpy(part.texels + y * part.width * part.components,
+               source->texels + ((crop[1] + y) * source->width + crop[0]) * source->components, texel * part.width);
+    ok = ok && statistics_print(&part, &a->statistics, err);
+    free(part.texels);
+    return ok;
+}
+
 /* The picture of one image, and what is printed of it. */
 static bool show_one(struct picture *picture, struct arguments *a, struct glint_error *err) {
     struct source source = {0};
     size_t invalid = 0;
     bool ok = source_open(&source, &a->choice, err);
     a->statistics.range = a->render.falsecolor;
-    if (ok && (a->statistics.table || a->statistics.histogram)) ok = statistics_print(&source, &a->statistics, err);
+    if (ok && (a->statistics.table || a->statistics.histogram)) ok = print_statistics(&source, a, err);
     if (ok && a->tev) ok = tev_send(a->tev, source.title, &source, err);
     if (ok && (a->out || a->terminal))
         ok = a->levels ? render_levels(picture, &source, &a->choice, &a->render, &invalid, err)

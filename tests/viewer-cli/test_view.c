@@ -1,6 +1,7 @@
 /* glint view, pixel by pixel, on small EXR files whose values are known. */
 #include "cli.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -253,6 +254,13 @@ static void crop_and_zoom(void **state) {
     for (uint32_t y = 0; y < 6; y++)
         for (uint32_t x = 0; x < 6; x++) assert_grey(&p, x, y, (4 * (1 + y / 3) + 1 + x / 3) / 16.0);
     free(p.rgb);
+    char *text = glint_ok("view", in_folder("z.exr"), "--crop=1,1,2,2", "--stats", "--json");
+    json_t *figures = parse_json(text);
+    free(text);
+    const json_t *red = named(json_object_get(figures, "channels"), "channel", "R");
+    assert_true(number(red, "min") == 5 / 16.0 && number(red, "max") == 10 / 16.0 && number(red, "mean") == 7.5 / 16);
+    json_decref(figures);
+    glint_fails(2, "reaches outside the picture of 4 × 3", "view", in_folder("z.exr"), "--crop=3,0,2,1", "--stats");
     glint_fails(2, "reaches outside the picture of 4 × 3", "view", in_folder("z.exr"), "--crop=3,0,2,1", "-o",
                 in_folder("no.png"));
     assert_false(file_exists(in_folder("no.png")));

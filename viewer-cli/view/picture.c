@@ -65,12 +65,16 @@ static void replace(struct picture *picture, struct picture *by) {
     *picture = *by;
 }
 
-bool picture_crop(struct picture *picture, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
-                  struct glint_error *err) {
+bool picture_holds(uint32_t width, uint32_t height, const uint32_t crop[4], struct glint_error *err) {
+    return (crop[0] < width && crop[1] < height && crop[2] <= width - crop[0] && crop[3] <= height - crop[1]) ||
+           glint_fail(err, GLINT_ERROR_USAGE, "--crop=%u,%u,%u,%u reaches outside the picture of %u × %u pixels",
+                      crop[0], crop[1], crop[2], crop[3], width, height);
+}
+
+bool picture_crop(struct picture *picture, const uint32_t crop[4], struct glint_error *err) {
+    const uint32_t x = crop[0], y = crop[1], width = crop[2], height = crop[3];
     struct picture cut;
-    if (x >= picture->width || y >= picture->height || width > picture->width - x || height > picture->height - y)
-        return glint_fail(err, GLINT_ERROR_USAGE, "--crop=%u,%u,%u,%u reaches outside the picture of %u × %u pixels", x,
-                          y, width, height, picture->width, picture->height);
+    if (!picture_holds(picture->width, picture->height, crop, err)) return false;
     if (!picture_init(&cut, width, height, COLOR_BACKGROUND, err)) return false;
     for (uint32_t j = 0; j < height; j++) memcpy(pixel_at(&cut, 0, j), pixel_at(picture, x, y + j), (size_t)width * 4);
     replace(picture, &cut);

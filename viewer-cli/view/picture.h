@@ -32,9 +32,10 @@ void picture_fill(struct picture *picture, int x, int y, int width, int height, 
 /* Copies a whole picture to a place inside another. */
 void picture_paste(struct picture *to, const struct picture *from, uint32_t x, uint32_t y);
 
+/* Whether x, y, width, height lie inside. */
+bool picture_holds(uint32_t width, uint32_t height, const uint32_t crop[4], struct glint_error *err);
 /* These replace the picture. */
-bool picture_crop(struct picture *picture, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
-                  struct glint_error *err);
+bool picture_crop(struct picture *picture, const uint32_t crop[4], struct glint_error *err);
 bool picture_zoom(struct picture *picture, uint32_t factor, struct glint_error *err);
 /* Each pixel the mean of factor × factor, or its first; what is left over at the right and below is cut. */
 bool picture_shrink(struct picture *picture, uint32_t factor, bool mean, struct glint_error *err);

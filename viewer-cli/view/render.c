@@ -63,14 +63,13 @@ bool render_range(const struct source *source, const struct render_options *opti
 bool render_plain(struct picture *picture, struct legend *legend, const struct source *source,
                   const struct render_options *options, size_t *invalid, struct glint_error *err) {
     const enum kind kind = render_kind(source, options);
-    const uint32_t *crop = options->crop;
     *invalid = 0;
     bool ok = kind == KIND_COLOR ? draw_color(picture, source, options, invalid, err)
                                  : falsecolor_draw(picture, legend, source, kind, &options->falsecolor, err);
     if (kind == KIND_COLOR) *legend = legend_of_color(source);
     if (ok && source->cube && !options->faces)
         ok = options->latlong ? picture_latlong(picture, err) : picture_cross(picture, err);
-    if (ok && options->has_crop) ok = picture_crop(picture, crop[0], crop[1], crop[2], crop[3], err);
+    if (ok && options->has_crop) ok = picture_crop(picture, options->crop, err);
     return ok;
 }
 
