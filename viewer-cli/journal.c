@@ -28,11 +28,10 @@ static bool same_definition(const struct journal *journal, const json_t *theirs,
         if (json_equal(other, value)) continue;
         char *found = other ? json_dumps(other, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
         char *expected = json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT);
-        glint_fail(
-            err, GLINT_ERROR_USAGE,
-            "%s: holds a %s with another %s: it has %.300s, this command %.300s; repeat its arguments, or choose "
-            "another folder",
-            journal->folder, journal->kind, key, found ? found : "none", expected ? expected : "?");
+        glint_fail(err, GLINT_ERROR_USAGE,
+                   "%s: holds a %s of other %s: there %.300s, here %.300s; repeat its arguments, or choose "
+                   "another folder",
+                   journal->folder, journal->kind, key, found ? found : "none", expected ? expected : "?");
         free(found);
         free(expected);
         return false;

@@ -241,9 +241,9 @@ static void what_is_wrong_is_named(void **state) {
     glint_fails(2, "expected one run for each of 1 captures, found 2", "blame", room, "--reference=a", "--reference=b");
     glint_fails(2, "expected runs or the truth, found both", "blame", room, "--reference=a", "--reference=truth");
     glint_fails(1, "street.exr: with nothing as in the reference: ", "blame", street, SMALL, "--reference=truth");
-    glint_fails(2, "killed: holds a blame with another reference_rays: it has 16, this command 8", "blame", room, "-o",
+    glint_fails(2, "killed: holds a blame of other reference_rays: there 16, here 8", "blame", room, "-o",
                 in_folder("killed"), SMALL, "--use=upscale=best_match", "--rays=8");
-    glint_fails(2, "holds a blame with another players", "blame", room, "-o", in_folder("killed"), SMALL,
+    glint_fails(2, "holds a blame of other players", "blame", room, "-o", in_folder("killed"), SMALL,
                 "--use=upscale=best_match", "--player-rays=3");
     static const char *const strange[] = {
         "{\"capture\":0,\"coalition\":4096,\"errors\":{}}", "{\"capture\":1,\"coalition\":0,\"errors\":{}}",

@@ -276,7 +276,7 @@ static void what_is_wrong_is_named(void **state) {
     glint_fails(1, "no point reaches a cost of 0.001 fetches/px: the least of", "tune", room, "-o", out, PLAIN,
                 "--reference=truth", "--budget-fetches=0.001", "--tries=12", AXES);
     assert_false(file_exists(out));
-    glint_fails(2, "bad.tune: holds a tuning with another axes", "tune", room, "-o", out, PLAIN, "--reference=truth",
+    glint_fails(2, "bad.tune: holds a tuning of other axes", "tune", room, "-o", out, PLAIN, "--reference=truth",
                 "--budget-fetches=0.001", "--vary=screen_trace.steps");
     FILE *log = fopen(in_folder("bad.tune/log.jsonl"), "ab");
     assert_non_null(log);
