@@ -417,11 +417,19 @@ static bool metres_per_unit(struct rewrite *r, double strength) {
     return true;
 }
 
-/* No mistake, but too little to tell: faces of two texels. */
+/* No mistake, but too little to tell: faces of two texels, sky on all but the one that a place far beyond the centre's
+   mirror image would be seen on. */
 static bool cubes_tiny(struct rewrite *r, double strength) {
     (void)strength;
-    for (size_t i = 0; i < r->count; i++)
-        if (is_cube(&r->parts[i])) r->parts[i].part.width = 2, r->parts[i].part.height = 12;
+    for (size_t i = 0; i < r->count; i++) {
+        if (!is_cube(&r->parts[i])) continue;
+        const double *center = rewrite_attribute(r, r->parts[i].name, "glint.center")->numbers;
+        float *distance = floats(r, r->parts[i].name, "distance.Z");
+        int axis = 0;
+        for (int k = 1; k < 3; k++) axis = fabs(center[k]) > fabs(center[axis]) ? k : axis;
+        for (int k = 0; k < 24; k++) distance[k] = k / 4 == 2 * axis + (center[axis] > 0) ? 2 : INFINITY;
+        r->parts[i].part.width = 2, r->parts[i].part.height = 12;
+    }
     return true;
 }
 
