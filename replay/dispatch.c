@@ -48,8 +48,8 @@ static void add(const struct run *run, struct step *step, uint32_t phase, const 
     const uint32_t *half = run->sizes.half;
     VkExtent3D extent = image_extent(&image->desc, level);
     struct workgroup group = pass_workgroup(step->pass->pass);
-    const struct glint_row *blocks = pass_row(step->pass->pass, GLINT_ROW_BLOCKS, NULL);
-    if (blocks) group.width *= (uint32_t)blocks->first, group.height *= (uint32_t)blocks->first;
+    const uint32_t block = block_width(run, step->pass->pass);
+    group.width *= block, group.height *= block;
     const enum glint_size_class size = graph_find(&run->graph, image->name)->row->size;
     if (size == GLINT_SIZE_TILES) {
         extent = (VkExtent3D){run->sizes.full[0], run->sizes.full[1], 1};

@@ -35,7 +35,7 @@ struct workgroup pass_workgroup(const struct glint_pass *pass) {
 
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
                     const struct spirv *spirv, const struct glint_replay_options *options, uint32_t tile_wide,
-                    struct glint_error *err) {
+                    uint32_t block, struct glint_error *err) {
     *constants = (struct constants){.push_count = 1, .probed = spirv->probes && options->probe_count > 0};
     const struct glint_pass *pass = graph_pass->pass;
     const double *values = graph_pass->entry->values;
@@ -54,6 +54,7 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
             fits = add_constant(constants, pass->rows[i].id, bits);
         else if (pass->rows[i].kind == GLINT_ROW_FACT)
             fits = add_constant(constants, pass->rows[i].id, !(graph_pass->lacks >> facts++ & 1));
+        else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
         else if (pass->rows[i].optional) /* has_NAME in bindings.glsl */
             fits = add_constant(constants, 1000 + pass->rows[i].id,
                                 graph_bound(graph, &pass->rows[i])->source != SOURCE_NOTHING);

@@ -37,7 +37,7 @@ struct constants {
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
                     const struct spirv *spirv, const struct glint_replay_options *options, uint32_t tile_wide,
-                    struct glint_error *err);
+                    uint32_t block, struct glint_error *err);
 
 struct program {
     uint64_t key;

@@ -145,6 +145,7 @@ bool run_describe_image(const struct run *run, const struct graph_image *image, 
 /* Pixels across the tiles that a pass is run over, or the widest that it lists; tiles in texels of an image over all of the picture;
    how many there are; where the list of them begins. */
 uint32_t tile_wide(const struct run *run, const struct glint_pass *pass);
+uint32_t block_width(const struct run *run, const struct glint_pass *pass); /* texels that an invocation works on */
 VkExtent2D tile_extent(const struct run *run, const struct image *over, uint32_t wide);
 uint32_t tile_count(const struct frame_sizes *sizes, uint32_t wide);
 uint32_t tile_begin(const struct frame_sizes *sizes, uint32_t wide);

@@ -27,7 +27,8 @@
 // tiles.glsl. DISPATCH_TILES_BY(smooth or rough, parameter): the parameter is the largest roughness of a smooth surface, or
 // the least of a rough one.
 //
-// BLOCKS(across): an invocation works on so many texels each way, BLOCK * gl_GlobalInvocationID and what follows.
+// BLOCKS(across): an invocation works on so many texels each way, BLOCK * gl_GlobalInvocationID and what follows; on one, where
+// invocations run side by side (a GPU).
 //
 // PASSES_ON(image, from) says that the pass, where its facts do not hold, would make the image of what it reads as it is: dropped,
 // it is remembered as that. Of several rows the first whose image is made counts.
@@ -84,7 +85,7 @@ layout(constant_id = 998) const bool tile_works = true;      // false: over the 
 #define DISPATCH_TILES(range)
 #define DISPATCH_TILES_BY(range, parameter)
 #define WORKGROUP(width, height)
-#define BLOCKS(across) const int BLOCK = across;
+#define BLOCKS(across) layout(constant_id = __LINE__) const int BLOCK = across;
 #define FACT(fact) layout(constant_id = __LINE__) const bool fact_##fact = true;
 #define PER_RAY
 #define ACCUMULATE(image)

@@ -64,7 +64,8 @@ void follow_pixel(ivec2 pixel) {
 // The rays of those of a block's pixels whose reflection the picture shows.
 void follow_block(ivec2 block) {
     if (!inside(block, ivec2(frame.size.xy))) return;
-    for (uint left = shown_in_block(block); left != 0u; left &= left - 1u) {
+    uint shown = BLOCK == 1 ? uint(is_shown(block)) : shown_in_block(block);
+    for (uint left = shown; left != 0u; left &= left - 1u) {
         int i = findLSB(left);
         follow_pixel(block + ivec2(i & 1, i >> 1));
     }

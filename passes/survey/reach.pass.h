@@ -1,15 +1,15 @@
 /* Faces of the active cube maps that the ways of mirror rays cross, as the centres see them. */
 PASS("Faces that rays come to", "glint")
-WORKGROUP(8, 8)
-BLOCKS(2)
+WORKGROUP(16, 16)
 #line 102
 SLOT("What a frame holds, for the plan")
+BLOCKS(2)
 READ(texture2D, depth_full)
 READ(texture2D, normal_full)
 READ(texture2D, albedo_full)
 READ(texture2D, specular_full)
 READ(texture2D, active_center)
-WRITE(uimageBuffer, tile_ways, R32UI, "1", LIST, "faces", 0xFFFFFFFFu, "ray_ways of each 16 x 16 pixels")
+WRITE(uimageBuffer, tile_ways, R32UI, "1", LIST, "faces", 0xFFFFFFFFu, "ray_ways of each workgroup's pixels")
 SELF(utextureBuffer, partial, tile_ways)
 WRITE(uimage2D, ray_ways, R32UI, "1", FIGURES, "faces", 0, "eight words: three of the faces that are crossed, bit 6 * place + face; from the fifth on three of those and the faces nearby")
 DISPATCH(depth_full)

@@ -38,7 +38,7 @@ enum glint_row_kind {
     GLINT_ROW_PER_RAY,        /* the slot's passes run once for each ray of a frame */
     GLINT_ROW_ACCUMULATE,     /* an image that becomes its mean over the rays */
     GLINT_ROW_WORKGROUP,      /* `first` × `last` invocations make a workgroup; 8 × 8 where no row says so */
-    GLINT_ROW_BLOCKS,         /* an invocation works on `first` × `first` texels */
+    GLINT_ROW_BLOCKS,         /* on a CPU, an invocation works on `first` × `first` texels */
     GLINT_ROW_ALONG_RAYS, /* of `name`, cube maps, the pass looks up what lies on the ways of the rays of `image`, an
                                   image of normals; or, where it makes `name`, that holds the rays of `image` for mirrors */
     GLINT_ROW_WITHIN,  /* of the dispatch before it: faces that no ray comes nearer to than `first` texels may be left
