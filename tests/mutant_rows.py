@@ -20,6 +20,8 @@ HARMLESS = {
     ("resolve/hit.comp", "if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;", "if (false) return;"): OUTSIDE,
     ("cubemap_mips/plain.comp", "int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);",
      "int size = imageSize(cubemap_color_mips).y, level = int(dispatch_level);"): "faces are square",
+    ("cocoon/max.comp", "int width = imageSize(cocoon_distance).x, level = int(dispatch_level);",
+     "int width = imageSize(cocoon_distance).y, level = int(dispatch_level);"): "faces are square",
     ("cubemap_mips/plain.comp", "if (at.x >= size || at.y >= size) return;", "if (at.x >= size || at.x >= size) return;"): OUTSIDE,
     ("cubemap_select/score.comp", "if (!(visibility > 0.0 && sum + visibility > least)) return sum;", "if (!(visibility > 0.0 )) return sum;"):
         "a cube map that cannot be the best is looked at all the same, and is not the best then either: it spares a fetch",

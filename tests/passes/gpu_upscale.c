@@ -65,6 +65,31 @@ static void every_pixel_takes_a_sample_of_its_own_surface(void **state) {
     }
 }
 
+/* Catches: a picture without the blur or the history that the pipeline has. Every pixel has a texel of its own, and takes it. */
+static void the_last_of_the_images_is_taken(void **state) {
+    static const char *const steps[] = {NULL, "blur=plus", "temporal=rough"}, *const made[] = {"reflection_half",
+                                                                                               "reflection_blurred",
+                                                                                               "reflection_temporal"};
+    struct gpu *gpu = *state;
+    load(gpu, 0.5f, true);
+    gpu_use(gpu, "downsample=none");
+    for (int s = 0; s < 3; ++s) {
+        if (steps[s]) gpu_use(gpu, steps[s]);
+        gpu_run(gpu);
+        float *upscaled = gpu_floats(gpu, "reflection", NULL, NULL), *last = gpu_floats(gpu, made[s], NULL, NULL),
+              *before = gpu_floats(gpu, made[s ? s - 1 : 0], NULL, NULL);
+        int lit = 0, changed = 0;
+        for (int i = 0; i < SIZE * SIZE; ++i) {
+            for (int k = 0; k < 3; ++k) assert_true(fabsf(upscaled[4 * i + k] - last[4 * i + k]) < 1e-5f);
+            lit += last[4 * i] > 0;
+            changed += fabsf(last[4 * i] - before[4 * i]) > 1e-3f;
+        }
+        print_message("# %s: %d of %d texels lit, %d changed\n", made[s], lit, SIZE * SIZE, changed);
+        assert_true(lit > SIZE && (changed > SIZE) == (s > 0));
+        free(upscaled), free(last), free(before);
+    }
+}
+
 /* Rays of every pixel, resolved twice: the same colours. */
 static void smooth_pixels_are_resolved_by_their_own_normals(void **state) {
     struct gpu *gpu = *state;
@@ -232,6 +257,7 @@ int main(void) {
         cmocka_unit_test(roughness_alone_tells_surfaces_apart),
         cmocka_unit_test(the_four_nearest_are_those_on_the_pixels_side),
         cmocka_unit_test(rounding_chooses_no_other_sample),
+        cmocka_unit_test(the_last_of_the_images_is_taken),
         cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),
         cmocka_unit_test(rough_pixels_keep_what_was_upscaled),
         cmocka_unit_test(what_has_no_ray_darkens_nothing),
