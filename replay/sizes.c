@@ -65,6 +65,7 @@ uint32_t block_width(const struct run *run, const struct glint_pass *pass) {
     const struct glint_row *row = pass_row(pass, GLINT_ROW_BLOCKS, NULL);
     return row && run->sizes.tile_wide == STRIP_WIDE ? (uint32_t)row->first : 1;
 }
+
 VkExtent2D tile_extent(const struct run *run, const struct image *over, uint32_t wide) {
     const uint32_t scale = over->desc.width == run->sizes.full[0] ? 1 : 2;
     return (VkExtent2D){wide / scale, TILE_HIGH / scale};

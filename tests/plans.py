@@ -74,7 +74,8 @@ def ruled(given, capture, folder):
 
 
 def make(given, folder, names):
-    """Captures of scenes and of the series, as many at once as there are four cores for."""
+    """Captures of scenes and of the series, as many at once as there are four cores for; all of them before anything is measured,
+    which would wait for the cores that they are rendered on."""
     def one(name):
         scene, *rest = name.split("-")
         path = pathlib.Path(folder) / f"{name}.exr"
@@ -82,7 +83,7 @@ def make(given, folder, names):
         pages.run(given.glint, "sample", scene, "-o", path, "--size", given.size, "--cube-size", given.cube, "--compression", "none", *more)
         return name, path
     with concurrent.futures.ThreadPoolExecutor(max(1, (os.cpu_count() or 1) // 4)) as pool:
-        yield from pool.map(one, names)
+        return list(pool.map(one, names))
 
 
 def record(given):
