@@ -165,7 +165,7 @@ REASONS = {
     ("variance clamping", "error, mirror-like"): "in motion the divergence threshold refuses a mirror's history before the clamp could hold it: the "
     "rows are the same bits; a camera that stands has a history to hold",
     ("plus order against blue noise", None): "both spread their numbers evenly over the five pixels that the blur joins; white numbers, which do "
-    "not, are 7 % worse",
+    "not, are worse than either, as their own row says",
     ("fade", None): "No cube map of this capture is being faded; gpu_cubemap_select tests the term.",
     ("inner volumes", "mirror rays that end elsewhere, %"): "What is skipped is empty.",
     ("inner volumes", "ms of all passes"): "few rays start in one or come into one; to ask costs a GPU more than it saves, so that the preset goes without",

@@ -128,5 +128,5 @@ class Times:
         if not self.records:
             return ""
         devices = "; ".join(f"{r['as']}: {r['size'].replace('x', '×')}, cube maps of {r['cube']}², median of {r['rounds']} rounds in turns"
-                            for r in self.records)
+                            + (f", the fastest of {r['tries']} times" if "tries" in r else "") for r in self.records)
         return f"Times are of all passes of a frame, after + of work on cube maps that is done when one changes ({devices}).\n"

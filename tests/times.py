@@ -13,6 +13,7 @@ import time
 import pages
 
 PAGES = ("presets", "kf2", "gtav", "mafia_de")
+TRIES = 3  # of which the fastest counts: a GPU's clock falls while a scene is rendered, and rises only after seconds of work
 
 
 def milliseconds(showing):
@@ -22,14 +23,15 @@ def milliseconds(showing):
 def measure(given):
     wanted = {page: importlib.import_module(page).timed() for page in given.pages.split(",")}
     scenes = dict.fromkeys(scene for scenes in wanted.values() for scene in scenes)
-    record = {"as": given.name, "size": given.size, "cube": given.cube, "rounds": given.rounds, "pages": {page: {} for page in wanted}}
+    record = {"as": given.name, "size": given.size, "cube": given.cube, "rounds": given.rounds, "tries": TRIES, "pages": {page: {} for page in wanted}}
     with tempfile.TemporaryDirectory(dir=given.work) as folder:
         for scene in scenes:
             start = time.monotonic()
             capture = pages.sample(given.glint, scene, folder, given.size, given.cube)
             for page in wanted:
                 if scene in wanted[page]:
-                    record["device"], told = pages.compare(given.glint, capture, wanted[page][scene], given.rounds)
+                    tries = [pages.compare(given.glint, capture, wanted[page][scene], given.rounds) for _ in range(TRIES)]
+                    record["device"], told = min(tries, key=lambda one: sum(milliseconds(showing)["frame"] for showing in one[1].values()))
                     record["pages"][page][scene] = {key: milliseconds(showing) for key, showing in told.items()}
             capture.unlink()
             print(f"{scene}: {time.monotonic() - start:.1f} s", flush=True)
