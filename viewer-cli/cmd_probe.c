@@ -109,6 +109,8 @@ static enum status tell(const struct arguments *a, struct opened *opened, struct
                           .pixel = {(uint32_t)a->pixel[0], (uint32_t)a->pixel[1]}};
     const struct glint_replay_options wanted = pipeline_args_options(&a->pipeline);
     struct glint_replay *replay = opened->replay;
+    const struct glint_part_info *picture = glint_capture_find(opened->capture, "gbuffer");
+    if (picture) probe.full[0] = picture->width, probe.full[1] = picture->height;
     const bool ok = glint_replay_load(replay, opened->capture, err) &&
                     probe_run(&probe, &probe.own, replay, pipeline, &wanted, err) &&
                     run_reference(a, &probe, replay, pipeline, &wanted, err);

@@ -167,6 +167,10 @@ static void the_text_tells_it_all(void **state) {
     text = glint_ok("probe", CAPTURE, "48,1", "--alone");
     assert_contains(text, "no ray: it shows the sky");
     free(text);
+    free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=64x36", "--cube-size=8"));
+    text = glint_ok("probe", in_folder("matte.exr"), "20,30"); /* no pass runs */
+    assert_contains(text, "pixel 20,30 of 64 x 36, texel");
+    free(text);
 }
 
 static void what_is_asked_wrong_is_said(void **state) {

@@ -99,9 +99,7 @@ bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay
     options.probes = pixels;
     options.probe_count = 1;
     if (!glint_replay_run(replay, pipeline, &options, NULL, NULL, err)) return false;
-    const struct glint_image *full = glint_replay_find_image(replay, "depth_full");
     const struct glint_image *half = glint_replay_find_image(replay, "depth_half");
-    memcpy(probe->full, full ? (uint32_t[]){full->width, full->height} : (uint32_t[]){0, 0}, sizeof probe->full);
     memcpy(probe->half, half ? (uint32_t[]){half->width, half->height} : probe->full, sizeof probe->half);
     const bool reduced = memcmp(probe->full, probe->half, sizeof probe->full) != 0;
     for (int k = 0; k < 2; k++) probe->texel[k] = reduced ? probe->pixel[k] / 2 : probe->pixel[k];
