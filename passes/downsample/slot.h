@@ -8,6 +8,8 @@ WRITE(image2D, depth_half, R32F, "m", HALF, "Z", INFINITY, "view-linear depth of
 WRITE(image2D, normal_jittered, RGBA16F, "1", HALF, "X Y Z roughness", 0, "normal drawn from the NDF around normal_half, world axes; w: roughness")
 WRITE(image2D, normal_half, RGBA16F, "1", HALF, "X Y Z roughness", 0, "unit normal as it was, world axes; w: roughness")
 WRITE(image2D, cone_half, R16F, "rad", HALF, "angle", 0, "half-angle of the cone that the ray stands for: what the cut left of the lobe; 0: a ray")
+WRITE(image2D, ray_numbers, RGBA16F, "1", HALF, "X Y width ndf", 0, "the random numbers that drew the ray, and the width of the stratum that it stands for, in parts of all numbers; 0: of the ray alone; ndf: 0 GGX, 1 Blinn-Phong")
+FACT(ray_numbers)
 WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was taken: x + 2y; 4: the block's centre; + 8 when the picture does not show its reflection")
 DISPATCH(depth_half)
 DISPATCH_TILES(shown)

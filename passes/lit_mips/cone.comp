@@ -8,7 +8,7 @@
 };
 #include "shared/levels.glsl"
 
-// The halved finer level, of a workgroup's texels and those that their taps reach; a: whether a colour is usable.
+// The halved finer level, of a workgroup's texels and those that their taps reach.
 const int WIDE = 16 + 2 * reach;
 shared vec4 halved[WIDE * WIDE];
 
@@ -16,7 +16,7 @@ void load_tile(ivec2 first, ivec2 size) {
     for (int i = int(gl_LocalInvocationIndex); i < WIDE * WIDE; i += 256) {
         vec2 uv = (vec2(first + ivec2(i % WIDE, i / WIDE)) + 0.5) / vec2(size);
         vec4 color = textureLod(sampler2D(finer_color, linear_clamp), uv, float(dispatch_level) - 1.0);
-        halved[i] = finite(color) ? vec4(color.rgb, 1.0) : vec4(0.0);
+        halved[i] = finite(color) ? color : vec4(0.0);
     }
     barrier();
 }
@@ -25,19 +25,30 @@ void load_tile(ivec2 first, ivec2 size) {
 // the next one with its texels, and halving adds that of two texels, so that the levels after the first need less of their own.
 float sharpness() { return dispatch_level == 1u ? 1.0 : 1.75; }
 
+// A pixel's colour; 0 where it does not count.
+vec4 counted(ivec2 pixel) {
+    vec4 color = vec4(texelFetch(lit, pixel, 0).rgb, 1.0);
+    bool counts = finite(color) && (!apart || texelFetch(depth_full, pixel, 0).x < LARGEST);
+    return counts ? color : vec4(0.0);
+}
+
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy), size = imageSize(lit_mips), local = ivec2(gl_LocalInvocationID.xy);
     if (dispatch_level == 0u) {
-        if (all(lessThan(at, size))) imageStore(lit_mips, at, vec4(texelFetch(lit, at, 0).rgb, 1.0));
+        if (all(lessThan(at, size))) imageStore(lit_mips, at, counted(at));
         return;
     }
     load_tile(at - local - reach, size);
     if (any(greaterThanEqual(at, size))) return;
     float falloff = sharpness() * log(threshold) / (texel_scale * texel_scale);
     vec4 sum = vec4(0.0);
+    float total = 0.0;
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x)
-            if (is_tap(ivec2(x, y), reach))
-                sum += exp(falloff * float(x * x + y * y)) * halved[(local.y + reach + y) * WIDE + local.x + reach + x];
-    imageStore(lit_mips, at, sum.a > 0.0 ? sum / sum.a : vec4(0.0));
+            if (is_tap(ivec2(x, y), reach)) {
+                float weight = exp(falloff * float(x * x + y * y));
+                sum += weight * halved[(local.y + reach + y) * WIDE + local.x + reach + x];
+                total += weight;
+            }
+    imageStore(lit_mips, at, sum / total);
 }

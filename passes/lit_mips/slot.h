@@ -2,7 +2,8 @@
 #line 102
 SLOT("MIP chain of the picture that screen hits look up")
 READ(texture2D, lit)
-WRITE(image2D, lit_mips, RGBA16F, "radiance", FULL_MIPS, "R G B A", 0, "lit at level 0; coarser ones stand for a cone")
+READ(texture2D, depth_full)
+WRITE(image2D, lit_mips, RGBA16F, "radiance", FULL_MIPS, "R G B A", 0, "lit, times a, at level 0; coarser ones stand for a cone. a: share of what counts (cone: of what is not sky)")
 NEEDS(reflections)
 NEEDS(cones)
 REFERENCE_NONE("the reference has rays instead of cones")

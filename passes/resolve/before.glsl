@@ -31,10 +31,14 @@ bool shows(vec2 uv, float depth_m) {
     return abs(seen_m - depth_m) <= hidden_depth * depth_m; // false for the sky's +inf
 }
 
-vec3 picture_before(vec2 uv) {
-    if (picture_of == picture_of_scene && of_frame(previous_scene))
-        return told_picture(IMAGE_previous_scene, uv, 0.0, textureLod(sampler2D(previous_scene, linear_clamp), uv, 0.0).rgb);
-    return told_picture(IMAGE_previous_lit, uv, 0.0, textureLod(sampler2D(previous_lit, linear_clamp), uv, 0.0).rgb);
+// Where the frame before has depths, of the texels around only those that show the ray's end.
+vec3 picture_before(vec3 place) {
+    bool scene = picture_of == picture_of_scene && of_frame(previous_scene), parts = joint && of_frame(previous_depth);
+    vec3 color = scene ? parts ? joint_texels(previous_scene, previous_depth, place.xy, place.z, hidden_depth).rgb
+                               : textureLod(sampler2D(previous_scene, linear_clamp), place.xy, 0.0).rgb
+                 : parts ? joint_texels(previous_lit, previous_depth, place.xy, place.z, hidden_depth).rgb
+                         : textureLod(sampler2D(previous_lit, linear_clamp), place.xy, 0.0).rgb;
+    return told_picture(scene ? IMAGE_previous_scene : IMAGE_previous_lit, place.xy, 0.0, color);
 }
 
 uint source_of(vec3 place) {
@@ -49,13 +53,13 @@ vec4 not_shown(Ray ray) {
     if (hidden == hidden_black) return vec4(0.0);
     if (ray.endless) return vec4(sky_color(ray), 1.0);
     uint place = nearest_active(ray.end);
-    return place < frame.counts.x ? cubemap_lookup(ray, place) : vec4(0.0);
+    return place < frame.counts.x ? cubemap_lookup(ray, place, false) : vec4(0.0);
 }
 
 vec4 color_before(Ray ray, out uint source) {
     vec3 place = place_before(ray);
     source = source_of(place);
-    vec4 color = source == SHOWN ? vec4(picture_before(place.xy), 1.0) : not_shown(ray);
+    vec4 color = source == SHOWN ? vec4(picture_before(place), 1.0) : not_shown(ray);
     if (color.a > 0.0 && fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
     return color;
 }

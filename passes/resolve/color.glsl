@@ -7,6 +7,8 @@
 #include "shared/paraboloid.glsl"
 #include "probe/tell.glsl"
 
+const float LEAST_SHARE = 1.0 / 64.0; // of what is looked for in a level: what has less is mostly rounding
+
 // A ray that has ended. `end`: camera-relative world, a unit direction when the ray went on for ever.
 struct Ray {
     vec3 position, direction, end;
@@ -50,27 +52,55 @@ vec3 sky_color(Ray ray) {
     return told_sky(IMAGE_sky, 0.0, textureLod(samplerCube(sky, linear_clamp), ray.direction, 0.0).rgb);
 }
 
+// The four texels around a place that show a depth, +inf the sky, as far as tolerance goes; if none does, the one that is
+// nearest to it. a: whether one does.
+vec4 joint_texels(texture2D image, texture2D depths_m, vec2 uv, float depth_m, float tolerance) {
+    vec2 place = uv * vec2(frame.size.xy) - 0.5, corner = floor(place), part = place - corner;
+    vec4 seen_m = textureGather(sampler2D(depths_m, nearest_clamp), (corner + 1.0) / vec2(frame.size.xy)).wzxy;
+    vec4 shares = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy), color = vec4(0.0);
+    float inverse = depth_m < LARGEST ? 1.0 / depth_m : 0.0, least = LARGEST;
+    int nearest = 0;
+    if (!filter_color) shares = vec4(greaterThanEqual(shares, vec4(max(max(shares.x, shares.y), max(shares.z, shares.w)))));
+    for (int i = 0; i < 4; ++i) {
+        float apart = abs((seen_m[i] < LARGEST ? 1.0 / seen_m[i] : 0.0) - inverse);
+        if (apart < least) nearest = i;
+        least = min(least, apart);
+        if (!(apart <= tolerance * inverse) || shares[i] <= 0.0) continue;
+        ivec2 pixel = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(frame.size.xy) - 1);
+        color += shares[i] * vec4(texelFetch(image, pixel, 0).rgb, 1.0);
+    }
+    if (color.a > 0.0) return vec4(color.rgb / color.a, 1.0);
+    ivec2 pixel = clamp(ivec2(corner) + ivec2(nearest & 1, nearest >> 1), ivec2(0), ivec2(frame.size.xy) - 1);
+    return vec4(texelFetch(image, pixel, 0).rgb, 0.0);
+}
+
 vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
     if (ray.cone > 0.0 && cone_screen && has_lit_mips) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
                                         float(findMSB(max(frame.size.x, frame.size.y))));
-        if (level > 0.0)
-            return told_picture(IMAGE_lit_mips, uv, level, textureLod(sampler2D(lit_mips, linear_clamp), uv, level).rgb);
+        if (level > 0.0 && ray.endless && joint && has_sky_mips) return sky_color(ray);
+        vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
+        if (color.a > LEAST_SHARE) return told_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
     }
-    vec3 color = filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb : texelFetch(lit, pixel, 0).rgb;
+    vec3 color = joint          ? joint_texels(lit, depth_full, uv, ray.endless ? INFINITE : depth_m, depth_tolerance).rgb
+                 : filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb
+                                : texelFetch(lit, pixel, 0).rgb;
     return told_picture(IMAGE_lit, uv, 0.0, color);
 }
 
-vec4 screen_color(Ray ray) {
+// strict: only of a place whose depth is that of the ray's end.
+vec4 screen_color(Ray ray, bool strict) {
     vec3 end = mat3(frame.view_from_world) * ray.end;
     float depth_m = end.z * frame.depth_range.z;
     if (!(depth_m > 0.0)) return vec4(0.0);
-    vec2 uv = clamp(project(end, frame.uv_from_view, frame.depth_range.z), 0.0, 1.0);
+    vec2 uv = project(end, frame.uv_from_view, frame.depth_range.z);
+    if (strict && any(notEqual(uv, clamp(uv, 0.0, 1.0)))) return vec4(0.0);
+    uv = clamp(uv, 0.0, 1.0);
     ivec2 pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
-    if (check_depth && !ray.endless) {
-        float seen_m = texelFetch(depth_full, pixel, 0).x;
-        if (!(abs(seen_m - depth_m) <= depth_tolerance * depth_m)) return vec4(0.0);
+    if (strict) {
+        float seen_m = texelFetch(depth_full, pixel, 0).x, deep = max(depth_tolerance, cone_tangent(ray.cone) * ray.travelled_m / depth_m);
+        if (ray.endless ? seen_m < LARGEST : !(abs(seen_m - depth_m) <= deep * depth_m)) return vec4(0.0);
     }
     return vec4(picture(uv, pixel, ray, depth_m), 1.0);
 }
@@ -104,17 +134,21 @@ vec4 cubemap_texel(Ray ray, vec4 at) {
 // What counts as opaque is reached evenly, so that no rounding decides.
 float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
 
-vec4 cubemap_lookup(Ray ray, uint place) {
+// Of a ray that ended on a surface the sky beside that is no part: rays that end in the sky bring it. Which of the two is at
+// the end is what the nearer of the cube map's texels say, and not the cone's width.
+vec4 surface_in_cubemap(Ray ray, vec3 center, uint place, bool strict) {
+    float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
+    if (own < 0.5) return strict ? vec4(0.0) : vec4(sky_color(ray), 1.0);
+    vec4 color = cubemap_texel(ray, vec4(ray.end - center, place));
+    return vec4(color.rgb / max(color.a, LEAST_SHARE), 1.0);
+}
+
+vec4 cubemap_lookup(Ray ray, uint place, bool strict) {
     vec3 center = active_centers[place].xyz;
+    if (joint && fact_sky_seen && !ray.endless) return surface_in_cubemap(ray, center, place, strict);
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
     if (!fact_sky_seen) return vec4(color.rgb, 1.0);
     color.a = opacity(color.a);
-    if (color.a > 0.0 && color.a < 1.0 && ray.cone > 0.0 && !ray.endless) {
-        // Whether it is the sky that is seen is the ray's to say, not the cone's: rays that end in the sky know nothing of the
-        // surfaces beside it, and would not give back what the others took of it.
-        float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
-        color *= opacity(own) / color.a;
-    }
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
     return vec4(color.rgb, 1.0);
 }
@@ -127,13 +161,19 @@ vec3 through_fog(vec3 color, Ray ray) {
     return mix(color, target, fog_factor(depth));
 }
 
-// finished: on screen; place: of the cube map where it ended otherwise, or none. a: 0 where no source was found.
-vec4 color_at_end(Ray ray, bool finished, uint place) {
-    vec4 color;
-    if (finished) color = screen_color(ray);
-    else if (place < frame.counts.x) color = cubemap_lookup(ray, place);
-    else if (ray.endless) color = vec4(sky_color(ray), 1.0);
-    else return vec4(0.0);
-    if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
+// finished: on screen; place: of the cube map where it ended otherwise, or none. a: 0 where no source was found. strict: nor
+// where another surface than the ray's own is seen.
+vec4 color_without_fog(Ray ray, bool finished, uint place, bool strict) {
+    if (finished) return screen_color(ray, strict);
+    if (place < frame.counts.x) return cubemap_lookup(ray, place, strict);
+    return ray.endless ? vec4(sky_color(ray), 1.0) : vec4(0.0);
+}
+
+vec4 with_fog(vec4 color, Ray ray) {
+    if (color.a > 0.0 && fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
     return color;
+}
+
+vec4 color_at_end(Ray ray, bool finished, uint place) {
+    return with_fog(color_without_fog(ray, finished, place, check_depth), ray);
 }
