@@ -26,7 +26,7 @@ bool is_worth(ivec2 pixel, uint chosen, vec3 normal, float roughness, vec3 to_vi
 void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen, bool shown) {
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     vec3 normal = vec3(0.0);
-    Drawn ray = Drawn(vec3(0.0), 0.0, vec4(0.0));
+    Drawn ray = Drawn(vec3(0.0), 0.0);
     if (reflects(depth_m, surface.xyz)) {
         normal = normalize(surface.xyz);
         vec2 uv = picked_uv(pixel, chosen, frame.size);
@@ -40,6 +40,5 @@ void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen, bool s
     imageStore(normal_half, pixel, vec4(normal, roughness));
     imageStore(normal_jittered, pixel, vec4(ray.normal, roughness));
     imageStore(cone_half, pixel, vec4(ray.cone));
-    if (fact_ray_numbers) imageStore(ray_numbers, pixel, ray.numbers);
     imageStore(pick, pixel, uvec4(shown ? chosen : chosen | NOT_SHOWN));
 }

@@ -123,6 +123,21 @@ float ggx_cone(float alpha, float share, float threshold, float cosine) {
     return kept < held ? filling_cone(ggx_spread(a2, kept), ggx_spread(a2, held), cosine, threshold) : 0.0;
 }
 
+// tan² of the cone whose solid angle is the inverse of a ray's density, by its half-vector; solid angles as π tan².
+// GGX's visible normals: the density of rays is D G1/(4 cos θ), D = α²/(π (sin² + α² cos²)²) and
+// G1 = 2 cos θ/(cos θ + √(α² + (1 - α²) cos² θ)), θ the viewer's angle.
+float ggx_ray_tangent2(vec3 h, vec3 view, float alpha) {
+    float a2 = alpha * alpha, z = max(view.z, 0.0), below = dot(h.xy, h.xy) + a2 * h.z * h.z;
+    return a2 > 0.0 ? 2.0 * (z + sqrt(a2 + (1.0 - a2) * z * z)) * below * (below / a2) : 0.0;
+}
+// Blinn-Phong: (n + 1)/2π cosⁿ/(4 h·v).
+float blinn_phong_ray_tangent2(vec3 h, vec3 view, float roughness) {
+    float r2 = roughness * roughness, r4 = r2 * r2;
+    if (r4 == 0.0) return 0.0;
+    float logarithm = log1p(-min(dot(h.xy, h.xy), 0.999999)) * (1.0 - r4) / r4; // of cosⁿ, n = 2 (1 - r⁴)/r⁴
+    return 8.0 * max(dot(h, view), 0.0) * r4 / (2.0 - r4) * exp(min(-logarithm, 60.0));
+}
+
 // Two unit vectors that make a right-handed frame with unit n. T. Duff et al., Building an Orthonormal Basis, Revisited,
 // JCGT 6(1), 2017, equation 3 with the sign of z carried along.
 void tangent_frame(vec3 n, out vec3 tangent, out vec3 bitangent) {

@@ -33,7 +33,7 @@ void main() {
         chosen = uint(i);
     }
     float roughness = nearest.w > 0.0 ? min(nearest.w, 1.0) : 0.0;
-    Drawn ray = Drawn(vec3(0.0), 0.0, vec4(0.0));
+    Drawn ray = Drawn(vec3(0.0), 0.0);
     if (nearest_m < LARGEST) {
         vec2 uv = picked_uv(texel, chosen, frame.size);
         vec3 view = view_position(uv, nearest_m, frame.view_from_uv, frame.depth_range.z);
