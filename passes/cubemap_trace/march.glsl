@@ -182,7 +182,7 @@ float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
 // The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
 // the cube maps' spaces, so that nothing adds up; the step grows only while no hit is being closed in on, and doubles until it is
 // what it was when one came to nothing; and the chain is gone through for each place anew, or finer steps, which notice every
-// strip that a cube map does not see, would use it up.
+// strip that a cube map does not see, would use it up. loop=printed is without these two.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
     const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0, false);
     probe_cubemap_ray(origin, direction, start_m, best);
@@ -208,9 +208,9 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         if (seen || (surfaces == surfaces_exact && !emerged && on_surface(now))) {
             probe_sample(from_center, direction, now, step_m, result.place, quality.level, seen ? DECISION_front : DECISION_resting);
             front = now;
-            refused = 0;
-            if (refined > 0) continue;
-            if (step_m < full_step_m) {
+            if (loop == loop_regaining) refused = 0;
+            if (loop == loop_regaining && refined > 0) continue;
+            if (loop == loop_regaining && step_m < full_step_m) {
                 step_m = min(2.0 * step_m, full_step_m);
                 continue;
             }
@@ -232,7 +232,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             if (++refined < quality.refinements) {
                 probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_closing);
                 now.t -= step_m;
-                step_m *= 0.5;
+                step_m *= loop == loop_printed ? 0.5 * quality.ratio : 0.5;
                 continue;
             }
             result.travelled_m = secant ? secant_between(front, behind) : behind.t;
@@ -263,7 +263,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         else step_m *= quality.ratio;
         if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);
         front = NONE; // what the last cube map saw says nothing about this one
-        refined = 0;
+        if (loop == loop_regaining) refined = 0;
         emerged = false;
         again = step_back;
     }

@@ -53,7 +53,7 @@ vec4 not_shown(Ray ray) {
     if (hidden == hidden_black) return vec4(0.0);
     if (ray.endless) return vec4(sky_color(ray), 1.0);
     uint place = nearest_active(ray.end);
-    return place < frame.counts.x ? cubemap_lookup(ray, place, false) : vec4(0.0);
+    return place < frame.counts.x ? cubemap_lookup(ray, place) : vec4(0.0);
 }
 
 vec4 color_before(Ray ray, out uint source) {

@@ -89,18 +89,15 @@ vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
     return told_picture(IMAGE_lit, uv, 0.0, color);
 }
 
-// strict: only of a place whose depth is that of the ray's end.
-vec4 screen_color(Ray ray, bool strict) {
+vec4 screen_color(Ray ray) {
     vec3 end = mat3(frame.view_from_world) * ray.end;
     float depth_m = end.z * frame.depth_range.z;
     if (!(depth_m > 0.0)) return vec4(0.0);
-    vec2 uv = project(end, frame.uv_from_view, frame.depth_range.z);
-    if (strict && any(notEqual(uv, clamp(uv, 0.0, 1.0)))) return vec4(0.0);
-    uv = clamp(uv, 0.0, 1.0);
+    vec2 uv = clamp(project(end, frame.uv_from_view, frame.depth_range.z), 0.0, 1.0);
     ivec2 pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
-    if (strict) {
-        float seen_m = texelFetch(depth_full, pixel, 0).x, deep = max(depth_tolerance, cone_tangent(ray.cone) * ray.travelled_m / depth_m);
-        if (ray.endless ? seen_m < LARGEST : !(abs(seen_m - depth_m) <= deep * depth_m)) return vec4(0.0);
+    if (check_depth && !ray.endless) {
+        float seen_m = texelFetch(depth_full, pixel, 0).x;
+        if (!(abs(seen_m - depth_m) <= depth_tolerance * depth_m)) return vec4(0.0);
     }
     return vec4(picture(uv, pixel, ray, depth_m), 1.0);
 }
@@ -136,16 +133,16 @@ float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
 
 // Of a ray that ended on a surface the sky beside that is no part: rays that end in the sky bring it. Which of the two is at
 // the end is what the nearer of the cube map's texels say, and not the cone's width.
-vec4 surface_in_cubemap(Ray ray, vec3 center, uint place, bool strict) {
+vec4 surface_in_cubemap(Ray ray, vec3 center, uint place) {
     float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
-    if (own < 0.5) return strict ? vec4(0.0) : vec4(sky_color(ray), 1.0);
+    if (own < 0.5) return vec4(sky_color(ray), 1.0);
     vec4 color = cubemap_texel(ray, vec4(ray.end - center, place));
     return vec4(color.rgb / max(color.a, LEAST_SHARE), 1.0);
 }
 
-vec4 cubemap_lookup(Ray ray, uint place, bool strict) {
+vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = active_centers[place].xyz;
-    if (joint && fact_sky_seen && !ray.endless) return surface_in_cubemap(ray, center, place, strict);
+    if (joint && fact_sky_seen && !ray.endless) return surface_in_cubemap(ray, center, place);
     vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
     if (!fact_sky_seen) return vec4(color.rgb, 1.0);
     color.a = opacity(color.a);
@@ -161,19 +158,13 @@ vec3 through_fog(vec3 color, Ray ray) {
     return mix(color, target, fog_factor(depth));
 }
 
-// finished: on screen; place: of the cube map where it ended otherwise, or none. a: 0 where no source was found. strict: nor
-// where another surface than the ray's own is seen.
-vec4 color_without_fog(Ray ray, bool finished, uint place, bool strict) {
-    if (finished) return screen_color(ray, strict);
-    if (place < frame.counts.x) return cubemap_lookup(ray, place, strict);
-    return ray.endless ? vec4(sky_color(ray), 1.0) : vec4(0.0);
-}
-
-vec4 with_fog(vec4 color, Ray ray) {
-    if (color.a > 0.0 && fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
-    return color;
-}
-
+// finished: on screen; place: of the cube map where it ended otherwise, or none. a: 0 where no source was found.
 vec4 color_at_end(Ray ray, bool finished, uint place) {
-    return with_fog(color_without_fog(ray, finished, place, check_depth), ray);
+    vec4 color;
+    if (finished) color = screen_color(ray);
+    else if (place < frame.counts.x) color = cubemap_lookup(ray, place);
+    else if (ray.endless) color = vec4(sky_color(ray), 1.0);
+    else return vec4(0.0);
+    if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
+    return color;
 }

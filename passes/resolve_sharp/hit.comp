@@ -37,7 +37,9 @@ void main() {
     if (sharpened && has_ray(texel)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        float cone = min(cone_factor * blinn_phong_cone(roughness, 0.0, threshold, 1.0), WIDEST_CONE);
+        float lobe = ndf == ndf_ggx ? ggx_cone(roughness * roughness, 0.0, threshold, 1.0)
+                                    : blinn_phong_cone(roughness, 0.0, threshold, 1.0);
+        float cone = min(cone_factor * lobe, WIDEST_CONE);
         Ray ray = ended_ray(mat3(frame.world_from_view) * view, surface.xyz, texelFetch(travelled, texel, 0).x, cone);
         vec4 sharp =
             color_at_end(ray, texelFetch(screen_finished, texel, 0).x != 0u, texelFetch(cubemap_index, texel, 0).x);

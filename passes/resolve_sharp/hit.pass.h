@@ -5,6 +5,7 @@ OPTIONAL_READ(utexture2D, sharp_source, R8UI, FULL, 255)
 #include "resolve/ends.h"
 #include "resolve/sources.h"
 #line 302
+CHOICE2(ndf, ggx, blinn_phong, ggx, "000, Modified NDF; GGX is its future work", "distribution of normals that the cone is of; downsample's must be the same")
 PUSH(float, sharp_roughness, 0.1,   0.0, 1.0,  "1", "000, Color resolve passes", "largest roughness that is resolved anew; 0: mirrors alone")
 PUSH(float, blend,          0.02,  0.0, 1.0,  "1", "glint", "over this much of roughness below that, what was upscaled takes over; 0: at once")
 NEEDS_BY(smooth, sharp_roughness)

@@ -27,6 +27,7 @@ float neighbour_weight(Surface center, ivec2 texel) {
     vec3 normal = mat3(frame.view_from_world) * center.normal.xyz;
     if (!other.shown || !reflects(other.depth_m, other.normal.xyz)) return 0.0;
     if (!in_plane(other.position - center.position, normal, center.depth_m, depth_part)) return 0.0;
-    float agreement = lobe_agreement(center.normal, other.normal, roughness_part);
+    float agreement = ndf == ndf_ggx ? ggx_agreement(center.normal, other.normal, roughness_part)
+                                     : lobe_agreement(center.normal, other.normal, roughness_part);
     return fade(center.normal.w, fade_from, fade_to) * (brdf ? agreement : float(agreement > 0.0));
 }

@@ -40,7 +40,8 @@ Reprojection reproject(vec2 uv, vec3 position, ivec2 full_pixel, float travelled
 // The longest history of a surface over which the view turns no farther than its lobe allows: a ray turns by as much as the
 // view does, and the lobe reaches twice the angle of its normals. 0.1 is the slides' threshold for that angle. A mirror has no
 // history as soon as the view turns.
-float history_limit(float longest, float roughness, float turned) {
+float history_limit(float longest, float roughness, float turned, bool ggx) {
     if (!(turned > 0.0) || divergence == 1e6) return longest;
-    return min(longest, divergence * 2.0 * lobe_angle(roughness, 0.1) / turned);
+    float angle = ggx ? ggx_lobe_angle(roughness * roughness, 0.1) : lobe_angle(roughness, 0.1);
+    return min(longest, divergence * 2.0 * angle / turned);
 }

@@ -17,6 +17,16 @@ float lobe_agreement(vec4 surface, vec4 other, float difference) {
     return exp(log1p(-away) * 2.0 * (1.0 - r4) / r4);
 }
 
+// The same of GGX: D(θ)/D(0) = (α²/(sin² θ + α² cos² θ))².
+float ggx_agreement(vec4 surface, vec4 other, float difference) {
+    if (!(abs(surface.w - other.w) <= difference)) return 0.0;
+    vec3 apart = surface.xyz - other.xyz;
+    float away = min(0.5 * dot(apart, apart), 1.0), sine2 = away * (2.0 - away);
+    if (sine2 == 0.0) return away == 0.0 ? 1.0 : 0.0;
+    float r2 = surface.w * surface.w, a2 = r2 * r2, part = away == 1.0 ? 0.0 : a2 / (sine2 + a2 * (1.0 - sine2));
+    return part * part;
+}
+
 // Whether a point lies in a surface's tangent plane, within a part of its depth. NaN and infinity do not.
 bool in_plane(vec3 offset, vec3 normal, float depth_m, float part) { return abs(dot(offset, normal)) <= part * depth_m; }
 

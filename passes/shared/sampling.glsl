@@ -35,12 +35,14 @@ vec3 sample_blinn_phong(vec2 u, float roughness, float share, float threshold) {
     return vec3(sine * cos(phi), sine * sin(phi), 1.0 - away);
 }
 
-// tan² of share · the angle at which GGX's density falls to `threshold` of its peak:
+// The angle at which GGX's density falls to `threshold` of its peak, and tan² of a share of it:
 // D(θ)/D(0) = 1/(cos²θ + sin²θ/α²)², so sin²θ = (threshold^(-1/2) - 1) / (1/α² - 1).
+float ggx_lobe_angle(float alpha, float threshold) {
+    float a2 = alpha * alpha, sine2 = min((inversesqrt(threshold) - 1.0) * a2 / max(1.0 - a2, 1e-6), 1.0);
+    return arc(sqrt(sine2), sqrt(1.0 - sine2));
+}
 float ggx_cut_tangent2(float alpha, float share, float threshold) {
-    float a2 = alpha * alpha;
-    float sine2 = min((inversesqrt(threshold) - 1.0) * a2 / max(1.0 - a2, 1e-6), 1.0);
-    float q = min(versine(share * arc(sqrt(sine2), sqrt(1.0 - sine2))), 0.9999);
+    float q = min(versine(share * ggx_lobe_angle(alpha, threshold)), 0.9999);
     return q * (2.0 - q) / ((1.0 - q) * (1.0 - q));
 }
 

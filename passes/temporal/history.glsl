@@ -52,7 +52,7 @@ Past past_of(ivec2 pixel, Surface center) {
     vec2 place = vec2(pixel) + 0.5 + (where.uv - uv) * vec2(frame.size.xy) / reduction(frame.size);
     if (all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))
         past = past_at(place, center, where);
-    float allowed = history_limit(history, center.normal.w, where.turned);
+    float allowed = history_limit(history, center.normal.w, where.turned, ndf == ndf_ggx);
     probe(PROBE_history, vec4(where.uv * vec2(frame.size.xy), past.age, allowed), vec4(past.color.rgb, 0.0));
     past.age = allowed < 1.0 ? 0.0 : min(past.age, allowed);
     return past;

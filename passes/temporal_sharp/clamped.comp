@@ -58,7 +58,7 @@ void main() {
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         Reprojection where = reproject(uv, mat3(frame.world_from_view) * view, pixel,
                                        travelled_at(pixel / int(reduction(frame.size))));
-        float longest = history_limit(history, roughness, where.turned);
+        float longest = history_limit(history, roughness, where.turned, ndf == ndf_ggx);
         bool inside = all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0)));
         vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(0.0);
         if (longest >= 1.0 && finite(past) && past.a > 0.0) {
