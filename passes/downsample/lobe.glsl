@@ -35,9 +35,9 @@ struct Drawn {
 
 // The cone of a ray by its half-vector. In a mean over strata of equal probability each of n rays stands for 1/n of it.
 // Deviation from J. Křivánek, M. Colbert, Real-time Shading with Filtered Importance Sampling, CGF 27(4), 2008: n is no count of
-// rays but by how much a cone may blur the lobe. At share 0.25, n = 4, a step of the light is met within 5 % of its height, whatever
-// roughness, angle and elevation (tests/formulas.py).
-const float WIDEST_PART = 0.4;
+// rays but by how much a cone may blur the lobe: at share 0.25 a step of the light is met within 5 % of its height, whatever
+// roughness, angle and elevation (gpu_lobe_share).
+const float WIDEST_PART = 0.3;
 
 float cone_of_draw(vec3 h, vec3 view, float roughness) {
     float left = 1.0 - share, part = WIDEST_PART * left * left;

@@ -79,9 +79,10 @@ vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
                                         float(findMSB(max(frame.size.x, frame.size.y))));
-        if (level > 0.0 && ray.endless && joint && has_sky_mips) return sky_color(ray);
+        if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return sky_color(ray);
         vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
-        if (color.a > LEAST_SHARE) return told_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
+        // A level that leaves the sky out says nothing of it.
+        if (color.a > (ray.endless ? 1.0 - LEAST_SHARE : LEAST_SHARE)) return told_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
     }
     vec3 color = joint          ? joint_texels(lit, depth_full, uv, ray.endless ? INFINITE : depth_m, depth_tolerance).rgb
                  : filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb
