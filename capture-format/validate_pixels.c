@@ -131,8 +131,8 @@ static void check_sky(const struct job *job, struct tallies *found, const uint8_
         load(job, planes, (int)c, offset, x, count, v);
         for (size_t i = 0; i < count; i++) {
             if (isnan(v[i])) continue; /* told of already */
-            const bool broken = alpha[i] == 0 ? (distance ? !isinf(v[i]) : v[i] != 0)
-                                              : alpha[i] == 1 && distance && isinf(v[i]);
+            const bool broken =
+                alpha[i] == 0 ? (distance ? !isinf(v[i]) : v[i] != 0) : alpha[i] == 1 && distance && isinf(v[i]);
             if (broken) note(&found[c].against_sky, at + i, v[i]);
         }
     }
