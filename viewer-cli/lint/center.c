@@ -7,7 +7,8 @@
 #include "cube_face.h"
 #include "lint.h"
 
-enum { PLACES = 1024, ACROSS = 7 };
+/* Of fewer texels the lookup lets more than a tenth of the distance pass: they fit from anywhere. */
+enum { PLACES = 1024, ACROSS = 7, LEAST_SIZE = 32 };
 
 struct search {
     const struct lint_data *data;
@@ -16,10 +17,6 @@ struct search {
     size_t count;
     float *nearest, *farthest; /* of the cube map that is searched: of each texel and its neighbours on the face */
     struct lint_reading tried;
-};
-struct score {
-    double sum; /* over all places, of 1 where both distances are the same, falling to 0 where they are different */
-    size_t agree, beyond; /* places that it shows, and that it shows what lies beyond of */
 };
 
 /* A texel of a surface that is seen edge-on spans distances as wide as its neighbours are apart: wherever between them a place lies, the
@@ -38,11 +35,12 @@ static void span(struct search *s, size_t c) {
     }
 }
 
-/* How well a cube map's distances agree. The best centre is the one in the middle of all that agree; what stands before a place
+/* How well a cube map's distances agree: the mean over all places of 1 where both are the same, falling to 0 where they are
+   different. The best centre is the one in the middle of all that agree; what stands before a place
    counts as 0: a centre from which less is seen explains less. */
-static struct score score(struct search *s, size_t c, const double offset[3]) {
+static double score(struct search *s, size_t c, const double offset[3]) {
     const struct lint_cube *cube = &s->data->cubes[c];
-    struct score found = {0, 0, 0};
+    double sum = 0;
     memcpy(s->tried.center_offset[c], offset, sizeof s->tried.center_offset[c]);
     for (size_t i = 0; i < s->count; i++) {
         double d[3], u, v;
@@ -58,60 +56,72 @@ static struct score score(struct search *s, size_t c, const double offset[3]) {
                                   : s->tried.cube_scale;
         const double under = (double)s->nearest[at] * factor - away, over = away - (double)s->farthest[at] * factor;
         const double off = fmax(0, fmax(under, over));
-        found.sum += fmax(0, 1 - off / slack);
-        found.agree += off < slack;
-        found.beyond += under > slack;
+        sum += fmax(0, 1 - off / slack);
     }
-    return found;
+    return sum / (double)s->count;
 }
 
 /* The best of a lattice around an offset. */
-static struct score around(struct search *s, size_t c, double step, int reach, struct score best, double offset[3]) {
+static double around(struct search *s, size_t c, double step, int reach, double best, double offset[3]) {
     const double from[3] = {offset[0], offset[1], offset[2]};
     for (int x = -reach; x <= reach; x++)
         for (int y = -reach; y <= reach; y++)
             for (int z = -reach; z <= reach; z++) {
                 const double o[3] = {from[0] + x * step, from[1] + y * step, from[2] + z * step};
-                const struct score found = score(s, c, o);
-                if (found.sum <= best.sum) continue;
+                const double found = score(s, c, o);
+                if (found <= best) continue;
                 best = found;
                 memcpy(offset, o, sizeof o);
             }
     return best;
 }
 
-static double typical_distance(const struct search *s, size_t c) {
-    double sum = 0;
+/* The geometric mean of the places' distances, and the harmonic one: over this a shift is seen as so large an angle. */
+static void typical_distances(const struct search *s, size_t c, double *typical, double *near) {
+    double logs = 0, inverses = 0;
     for (size_t i = 0; i < s->count; i++) {
         double d[3];
         lint_from_center(s->data, s->reading, c, s->places[i], d);
-        sum += log(fmax(1e-9, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])));
+        const double away = fmax(1e-9, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
+        logs += log(away);
+        inverses += 1 / away;
     }
-    return exp(sum / (double)s->count);
+    *typical = exp(logs / (double)s->count);
+    *near = (double)s->count / inverses;
 }
 
-static double share_beyond(const struct score *s) {
-    return (double)s->beyond / fmax(1, (double)(s->agree + s->beyond));
+/* What moves along a street, or a wall, changes nothing: of offsets that show nearly the same the shortest. */
+static void shorten(struct search *s, size_t c, double *best, double offset[3]) {
+    for (int k = 0; k < 3; k++) {
+        double o[3] = {offset[0], offset[1], offset[2]};
+        o[k] = 0;
+        const double found = score(s, c, o);
+        if (found < *best - 0.01) continue;
+        *best = found;
+        offset[k] = 0;
+    }
 }
 
-/* Offsets up to three eighths of the typical distance, then finer and finer. One is told of that shows a fifth more, and of what it
-   shows less than half as much beyond the places where depth has them; along a street, moving a right centre nearer to the
-   camera does the former alone. */
+/* Offsets up to three eighths of the typical distance, then finer and finer. A cube map that sees few of the picture's surfaces, as
+   one in another room, can be fitted to them from somewhere: one is told of where it shows almost all, and did not before. Of
+   right ones that see the same surfaces no offset shows much more. */
 static void search_one(struct search *s, size_t c) {
-    const double typical = typical_distance(s, c), none[3] = {0, 0, 0};
-    double offset[3] = {0, 0, 0}, step = typical / (ACROSS + 1);
+    const double none[3] = {0, 0, 0}, most = 0.85;
+    double offset[3] = {0, 0, 0}, typical, near;
+    typical_distances(s, c, &typical, &near);
+    double step = typical / (ACROSS + 1);
     span(s, c);
-    const struct score before = score(s, c, none);
-    if (share_beyond(&before) < 0.1) {
-        memcpy(s->tried.center_offset[c], none, sizeof none);
-        return;
+    const double before = score(s, c, none);
+    double best = before;
+    if (before < most) {
+        best = around(s, c, step, ACROSS / 2, best, offset);
+        for (; step > typical / 256; step /= 2) best = around(s, c, step / 2, 1, best, offset);
+        shorten(s, c, &best, offset);
     }
-    struct score best = around(s, c, step, ACROSS / 2, before, offset);
-    for (; step > typical / 256; step /= 2) best = around(s, c, step / 2, 1, best, offset);
-    /* less than a texel's width is below what the lookup tells apart */
+    /* less than what the lookup lets pass is below what it tells apart */
     const double length = sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-    const bool told = length > typical * (0.02 + 1.0 / s->data->cubes[c].size) && best.sum > 1.2 * before.sum &&
-                      5 * best.agree > s->count && share_beyond(&best) < 0.5 * share_beyond(&before);
+    const bool told =
+        length > near * (0.02 + 1.0 / s->data->cubes[c].size) && best >= most && 1 - best < 0.5 * (1 - before);
     memcpy(s->tried.center_offset[c], told ? offset : none, sizeof offset);
 }
 
@@ -130,7 +140,7 @@ bool lint_search_centers(const struct lint_data *data, const struct lint_reading
     for (size_t i = 0; ready && i < data->sample_count && s.count < PLACES; i++)
         s.count += lint_place(data, reading, &eyes.now, data->samples[i], s.places[s.count]);
     for (size_t c = 0; c < data->cube_count && s.count >= LINT_ENOUGH; c++) {
-        if (!data->cubes[c].has_distance) continue;
+        if (!data->cubes[c].has_distance || data->cubes[c].size < LEAST_SIZE) continue;
         search_one(&s, c);
         moved = moved || memcmp(s.tried.center_offset[c], reading->center_offset[c], sizeof s.tried.center_offset[c]);
     }
@@ -163,7 +173,7 @@ void lint_tell_centers(const struct lint_data *data, const struct lint_reading *
     }
     const double by = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
     /* one offset for all is one mistake */
-    if (count > 1 && largest < 0.3 * by)
+    if (count > 1 && largest < 0.5 * by)
         snprintf(f->what, sizeof f->what, "centres of %zu cube maps are off by about (%.3g, %.3g, %.3g) units", count,
                  mean[0], mean[1], mean[2]);
     else snprintf(f->what, sizeof f->what, "centres of cube maps are off: %s", names);

@@ -183,12 +183,20 @@ static size_t applied(const struct lint_findings *findings) {
     return count;
 }
 
+static void ignore(void *user, const char *rule, const char *message) {
+    (void)user, (void)rule, (void)message;
+}
+
 /* A trial copy beside the one that is wanted, where siblings are. */
 static bool is_worse(const char *from, const char *trial, const struct lint_findings *findings,
                      struct lint_agreement *agreement, bool *worse, struct glint_error *err) {
     struct lint_agreement after;
-    if (!write_copy(from, trial, findings, err) || !measure(trial, &after, err)) return false;
-    *worse = falls(agreement, &after);
+    size_t rules, broken; /* of FORMAT.md, before and after */
+    if (!write_copy(from, trial, findings, err) || !measure(trial, &after, err) ||
+        !glint_capture_validate(from, NULL, ignore, NULL, &rules, err) ||
+        !glint_capture_validate(trial, NULL, ignore, NULL, &broken, err))
+        return false;
+    *worse = broken > rules || falls(agreement, &after);
     if (!*worse) *agreement = after;
     return true;
 }

@@ -234,12 +234,27 @@ static void try_pairs_of_normals(const struct lint_data *data, const struct lint
     if (pairs.best.gain > contest->best.gain && together > 0.6 && together > alone + 0.15) *contest = pairs;
 }
 
+static double agreeing(const struct lint_agreement *a, int measure) {
+    return a->share[measure] * (double)a->count[measure];
+}
+
+/* Each centre was judged by itself. Of all comparisons one cube map of many changes few, and from a wrong centre things seem to stand
+   before many places, which then are not compared: it is enough that more agree than before. */
 static void try_centers(const struct lint_data *data, const struct lint_reading *reading,
                         const struct lint_agreement *agreement, struct contest *contest) {
+    static const double nowhere[LINT_CUBES][3];
     struct candidate c = {.row = CENTERS, .also = NONE};
-    if (agreement->count[LINT_CUBEMAPS] < LINT_ENOUGH || !lint_search_centers(data, reading, &c.reading)) return;
+    if (agreement->count[LINT_CUBEMAPS] < LINT_ENOUGH || memcmp(reading->center_offset, nowhere, sizeof nowhere) != 0 ||
+        !lint_search_centers(data, reading, &c.reading))
+        return;
     c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_CUBEMAPS | 1u << LINT_COLORS);
     enter(contest, agreement, &c);
+    if (contest->best.row != NONE || agreeing(&c.agreement, LINT_CUBEMAPS) <= agreeing(agreement, LINT_CUBEMAPS) ||
+        agreeing(&c.agreement, LINT_COLORS) < agreeing(agreement, LINT_COLORS))
+        return;
+    c.gain = 1e-3;
+    c.measure = LINT_CUBEMAPS;
+    contest->best = c;
 }
 
 /* The best other reading from here; false when none is clearly better. */

@@ -23,7 +23,7 @@ static double to_device(const struct lint_data *data, enum glint_clip_z clip_z, 
 /* Whether all values lie on a format's steps. A value whose own rounding to float is no finer than a tenth of a step is on one by
    chance, and is not asked; too few different values, as of a wall that is looked at straight, prove nothing either. */
 static bool all_lie_on(const struct lint_data *data, const struct lint_rounding *r) {
-    enum { DIFFERENT = 64 };
+    enum { DIFFERENT = 16 };
     double seen[DIFFERENT];
     size_t asked = 0, different = 0, off = 0;
     for (size_t i = 0; i < data->sample_count; i++) {
@@ -46,17 +46,19 @@ static bool all_lie_on(const struct lint_data *data, const struct lint_rounding 
     return asked >= LINT_ENOUGH && different == DIFFERENT && off * 500 <= asked;
 }
 
+/* Of the formats that depth is held in, and of fewer bits, from the coarsest. */
 void lint_find_rounding(struct lint_data *data) {
-    static const struct lint_rounding candidates[] = {{.format = "12 bits of fixed point", .fixed = true, .bits = 12},
-                                                      {.format = "16 bits of fixed point", .fixed = true, .bits = 16},
-                                                      {.format = "a half float", .bits = 10}};
+    enum { LEAST_BITS = 8, MOST_BITS = 18 };
     const bool distances = data->encodings.depth == GLINT_DEPTH_VIEW_LINEAR;
-    for (size_t i = 0; i < sizeof candidates / sizeof *candidates; i++)
+    for (int bits = LEAST_BITS; bits <= MOST_BITS + 1; bits++)
         for (int of = 0; of < (distances ? 3 : 1); of++) {
-            struct lint_rounding r = candidates[i];
-            r.of_device = of > 0;
-            r.clip_z = of == 2 ? GLINT_CLIP_Z_MINUS_ONE_TO_ONE : GLINT_CLIP_Z_ZERO_TO_ONE;
+            struct lint_rounding r = {.fixed = bits <= MOST_BITS,
+                                      .bits = bits <= MOST_BITS ? bits : 10,
+                                      .of_device = of > 0,
+                                      .clip_z = of == 2 ? GLINT_CLIP_Z_MINUS_ONE_TO_ONE : GLINT_CLIP_Z_ZERO_TO_ONE};
             if ((distances && !r.of_device && r.fixed) || !all_lie_on(data, &r)) continue;
+            if (r.fixed) snprintf(r.format, sizeof r.format, "%d bits of fixed point", bits);
+            else snprintf(r.format, sizeof r.format, "a half float");
             data->rounding = r;
             return;
         }
