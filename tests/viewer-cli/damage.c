@@ -168,19 +168,20 @@ static bool depth_undeclared(struct rewrite *r, double strength) {
 
 /* ---- Camera ---- */
 
-static bool camera_inverse(struct rewrite *r, double strength) {
-    const double *m = damage_matrix(r, "glint.worldToView");
+static bool invert_camera(struct rewrite *r, const char *name) {
+    const double *m = damage_matrix(r, name);
     double v[16] = {0};
-    (void)strength;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
             v[4 * i + k] = m[4 * k + i];
             v[4 * i + 3] -= m[4 * k + i] * m[4 * k + 3];
         }
     v[15] = 1;
-    damage_set_matrix(r, "glint.worldToView", v);
+    damage_set_matrix(r, name, v);
     return true;
 }
+DAMAGE(camera_inverse_current, invert_camera(r, "glint.worldToView"))
+DAMAGE(camera_inverse, invert_camera(r, "glint.worldToView") && invert_camera(r, "glint.previousWorldToView"))
 static bool camera_mirrored(struct rewrite *r, double strength) {
     static const char *const names[] = {"glint.worldToView", "glint.previousWorldToView"};
     (void)strength;
@@ -404,6 +405,7 @@ const struct damage damages[] = {
     {"depth.scale_0.01", BASE_PLAIN, depth_hundreds},
     {"depth.sky_value", BASE_PLAIN, depth_sky},
     {"camera.inverse", BASE_PLAIN, camera_inverse},
+    {"camera.inverse_current", BASE_PLAIN, camera_inverse_current},
     {"camera.mirrored", BASE_PLAIN, camera_mirrored},
     {"camera.clip_y", BASE_PLAIN, camera_clip_y},
     {"camera.up", BASE_PLAIN, camera_up},

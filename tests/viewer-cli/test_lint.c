@@ -294,7 +294,8 @@ static void fix_mends(const char *id, bool pixels) {
 }
 
 static void fix_declares_and_leaves_every_pixel(void **state) {
-    static const char *const ids[] = {"normal.view_space", "depth.reversed", "camera.inverse", "motion.pixels"};
+    static const char *const ids[] = {"normal.view_space", "depth.reversed", "camera.inverse", "camera.inverse_current",
+                                      "motion.pixels"};
     (void)state;
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) fix_mends(ids[i], false);
 }

@@ -115,7 +115,7 @@ static void inner_volumes(const struct lint_data *data, struct lint_findings *fi
         if (!cube->has_distance || cube->map.inner == GLINT_VOLUME_NONE) continue;
         for (size_t i = 0; i < (size_t)cube->size * cube->size * 6; i++) {
             double p[3];
-            if (!isfinite(cube->texels[5 * i + 4])) continue;
+            if (!isfinite(cube->texels[5 * i + 4]) || cube->texels[5 * i + 3] == 0) continue;
             texel_place(cube, i, p);
             all++;
             /* a wall on the volume's rim may be rounded, or filtered, into it: by what lint_shows lets pass */

@@ -31,18 +31,25 @@ static const char *attribute_on(const struct lint_finding *f, const char *part) 
     return !strncmp(part, f->attribute, length) && (part[length] == '\0' || part[length] == '.') ? colon + 1 : NULL;
 }
 
-static void set_attribute(struct copy *copy, const char *name, const struct lint_finding *f) {
+/* Its place among the part's attributes, a new one at their end. */
+static struct glint_exr_attribute *attribute_named(struct copy *copy, const char *name) {
     size_t i = 0;
     while (i < copy->part.attribute_count && strcmp(copy->attributes[i].name, name)) i++;
     copy->part.attribute_count += i == copy->part.attribute_count;
-    copy->attributes[i] = f->has_matrix
-                              ? (struct glint_exr_attribute){.name = name,
-                                                             .type = GLINT_EXR_M44D,
-                                                             .type_name = "m44d",
-                                                             .numbers = f->matrix,
-                                                             .count = 16}
-                              : (struct glint_exr_attribute){
-                                    .name = name, .type = GLINT_EXR_STRING, .type_name = "string", .string = f->value};
+    return &copy->attributes[i];
+}
+
+static void set_matrix(struct copy *copy, const char *name, const double m[16]) {
+    *attribute_named(copy, name) = (struct glint_exr_attribute){
+        .name = name, .type = GLINT_EXR_M44D, .type_name = "m44d", .numbers = m, .count = 16};
+}
+
+static void set_attribute(struct copy *copy, const char *name, const struct lint_finding *f) {
+    if (f->has_matrix) set_matrix(copy, name, f->matrix);
+    if (f->has_previous) set_matrix(copy, "glint.previousWorldToView", f->previous);
+    if (!f->has_matrix)
+        *attribute_named(copy, name) = (struct glint_exr_attribute){
+            .name = name, .type = GLINT_EXR_STRING, .type_name = "string", .string = f->value};
 }
 
 /* ---- What stands under sky ---- */
@@ -92,7 +99,7 @@ static bool copy_part(struct copy *copy, struct glint_exr *exr, size_t i, const 
     static const enum glint_type types[] = {GLINT_F16, GLINT_F32, GLINT_U32};
     const struct glint_exr_part_info *from = glint_exr_part(exr, i);
     const size_t texels = (size_t)from->width * from->height;
-    copy->attributes = calloc(from->attribute_count + LINT_FINDINGS, sizeof *copy->attributes);
+    copy->attributes = calloc(from->attribute_count + 2 * LINT_FINDINGS, sizeof *copy->attributes);
     copy->channels = calloc(from->channel_count + 1, sizeof *copy->channels);
     copy->data = calloc(from->channel_count + 1, sizeof *copy->data);
     if (!copy->attributes || !copy->channels || !copy->data) return no_memory(err);
@@ -163,10 +170,24 @@ static bool measure(const char *path, struct lint_agreement *agreement, struct g
     return ok;
 }
 
-/* By more than a few places, which lie on the edge of what agrees. */
-static bool falls(const struct lint_agreement *from, const struct lint_agreement *to) {
-    for (int m = 0; m < LINT_MEASURES; m++)
-        if (from->count[m] >= LINT_ENOUGH && lint_worth(to, from, m) < lint_worth(from, to, m) - 0.005) return true;
+static bool mends_pixels(const struct lint_findings *findings) {
+    bool any = false;
+    for (size_t i = 0; i < findings->count; i++)
+        any = any || (!findings->items[i].left_out && findings->items[i].pixels != LINT_NO_PIXELS);
+    return any;
+}
+
+/* By more than a few places, which lie on the edge of what agrees. Where sky is given its distance more places can be compared: then
+   no fewer may agree. */
+static bool falls(const struct lint_agreement *from, const struct lint_agreement *to, bool sky) {
+    for (int m = 0; m < LINT_MEASURES; m++) {
+        const bool by_count = sky && (m == LINT_CUBEMAPS || m == LINT_COLORS);
+        const double before = by_count ? 1 : lint_worth(from, to, m),
+                     after = by_count ? to->share[m] * (double)to->count[m] /
+                                            fmax(1, from->share[m] * (double)from->count[m])
+                                      : lint_worth(to, from, m);
+        if (from->count[m] >= LINT_ENOUGH && after < before - 0.005) return true;
+    }
     return false;
 }
 
@@ -196,7 +217,7 @@ static bool is_worse(const char *from, const char *trial, const struct lint_find
         !glint_capture_validate(from, NULL, ignore, NULL, &rules, err) ||
         !glint_capture_validate(trial, NULL, ignore, NULL, &broken, err))
         return false;
-    *worse = broken > rules || falls(agreement, &after);
+    *worse = broken > rules || falls(agreement, &after, mends_pixels(findings));
     if (!*worse) *agreement = after;
     return true;
 }

@@ -57,7 +57,9 @@ static struct lint_view view_of(const struct glint_camera *camera, const struct 
 struct lint_eyes lint_eyes_of(const struct lint_data *data, const struct lint_reading *reading) {
     const struct glint_camera *now = &data->frame.camera,
                               *before = data->frame.has_previous ? &data->frame.previous : now;
-    return (struct lint_eyes){view_of(reading->swapped_cameras ? before : now, reading),
+    struct lint_reading current = *reading;
+    current.inverse_camera = reading->inverse_camera != reading->inverse_current;
+    return (struct lint_eyes){view_of(reading->swapped_cameras ? before : now, &current),
                               view_of(reading->swapped_cameras ? now : before, reading)};
 }
 

@@ -68,7 +68,7 @@ struct lint_reading {
     enum glint_clip_y clip_y;
     enum glint_clip_z clip_z;
     double view_sign[3]; /* axes of the view turned around */
-    bool inverse_camera, swapped_cameras;
+    bool inverse_camera, inverse_current /* alone */, swapped_cameras;
     bool cube_planar; /* stored distance is along the face's axis */
     double cube_scale, center_scale;
     double center_offset[LINT_CUBES][3]; /* engine units */
@@ -182,8 +182,8 @@ struct lint_finding {
     char mend[240];                /* the declaration that would mend it, or what to change in the dump */
     char either[240];              /* another cause that explains the data as well; "" for none */
     const char *attribute, *value; /* what --fix sets on every part that declares or may declare it; NULL: nothing */
-    bool has_matrix;               /* the attribute is a matrix */
-    double matrix[16];
+    bool has_matrix, has_previous; /* the attribute is a matrix; so is glint.previousWorldToView */
+    double matrix[16], previous[16];
     enum lint_pixels pixels; /* what --fix writes into cube maps */
     bool left_out;           /* by --fix, after which something would agree less */
 };

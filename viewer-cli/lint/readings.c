@@ -116,27 +116,34 @@ static double gain(const struct lint_agreement *from, const struct lint_agreemen
     return largest > 0 ? sum : 0;
 }
 
+static void mended_matrix(bool inverse, const double *m, double out[16]) {
+    memcpy(out, m, 16 * sizeof *out);
+    for (int i = 0; !inverse && i < 4; i++) out[i] = -m[i];
+    for (int i = 0; inverse && i < 3; i++) {
+        out[4 * i + 3] = 0;
+        for (int k = 0; k < 3; k++) {
+            out[4 * i + k] = m[4 * k + i];
+            out[4 * i + 3] -= m[4 * k + i] * m[4 * k + 3];
+        }
+    }
+}
+
 static void declare(struct lint_finding *f, const struct row *row, const struct lint_data *data,
                     const struct lint_reading *reading) {
-    const double *m = data->frame.camera.world_to_view;
     f->attribute = *row->attribute ? row->attribute : NULL;
     f->value = row->value;
     if (!strcmp(row->value, CLIP_Y)) f->value = reading->clip_y == GLINT_CLIP_Y_UP ? "up" : "down";
     if (!strcmp(row->value, CLIP_Z))
         f->value = reading->clip_z == GLINT_CLIP_Z_ZERO_TO_ONE ? "zero_to_one" : "minus_one_to_one";
-    f->has_matrix = !strcmp(row->value, INVERSE) || !strcmp(row->value, MIRRORED);
-    memcpy(f->matrix, m, sizeof f->matrix);
-    for (int i = 0; !strcmp(row->value, MIRRORED) && i < 4; i++) f->matrix[i] = -m[i];
-    for (int i = 0; !strcmp(row->value, INVERSE) && i < 3; i++) {
-        f->matrix[4 * i + 3] = 0;
-        for (int k = 0; k < 3; k++) {
-            f->matrix[4 * i + k] = m[4 * k + i];
-            f->matrix[4 * i + 3] -= m[4 * k + i] * m[4 * k + 3];
-        }
-    }
+    const bool inverse = !strcmp(row->value, INVERSE);
+    f->has_matrix = inverse || !strcmp(row->value, MIRRORED);
+    f->has_previous = f->has_matrix && data->frame.has_previous && !reading->inverse_current;
+    if (f->has_matrix) mended_matrix(inverse, data->frame.camera.world_to_view, f->matrix);
+    if (f->has_previous) mended_matrix(inverse, data->frame.previous.world_to_view, f->previous);
     if (!f->attribute) snprintf(f->mend, sizeof f->mend, "no declaration says so: change the dump");
     else if (f->has_matrix)
-        snprintf(f->mend, sizeof f->mend, "%s: %s", f->attribute,
+        snprintf(f->mend, sizeof f->mend, "%s%s: %s", f->attribute,
+                 f->has_previous ? " and glint.previousWorldToView" : "",
                  !strcmp(row->value, INVERSE) ? "its inverse" : "its first row negated");
     else snprintf(f->mend, sizeof f->mend, "%s = \"%s\"", f->attribute, f->value);
 }

@@ -13,6 +13,7 @@ READING("depth.scale_0.01", r->depth_scale *= 0.01, "depth is in hundredths of t
 READING("depth.scale_100", r->depth_scale *= 100, "depth is in hundreds of the units that positions are in", "", "")
 READING("depth.over_far", (r->depth = GLINT_DEPTH_VIEW_LINEAR, r->depth_scale = far_of(data)), "depth is divided by the far plane's", "", "")
 READING("camera.inverse", r->inverse_camera = true, "worldToView is the camera's place, viewToWorld", "glint.worldToView", INVERSE)
+READING("camera.inverse_current", r->inverse_current = true, "worldToView is the camera's place, viewToWorld; previousWorldToView is not", "glint.worldToView", INVERSE)
 READING("camera.clip_y", r->clip_y = r->clip_y == GLINT_CLIP_Y_UP ? GLINT_CLIP_Y_DOWN : GLINT_CLIP_Y_UP, "NDC y grows the other way", "glint.clipY", CLIP_Y)
 READING("camera.exchanged", r->swapped_cameras = true, "the current and the previous camera are exchanged", "", "")
 READING("camera.mirrored", r->view_sign[0] = -r->view_sign[0], "the view is of the other handedness: its x axis points the other way", "glint.worldToView", MIRRORED)
