@@ -386,8 +386,8 @@ int main(int argc, char **argv) {
     example = argc > 1 ? argv[1] : "";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_whole_capture_has_no_violation),     cmocka_unit_test(every_rule_is_reported_by_name),
-        cmocka_unit_test(all_violations_are_reported_together), cmocka_unit_test(half_sky_binds_nothing),               cmocka_unit_test(under_sky_only_depth_is_looked_at),
-        cmocka_unit_test(the_example_is_a_valid_capture),
+        cmocka_unit_test(all_violations_are_reported_together), cmocka_unit_test(half_sky_binds_nothing),
+        cmocka_unit_test(under_sky_only_depth_is_looked_at),    cmocka_unit_test(the_example_is_a_valid_capture),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -389,6 +389,7 @@ const struct damage damages[] = {
     {"picture.bottom_first", BASE_PLAIN, bottom_first},
     {"previous.same", BASE_PLAIN, before_same},
     {"camera.exchanged", BASE_PLAIN, before_exchanged},
+    {"camera.exchanged", BASE_PLAIN, before_exchanged_lit},
     {"previous.unexplained", BASE_PLAIN, before_elsewhere},
     {"depth.clip_z", BASE_DEVICE, before_clip_z},
     {"depth.scale_0.01", BASE_PLAIN, before_hundreds},
@@ -437,5 +438,8 @@ const struct damage damages[] = {
     {NULL, BASE_PLAIN, depth_infinite},
     {NULL, BASE_PLAIN, cubes_tiny},
     {NULL, BASE_PLAIN, lit_of_another},
+    {NULL, BASE_PLAIN, before_right},
+    {NULL, BASE_REVERSED, before_right},
+    {NULL, BASE_PLAIN, before_right_lit},
 };
 const size_t damage_count = sizeof damages / sizeof *damages;

@@ -11,10 +11,12 @@
 
 static void leave_the_frame_before(struct rewrite *r) {
     static const char *const motion[] = {"motion.X", "motion.Y", "motion.Z"};
+    bool before = false;
+    for (size_t i = 0; i < r->count; i++) before = before || !strcmp(r->parts[i].name, "previous.gbuffer");
     remove_cubes(r);
     for (int k = 0; k < 3; k++) {
         rewrite_remove_channel(r, "gbuffer", motion[k]);
-        rewrite_remove_channel(r, "previous.gbuffer", motion[k]);
+        if (before) rewrite_remove_channel(r, "previous.gbuffer", motion[k]);
     }
 }
 
@@ -52,6 +54,25 @@ bool before_exchanged(struct rewrite *r, double strength) {
     (void)strength;
     leave_the_frame_before(r);
     return exchanged(r);
+}
+
+/* With the colours of the frame before, and no depth of it. */
+bool before_exchanged_lit(struct rewrite *r, double strength) {
+    (void)strength;
+    leave_the_frame_before(r);
+    rewrite_remove_part(r, "previous.gbuffer");
+    return exchanged(r);
+}
+
+/* No mistakes. */
+bool before_right(struct rewrite *r, double strength) {
+    (void)strength;
+    leave_the_frame_before(r);
+    return true;
+}
+bool before_right_lit(struct rewrite *r, double strength) {
+    rewrite_remove_part(r, "previous.gbuffer");
+    return before_right(r, strength);
 }
 
 /* The camera of some other frame. */
