@@ -15,7 +15,7 @@ struct tally {
 };
 
 struct tallies {
-    struct tally not_finite, out_of_range, not_unit;
+    struct tally not_finite, out_of_range, not_unit, against_sky;
 };
 
 struct channel {
@@ -30,6 +30,7 @@ struct job {
     struct channel channels[GLINT_EXR_MAX_WANTED];
     size_t count;
     int depth; /* the plane that says where there is nothing; -1 for none */
+    int alpha; /* the plane that says where a cube map sees sky; -1 for none */
     uint32_t width;
     pthread_mutex_t lock;
     struct tallies found[GLINT_EXR_MAX_WANTED]; /* under the lock */
@@ -119,6 +120,24 @@ static void check_lengths(const struct job *job, struct tallies *found, const ui
         if (!nothing[p] && !(fabsf(lengths[p] - 1) <= NORMAL_TOLERANCE)) note(&found->not_unit, at + p, lengths[p]);
 }
 
+/* What a cube map holds where it sees sky, and that it has a distance where it does not. */
+static void check_sky(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t offset,
+                      uint32_t x, size_t count, size_t at) {
+    float alpha[GLINT_BLOCK], v[GLINT_BLOCK];
+    load(job, planes, job->alpha, offset, x, count, alpha);
+    for (size_t c = 0; c < job->count; c++) {
+        const bool distance = !strcmp(job->names[c], "distance.Z");
+        if ((int)c == job->alpha) continue;
+        load(job, planes, (int)c, offset, x, count, v);
+        for (size_t i = 0; i < count; i++) {
+            if (isnan(v[i])) continue; /* told of already */
+            const bool broken =
+                alpha[i] == 0 ? (distance ? !isinf(v[i]) : v[i] != 0) : alpha[i] == 1 && distance && isinf(v[i]);
+            if (broken) note(&found[c].against_sky, at + i, v[i]);
+        }
+    }
+}
+
 static void check_block(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t offset,
                         uint32_t x, size_t count, size_t at) {
     bool nothing[GLINT_BLOCK] = {false};
@@ -136,6 +155,7 @@ static void check_block(const struct job *job, struct tallies *found, const uint
         check_values(job, channel, &found[c], v, (int)c == job->depth ? none : nothing, count, at);
         if (channel->axes[0] >= 0) check_lengths(job, &found[c], planes, c, offset, x, nothing, count, at);
     }
+    if (job->alpha >= 0) check_sky(job, found, planes, offset, x, count, at);
 }
 
 static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *const *planes, size_t line_bytes,
@@ -153,6 +173,7 @@ static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *co
         merge(&job->found[c].not_finite, &found[c].not_finite);
         merge(&job->found[c].out_of_range, &found[c].out_of_range);
         merge(&job->found[c].not_unit, &found[c].not_unit);
+        merge(&job->found[c].against_sky, &found[c].against_sky);
     }
     pthread_mutex_unlock(&job->lock);
     return true;
@@ -173,6 +194,7 @@ static void plan(struct job *job, const struct glint_part_info *part) {
             (struct channel){.row = row, .stored = part->channels[i].stored, .axes = {-1, -1}};
     }
     job->depth = find(job, "depth.Z");
+    job->alpha = part->has_cubemap ? find(job, "A") : -1;
     for (size_t i = 0; i < job->count; i++) {
         const size_t length = strlen(job->names[i]);
         char other[64];
@@ -213,6 +235,8 @@ bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capt
                stored_in_unit(&job, channel->row) || high < INFINITY ? "values in [0, 1]"
                                                                      : "values that are not negative");
         report(check, part, job.names[c], GLINT_RULE_PIXEL_NORMAL, &job.found[c].not_unit, "unit length within 0.02");
+        report(check, part, job.names[c], GLINT_RULE_PIXEL_SKY, &job.found[c].against_sky,
+               strcmp(job.names[c], "distance.Z") ? "0 where A is 0" : "+inf where A is 0, numbers where it is 1");
     }
     return ok;
 }

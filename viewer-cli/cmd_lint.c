@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "args.h"
+#include "depth_facts.h"
 #include "lint/lint.h"
 #include "pipe.h"
 #include "progress.h"
@@ -10,14 +11,15 @@
 
 struct arguments {
     const char *path, *out;
-    bool json, fix;
+    bool json, fix, list;
 };
 
-enum { KEY_FIX = 256 };
+enum { KEY_FIX = 256, KEY_LIST };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"fix",    KEY_FIX, NULL,   0, "Write a copy with the declarations that mend the findings, pixels untouched; needs -o", 0},
+    {"fix",    KEY_FIX, NULL,   0, "Write a copy with the declarations that mend what is certain, and with cube maps' sky as FORMAT.md has it; all other pixels are untouched, and what would make anything agree less is left out; needs -o", 0},
+    {"list",   KEY_LIST, NULL,  0, "List everything that can be found, by its name", 0},
     {"output", 'o',     "F2",   0, "The copy that --fix writes", 0},
     {"json",   'j',     NULL,   0, "Print JSON", 0},
     {0},
@@ -26,6 +28,7 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint lint frame.exr", "what is likely wrong with a dump"},
     {"glint lint frame.exr --fix -o mended.exr", "with what a declaration can mend"},
+    {"glint lint --list", "every mistake that it knows"},
     {0},
 };
 
@@ -36,6 +39,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     switch (key) {
     case KEY_FIX:
         a->fix = true;
+        return 0;
+    case KEY_LIST:
+        a->list = true;
         return 0;
     case 'o':
         a->out = arg;
@@ -48,7 +54,7 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         a->path = arg;
         return 0;
     case ARGP_KEY_END:
-        if (!a->path) argp_error(state, "which capture?");
+        if (!a->path && !a->list) argp_error(state, "which capture? --list shows what can be found in one");
         if (a->fix != (a->out != NULL)) argp_error(state, "--fix and -o go together");
         return 0;
     }
@@ -67,30 +73,46 @@ static bool find(struct glint_capture *capture, struct lint_findings *findings, 
         lint_find_readings(&data, &reading, &read, findings);
         progress_report(progress, "faces", 0.8);
         lint_find_faces(&data, &reading, &read, findings);
+        char text[160], line[240];
+        const struct depth_facts facts = depth_facts(capture);
+        depth_steps_text(&facts, text, sizeof text);
+        snprintf(line, sizeof line, "%s, %s, has steps of %s", facts.storage, facts.encoding, text);
+        lint_find_coarse_depth(&data, &reading, line, findings);
         lint_find_values(&data, &reading, &read, findings);
     }
     lint_data_finish(&data);
     return ok;
 }
 
-static json_t *findings_json(const struct lint_findings *findings, const struct lint_agreement *agreement) {
+static json_t *findings_json(const struct lint_findings *findings, const struct lint_agreement *agreement,
+                             const struct glint_capture *capture) {
     json_t *items = json_array(), *undecided = json_array(), *measures = json_array();
     for (size_t i = 0; i < findings->count; i++) {
         const struct lint_finding *f = &findings->items[i];
-        json_array_append_new(items, json_pack("{ss ss ss ss ss sb}", "id", f->id, "what", f->what, "likelihood",
-                                               f->likelihood, "evidence", f->evidence, "mend", f->mend, "fixable",
-                                               f->attribute != NULL));
+        json_t *item = json_pack("{ss ss ss ss ss sb}", "id", f->id, "what", f->what, "likelihood", f->likelihood,
+                                 "evidence", f->evidence, "mend", f->mend, "fixable", lint_may_mend(f));
+        if (f->either[0]) json_object_set_new(item, "or", json_string(f->either));
+        json_array_append_new(items, item);
     }
     for (size_t i = 0; i < findings->undecided_count; i++)
         json_array_append_new(undecided, json_string(findings->undecided[i]));
     for (int m = 0; m < LINT_MEASURES; m++)
         json_array_append_new(measures, json_pack("{ss sI sf}", "what", lint_measure_names[m], "compared",
                                                   (json_int_t)agreement->count[m], "share", agreement->share[m]));
-    return json_pack("{so so so}", "findings", items, "undecided", undecided, "agreement", measures);
+    const struct depth_facts facts = depth_facts(capture);
+    return json_pack("{so so so so}", "findings", items, "undecided", undecided, "agreement", measures, "depth",
+                     depth_facts_json(&facts));
+}
+
+static void print_depth(const struct glint_capture *capture) {
+    const struct depth_facts facts = depth_facts(capture);
+    char text[160];
+    depth_steps_text(&facts, text, sizeof text);
+    printf("\ndepth storage %s, %s: steps of %s\n", facts.storage, facts.encoding, text);
 }
 
 static void print_findings(const char *path, const struct lint_findings *findings,
-                           const struct lint_agreement *agreement) {
+                           const struct lint_agreement *agreement, const struct glint_capture *capture) {
     static const char *const titles[] = {"<as declared, these agree", ">share", ">compared", NULL};
     struct table *table = table_create(titles);
     for (int m = 0; m < LINT_MEASURES; m++) {
@@ -100,26 +122,49 @@ static void print_findings(const char *path, const struct lint_findings *finding
     }
     table_print(table, stdout);
     table_destroy(&table);
+    print_depth(capture);
     for (size_t i = 0; i < findings->count; i++) {
         const struct lint_finding *f = &findings->items[i];
-        printf("\n%s  [%s, %s]\n    %s\n    to mend: %s\n", f->what, f->id, f->likelihood, f->evidence, f->mend);
+        printf("\n%s%s", f->either[0] ? "either " : "", f->what);
+        if (f->either[0]) printf(", or %s", f->either);
+        printf("  [%s, %s]\n    %s\n    to mend: %s\n", f->id, f->likelihood, f->evidence, f->mend);
     }
     printf("\nCannot be told from the data:\n");
     for (size_t i = 0; i < findings->undecided_count; i++) printf("  - %s\n", findings->undecided[i]);
     printf("\n%s: %zu finding%s\n", path, findings->count, findings->count == 1 ? "" : "s");
 }
 
-static bool fix(const struct arguments *a, const char *path, const struct lint_findings *findings,
-                struct glint_error *err) {
+static bool fix(const struct arguments *a, const char *path, struct lint_findings *findings, struct glint_error *err) {
     size_t fixed = 0;
     if (!lint_fix(path, a->out, findings, &fixed, err)) return false;
-    if (!a->json) printf("%s: %zu declaration%s changed\n", a->out, fixed, fixed == 1 ? "" : "s");
+    for (size_t i = 0; i < findings->count && !a->json; i++)
+        if (lint_may_mend(&findings->items[i]) && findings->items[i].left_out)
+            printf("%s is not mended: something else would agree less\n", findings->items[i].id);
+    if (!a->json) printf("%s: %zu finding%s mended\n", a->out, fixed, fixed == 1 ? "" : "s");
     return true;
+}
+
+static enum status list(bool json) {
+    static const char *const titles[] = {"<name", "<what it means", NULL};
+    json_t *items = json_array();
+    struct table *table = json ? NULL : table_create(titles);
+    const char *id, *what;
+    for (size_t i = 0; (id = lint_id(i, &what)) != NULL; i++) {
+        json_array_append_new(items, json_pack("{ss ss}", "id", id, "what", what));
+        table_cell(table, "%s", id);
+        table_cell(table, "%s", what);
+    }
+    if (json) return print_json(items);
+    table_print(table, stdout);
+    table_destroy(&table);
+    json_decref(items);
+    return STATUS_DONE;
 }
 
 static enum status run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_lint, argc, argv, &a);
+    if (a.list) return list(a.json);
     struct glint_error err = {0};
     struct progress progress;
     struct pipe pipe;
@@ -132,8 +177,8 @@ static enum status run(int argc, char **argv) {
               find(capture, findings, &agreement, &progress, &err);
     progress_end(&progress);
     enum status status = ok && findings->count ? STATUS_CHECK : STATUS_DONE;
-    if (ok && a.json) print_json(findings_json(findings, &agreement));
-    else if (ok) print_findings(a.path, findings, &agreement);
+    if (ok && a.json) print_json(findings_json(findings, &agreement, capture));
+    else if (ok) print_findings(a.path, findings, &agreement, capture);
     ok = ok && (!a.fix || fix(&a, path, findings, &err));
     glint_capture_close(&capture);
     pipe_finish(&pipe);
@@ -147,12 +192,13 @@ const struct command cmd_lint = {
     .summary = "the likely convention mistakes of an engine's dump",
     .description =
         "Compares what independent images of a capture say of the same surfaces (depth and normals, depth and cube "
-        "maps, "
-        "depth and motion, colours on screen and in cube maps), as declared and under every other reading. Where "
-        "another "
-        "reading agrees and the declared one does not, it says so, with the evidence, the likelihood and the "
-        "declaration "
-        "that would mend it. What the data alone cannot decide is listed. The exit status is 1 when anything is found.",
+        "maps, depth and motion, colours on screen and in cube maps, this frame and the one before), as declared and "
+        "under every other reading. Where another reading agrees and the declared one does not, it says so, with the "
+        "evidence, the likelihood and the declaration that would mend it; where two explain the data alike, it names "
+        "both. No cause is named that leaves less than a fifth of the places in agreement, and where rounding of depth "
+        "or normals may decide a comparison it is left out. Then what cube maps hold under sky and in their inner "
+        "volumes, and what depth's storage can tell apart. What the data alone cannot decide is listed. The exit "
+        "status is 1 when anything is found. --list names everything that can be.",
     .options = options,
     .parse = parse,
     .examples = examples,

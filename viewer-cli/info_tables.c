@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "camera_facts.h"
+#include "depth_facts.h"
 #include "table.h"
 
 /* "cubemap" of "cubemap.003", with the number; the whole name and -1 otherwise. */
@@ -120,6 +121,20 @@ void info_print_parts(const struct glint_capture *capture) {
         table_cell(table, "%.*s%s%s%s", (int)strcspn(meaning, ":;"), meaning,
                    part->previous ? ", one frame earlier" : "", part->sibling[0] ? "; stored in " : "", part->sibling);
     }
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+void info_print_depth(const struct glint_capture *capture) {
+    static const char *const titles[] = {"<depth storage", "<encoding", "<steps", NULL};
+    const struct depth_facts facts = depth_facts(capture);
+    struct table *table = table_create(titles);
+    char text[160];
+    depth_steps_text(&facts, text, sizeof text);
+    table_cell(table, "%s", facts.storage);
+    table_cell(table, "%s", facts.encoding);
+    table_cell(table, "%s", text);
+    putchar('\n');
     table_print(table, stdout);
     table_destroy(&table);
 }

@@ -9,6 +9,8 @@ void info_print_camera(const struct glint_frame *frame);
 /* Parts and channels that differ by their number alone are one line each. */
 void info_print_parts(const struct glint_capture *capture);
 void info_print_channels(const struct channel_table *all);
+/* What depth's storage can tell apart. */
+void info_print_depth(const struct glint_capture *capture);
 /* Nothing when the capture has no cube maps. */
 void info_print_cubemaps(const struct glint_capture *capture);
 void info_print_survey(const struct glint_survey *survey);

@@ -86,7 +86,7 @@ void fixture_init(struct fixture *f) {
         for (uint32_t c = 0; c < 4; c++) f->color[4 * i + c] = (float)fixture_noise(i, 40 + c);
     }
     for (uint32_t i = 0; i < FIX_CUBE * FIX_CUBE * 6; i++) {
-        for (uint32_t c = 0; c < 4; c++) f->cube[5 * i + c] = (float)fixture_noise(i, 20 + c);
+        for (uint32_t c = 0; c < 3; c++) f->cube[5 * i + c] = i % 5 == 0 ? 0 : (float)fixture_noise(i, 20 + c);
         f->cube[5 * i + 4] = i % 5 == 0 ? INFINITY : (float)(1 + 50 * fixture_noise(i, 30));
         f->cube[5 * i + 3] = i % 5 == 0 ? 0 : 1;
     }

@@ -190,6 +190,17 @@ static void behind(struct rewrite *r) {
     floats(r, "cubemap.017", "distance.Z")[9] = -3;
 }
 
+/* Texel 10 of the fixture's cube maps is sky, 9 is not. */
+static void sky_color(struct rewrite *r) {
+    floats(r, "cubemap.000", "G")[10] = 0.5f;
+}
+static void near_sky(struct rewrite *r) {
+    floats(r, "cubemap.017", "distance.Z")[10] = 0;
+}
+static void solid_sky(struct rewrite *r) {
+    floats(r, "cubemap.017", "distance.Z")[9] = INFINITY;
+}
+
 static const struct {
     const char *rule, *words[2]; /* in the message */
     void (*change)(struct rewrite *r);
@@ -234,6 +245,9 @@ static const struct {
     {"pixels-range", {"cubemap.000: A", "-0.5"}, heavy, true},
     {"pixels-range", {"part scene: B", "not negative"}, dark, true},
     {"pixels-range", {"cubemap.017: distance.Z", "-3"}, behind, true},
+    {"pixels-sky", {"cubemap.000: G", "found 1 other, first 0.5 at (2, 1)"}, sky_color, true},
+    {"pixels-sky", {"cubemap.017: distance.Z", "first 0 at (2, 1)"}, near_sky, true},
+    {"pixels-sky", {"cubemap.017: distance.Z", "first inf at (1, 1)"}, solid_sky, true},
 };
 
 static void every_rule_is_reported_by_name(void **state) {
@@ -296,6 +310,25 @@ static void all_violations_are_reported_together(void **state) {
     unlink(path);
 }
 
+/* An alpha between 0 and 1, as filtering leaves it, says nothing of what stands beside it. */
+static void half_sky_binds_nothing(void **state) {
+    (void)state;
+    static struct rewrite r;
+    static struct found found;
+    char path[512];
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, fixture_path(path, "half.exr"), FIXTURE_PARTS, NULL, &err));
+    rewrite_load(&r, path);
+    floats(&r, "cubemap.000", "A")[10] = 0.25f;
+    floats(&r, "cubemap.000", "G")[10] = 0.5f;
+    floats(&r, "cubemap.000", "distance.Z")[10] = 7;
+    rewrite_save(&r, path);
+    rewrite_finish(&r);
+    validate(path, &found);
+    if (found.count) fail_msg("%s: %s", found.rules[0], found.messages[0]);
+    unlink(path);
+}
+
 /* Under sky a G-buffer may hold anything. */
 static void under_sky_only_depth_is_looked_at(void **state) {
     (void)state;
@@ -353,8 +386,8 @@ int main(int argc, char **argv) {
     example = argc > 1 ? argv[1] : "";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_whole_capture_has_no_violation),     cmocka_unit_test(every_rule_is_reported_by_name),
-        cmocka_unit_test(all_violations_are_reported_together), cmocka_unit_test(under_sky_only_depth_is_looked_at),
-        cmocka_unit_test(the_example_is_a_valid_capture),
+        cmocka_unit_test(all_violations_are_reported_together), cmocka_unit_test(half_sky_binds_nothing),
+        cmocka_unit_test(under_sky_only_depth_is_looked_at),    cmocka_unit_test(the_example_is_a_valid_capture),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -67,6 +67,13 @@ struct outcome glint(const char *first, ...) {
     return outcome;
 }
 
+struct outcome glint_with(const char *const *arguments) {
+    const char *argv[40] = {getenv("GLINT")};
+    assert_non_null(argv[0]);
+    for (size_t i = 0; i < 38 && arguments[i]; i++) argv[i + 1] = arguments[i];
+    return run_arguments(argv);
+}
+
 struct outcome run_program(const char *first, ...) {
     const char *argv[40] = {first};
     va_list rest;

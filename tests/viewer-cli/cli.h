@@ -17,6 +17,8 @@ struct outcome {
 
 /* The program named by $GLINT with these arguments, NULL-terminated. */
 struct outcome glint(const char *first, ...);
+/* The same of a NULL-terminated list. */
+struct outcome glint_with(const char *const *arguments);
 /* Any program; the first argument is its name. */
 struct outcome run_program(const char *first, ...);
 void outcome_free(struct outcome *outcome);

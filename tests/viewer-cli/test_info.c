@@ -18,6 +18,32 @@ static int make_capture(void **state) {
     return 0;
 }
 
+/* Floats hold a distance of 10 m to 2^-20 m; D24 with near at 0.1 m to 10² / 0.1 / (2²⁴ − 1), in the table as in JSON. */
+static void info_tells_what_depth_resolves(void **state) {
+    (void)state;
+    const char *path = in_folder("device.exr");
+    free(glint_ok("sample", "mirror_box", "-o", path, "--size=32x18", "--cube-size", "8", "--depth", "device"));
+    const struct {
+        const char *file, *storage;
+        double at_10_m;
+    } cases[] = {{capture, "R32F", ldexp(1, -20)}, {path, "D24", 1000.0 / 16777215}};
+    for (size_t i = 0; i < 2; i++) {
+        char *text = glint_ok("info", cases[i].file, "--headers", "--json");
+        json_t *json = parse_json(text);
+        const json_t *depth = json_object_get(json, "depth"),
+                     *step = json_array_get(json_object_get(depth, "steps"), 1);
+        assert_string_equal(json_string_value(json_object_get(depth, "storage")), cases[i].storage);
+        assert_true(number(step, "at_m") == 10);
+        /* two neighbours of D24 are not at 10 m itself */
+        assert_true(fabs(number(step, "step_m") / cases[i].at_10_m - 1) < 1e-4);
+        json_decref(json);
+        free(text);
+    }
+    char *text = glint_ok("info", path, "--headers");
+    assert_contains(text, "0.6 µm at 1 m, 60 µm at 10 m");
+    free(text);
+}
+
 static void info_tells_the_camera_and_the_ranges(void **state) {
     (void)state;
     char *text = glint_ok("info", capture), *json_text = glint_ok("info", capture, "--json");
@@ -146,6 +172,7 @@ static void ranges_are_of_surfaces_alone(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(info_tells_the_camera_and_the_ranges),
+        cmocka_unit_test(info_tells_what_depth_resolves),
         cmocka_unit_test(ranges_equal_those_of_oiiotool),
         cmocka_unit_test(ranges_are_of_surfaces_alone),
     };

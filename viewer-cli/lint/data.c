@@ -46,9 +46,11 @@ static bool read_cube(struct lint_data *data, struct glint_capture *capture, con
                       struct glint_error *err) {
     static const char *const names[] = {"R", "G", "B", "A", "distance.Z"};
     struct lint_cube *cube = &data->cubes[data->cube_count];
-    *cube = (struct lint_cube){.size = part->width, .has_distance = has(part, "distance.Z")};
+    *cube = (struct lint_cube){.map = part->cubemap,
+                               .size = part->width,
+                               .has_distance = has(part, "distance.Z"),
+                               .elsewhere = part->sibling[0] != '\0'};
     snprintf(cube->name, sizeof cube->name, "%.63s", part->name);
-    memcpy(cube->center, part->cubemap.center, sizeof cube->center);
     cube->texels = read_floats(capture, part, names, 5, err);
     data->cube_count += cube->texels != NULL;
     data->cube_encoding = part->encodings.color;
@@ -97,13 +99,42 @@ static bool choose_samples(struct lint_data *data, struct glint_error *err) {
     return true;
 }
 
+/* The frame before, of the same size; what is missing stays NULL. */
+static bool read_before(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
+    static const char *const depth[] = {"depth.Z"}, *const color[] = {"R", "G", "B"};
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "previous.gbuffer"),
+                                 *lit = glint_capture_find(capture, "previous.lit");
+    if (gbuffer) data->before_encoding = gbuffer->encodings.depth;
+    return (!gbuffer || (data->before_depth = read_floats(capture, gbuffer, depth, 1, err))) &&
+           (!lit || (data->before_lit = read_floats(capture, lit, color, 3, err)));
+}
+
+/* How finely what is compared was held, as declared and as it is found. */
+static bool read_rounding(struct lint_data *data, const struct glint_part_info *gbuffer, struct glint_error *err) {
+    static const int steps[5][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    data->depth_half_step = calloc((size_t)data->width * data->height + 1, sizeof *data->depth_half_step);
+    if (!data->depth_half_step) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    data->normal_half_step = glint_channel_step(data->capture, gbuffer, "normal.X", 1) / 2;
+    lint_find_rounding(data);
+    for (size_t i = 0; i < data->sample_count; i++)
+        for (int k = 0; k < 5; k++) {
+            const size_t at = (size_t)data->samples[i] + (size_t)(steps[k][1] * (int)data->width + steps[k][0]);
+            const double v = (double)data->depth[at];
+            if (!isfinite(v) || data->depth_half_step[at] > 0) continue;
+            const double declared = glint_channel_step(data->capture, gbuffer, "depth.Z", v);
+            data->depth_half_step[at] = (float)(0.5 * fmax(declared, lint_rounding_step(data, v)));
+        }
+    return true;
+}
+
 bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
     static const char *const depth[] = {"depth.Z"}, *const normal[] = {"normal.X", "normal.Y", "normal.Z"},
                              *const motion[] = {"motion.X", "motion.Y"}, *const color[] = {"R", "G", "B"},
                              *const material[] = {"material.roughness", "material.metalness", "material.specular"};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"),
                                  *lit = glint_capture_find(capture, "lit");
-    *data = (struct lint_data){.frame = *glint_capture_frame(capture),
+    *data = (struct lint_data){.capture = capture,
+                               .frame = *glint_capture_frame(capture),
                                .encodings = gbuffer->encodings,
                                .lit_encoding = lit->encodings.color,
                                .two_channels = !has(gbuffer, "normal.Z"),
@@ -115,11 +146,12 @@ bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struc
            (data->material = read_floats(capture, gbuffer, material, 3, err)) &&
            (!data->has_motion || (data->motion = read_floats(capture, gbuffer, motion, 2, err))) &&
            (data->lit = read_floats(capture, lit, color, 3, err)) && read_cubes(data, capture, err) &&
-           choose_samples(data, err);
+           read_before(data, capture, err) && choose_samples(data, err) && read_rounding(data, gbuffer, err);
 }
 
 void lint_data_finish(struct lint_data *data) {
-    float *all[] = {data->depth, data->normal, data->motion, data->lit, data->material};
+    float *all[] = {data->depth,    data->normal,       data->motion,     data->lit,
+                    data->material, data->before_depth, data->before_lit, data->depth_half_step};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
     for (size_t i = 0; i < data->cube_count; i++) free(data->cubes[i].texels);
     free(data->samples);

@@ -13,10 +13,11 @@ struct votes {
     size_t agree[6][6][TURNS], beyond[6][6][TURNS]; /* of a face of the format: each stored face, each turn */
 };
 
-static void vote(struct votes *votes, const struct lint_reading *reading, const struct lint_cube *cube,
+static void vote(struct votes *votes, const struct lint_data *data, const struct lint_reading *reading, size_t c,
                  const double world[3]) {
+    const struct lint_cube *cube = &data->cubes[c];
     double d[3], u, v;
-    for (int k = 0; k < 3; k++) d[k] = world[k] - reading->center_scale * cube->center[k];
+    lint_from_center(data, reading, c, world, d);
     const double away = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     if (!(away > 0) || !isfinite(away)) return;
     const int face = cube_face_of(d, &u, &v);
@@ -53,7 +54,8 @@ static bool better(const struct votes *votes, int face, int *stored, int *turn) 
             *stored = s;
             *turn = t;
         }
-    return all >= LINT_ENOUGH / 2 && 1 - best < 0.5 * (1 - before) && best > before + 0.05 && 5 * most > 6 * least;
+    return all >= LINT_ENOUGH / 2 && best >= LINT_TELLS && 1 - best < 0.5 * (1 - before) && best > before + 0.05 &&
+           5 * most > 6 * least;
 }
 
 static const char *turn_name(int turn) {
@@ -80,7 +82,7 @@ void lint_find_faces(const struct lint_data *data, struct lint_reading *reading,
         double world[3];
         if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
         for (size_t c = 0; c < data->cube_count; c++)
-            if (data->cubes[c].has_distance) vote(&votes, reading, &data->cubes[c], world);
+            if (data->cubes[c].has_distance) vote(&votes, data, reading, c, world);
     }
     for (int f = 0; f < 6; f++) {
         if (!better(&votes, f, &other.face[f], &other.turn[f])) {
@@ -99,8 +101,6 @@ void lint_find_faces(const struct lint_data *data, struct lint_reading *reading,
     const struct lint_agreement now = lint_agree(data, &other, NULL, 0);
     const char *id = !moved && same_turn >= 0 ? "cubemap.faces_turned" : "cubemap.faces_exchanged";
     struct lint_finding *f = lint_add(findings, id, now.share[LINT_CUBEMAPS] > 0.6 ? "certain" : "likely");
-    snprintf(f->what, sizeof f->what, "%s",
-             moved ? "faces of cube maps stand in another order" : "faces of cube maps are mirrored or turned");
     snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s agree, as declared %.0f %%", text,
              100 * now.share[LINT_CUBEMAPS], now.count[LINT_CUBEMAPS], lint_measure_names[LINT_CUBEMAPS],
              100 * agreement->share[LINT_CUBEMAPS]);

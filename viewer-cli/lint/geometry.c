@@ -24,24 +24,43 @@ struct lint_reading lint_declared(const struct lint_data *data) {
     return r;
 }
 
+/* A rotation as an engine's floats have it is orthonormal to 1e-7: far from the origin its transpose would misplace the eye. */
+static void invert(const double m[9], double out[9]) {
+    double det = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            const int a = (k + 1) % 3, b = (k + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+            out[3 * i + k] = m[3 * a + c] * m[3 * b + d] - m[3 * a + d] * m[3 * b + c];
+        }
+    for (int k = 0; k < 3; k++) det += m[k] * out[3 * k];
+    for (int i = 0; i < 9; i++) out[i] /= det;
+}
+
 static struct lint_view view_of(const struct glint_camera *camera, const struct lint_reading *reading) {
     const double *m = camera->world_to_view, *p = camera->view_to_clip;
     struct lint_view v = {.a = p[0], .b = p[5], .c = p[2], .d = p[6], .A = p[10], .B = p[11], .s = p[14]};
     const double translation[3] = {m[3], m[7], m[11]};
+    double *stored = reading->inverse_camera ? v.inverse : v.rotation;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
-            v.rotation[3 * i + k] = reading->inverse_camera ? m[4 * k + i] : reading->view_sign[i] * m[4 * i + k];
+            stored[3 * i + k] = (reading->inverse_camera ? 1 : reading->view_sign[i]) * m[4 * i + k];
+    invert(stored, reading->inverse_camera ? v.rotation : v.inverse);
     /* the eye: where the view is 0. The inverse of what is stored has it as its translation. */
     for (int i = 0; i < 3; i++) {
         v.position[i] = reading->inverse_camera ? translation[i] : 0;
-        for (int k = 0; k < 3 && !reading->inverse_camera; k++) v.position[i] -= m[4 * k + i] * translation[k];
+        for (int k = 0; k < 3 && !reading->inverse_camera; k++)
+            v.position[i] -= v.inverse[3 * i + k] * reading->view_sign[k] * translation[k];
     }
     return v;
 }
 
 struct lint_eyes lint_eyes_of(const struct lint_data *data, const struct lint_reading *reading) {
-    return (struct lint_eyes){view_of(&data->frame.camera, reading),
-                              view_of(data->frame.has_previous ? &data->frame.previous : &data->frame.camera, reading)};
+    const struct glint_camera *now = &data->frame.camera,
+                              *before = data->frame.has_previous ? &data->frame.previous : now;
+    struct lint_reading current = *reading;
+    current.inverse_camera = reading->inverse_camera != reading->inverse_current;
+    return (struct lint_eyes){view_of(reading->swapped_cameras ? before : now, &current),
+                              view_of(reading->swapped_cameras ? now : before, reading)};
 }
 
 /* The direction through a place whose view z is s. */
@@ -82,9 +101,9 @@ static bool along_axis(const struct lint_data *data, const struct lint_reading *
     return isfinite(*depth) && *depth > 0;
 }
 
-bool lint_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-                uint32_t x, uint32_t y, double *depth) {
-    const double v = (double)data->depth[(size_t)y * data->width + x];
+static bool depth_in(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                     const float *image, uint32_t x, uint32_t y, double *depth) {
+    const double v = (double)image[(size_t)y * data->width + x];
     if (!along_axis(data, reading, view, v, depth)) return false;
     if (reading->radial) {
         double r[3];
@@ -92,6 +111,32 @@ bool lint_depth(const struct lint_data *data, const struct lint_reading *reading
         *depth /= sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
     }
     return true;
+}
+
+bool lint_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                uint32_t x, uint32_t y, double *depth) {
+    return depth_in(data, reading, view, data->depth, x, y, depth);
+}
+
+bool lint_depth_before(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                       uint32_t x, uint32_t y, double *depth) {
+    struct lint_reading own = *reading;
+    if (data->before_encoding != data->encodings.depth) own.depth = data->before_encoding;
+    return depth_in(data, &own, view, data->before_depth, x, y, depth);
+}
+
+double lint_depth_error(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                        uint32_t x, uint32_t y, double depth) {
+    const double h = (double)data->depth_half_step[(size_t)y * data->width + x];
+    switch (reading->depth) {
+    case GLINT_DEPTH_VIEW_LINEAR:
+        return h * reading->depth_scale;
+    case GLINT_DEPTH_LOGARITHMIC:
+    case GLINT_DEPTH_LOGARITHMIC_REVERSED:
+        return h * depth * log(data->frame.depth_far / data->frame.depth_near);
+    default:
+        return h * depth * depth / fabs(view->B) * (reading->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? 2 : 1);
+    }
 }
 
 void lint_view_position(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
@@ -103,7 +148,7 @@ void lint_view_position(const struct lint_data *data, const struct lint_reading 
 static void turn_to_world(const struct lint_view *view, const double in[3], double out[3]) {
     for (int i = 0; i < 3; i++) {
         out[i] = 0;
-        for (int k = 0; k < 3; k++) out[i] += view->rotation[3 * k + i] * in[k];
+        for (int k = 0; k < 3; k++) out[i] += view->inverse[3 * i + k] * in[k];
     }
 }
 
@@ -113,12 +158,13 @@ void lint_to_world(const struct lint_view *view, const double in[3], double out[
 }
 
 bool lint_project(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-                  const double world[3], double out[2]) {
+                  const double world[3], double out[2], double *depth) {
     double v[3] = {0, 0, 0};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) v[i] += view->rotation[3 * i + k] * (world[k] - view->position[k]);
     const double w = view->s * v[2], up = reading->clip_y == GLINT_CLIP_Y_UP ? 1 : -1;
     if (!(w > 1e-9)) return false;
+    *depth = w;
     out[0] = ((view->a * v[0] + view->c * v[2]) / w + 1) / 2 * data->width;
     out[1] = (1 - up * (view->b * v[1] + view->d * v[2]) / w) / 2 * data->height;
     return isfinite(out[0]) && isfinite(out[1]);
@@ -128,17 +174,13 @@ static double sign_of(double v) {
     return v < 0 ? -1 : 1;
 }
 
-static void decode_normal(const struct lint_reading *reading, const float *v, const struct lint_view *view,
+static void decode_normal(const struct lint_reading *reading, const double *v, const struct lint_view *view,
                           double n[3]) {
-    const double x = (double)v[0], y = (double)v[1];
+    const double x = v[0], y = v[1];
     switch (reading->normal) {
     case GLINT_NORMAL_SIGNED:
     case GLINT_NORMAL_UNORM:
-        for (int i = 0; i < 3; i++) {
-            n[i] = (double)v[reading->normal_axis[i]];
-            if (reading->normal == GLINT_NORMAL_UNORM) n[i] = 2 * n[i] - 1;
-            n[i] *= reading->normal_sign[i];
-        }
+        for (int i = 0; i < 3; i++) n[i] = reading->normal == GLINT_NORMAL_UNORM ? 2 * v[i] - 1 : v[i];
         break;
     case GLINT_NORMAL_OCTAHEDRAL:
         n[0] = 2 * x - 1;
@@ -158,18 +200,45 @@ static void decode_normal(const struct lint_reading *reading, const float *v, co
     }
 }
 
-bool lint_normal(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-                 size_t pixel, double out[3]) {
-    double n[3] = {0, 0, 0};
-    const bool two = reading->normal == GLINT_NORMAL_OCTAHEDRAL || reading->normal == GLINT_NORMAL_VIEW_XY;
-    if (two != data->two_channels) return false;
-    decode_normal(reading, &data->normal[3 * pixel], view, n);
+/* From stored values to world axes. */
+static bool normal_of(const struct lint_reading *reading, const struct lint_view *view, const double v[3],
+                      double out[3]) {
+    double stored[3] = {0, 0, 0}, n[3];
+    decode_normal(reading, v, view, stored);
+    for (int i = 0; i < 3; i++) n[i] = stored[reading->normal_axis[i]] * reading->normal_sign[i];
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(length > 1e-6) || !isfinite(length)) return false;
     for (int i = 0; i < 3; i++) n[i] /= length;
     if (reading->space == GLINT_SPACE_VIEW || reading->normal == GLINT_NORMAL_VIEW_XY) turn_to_world(view, n, out);
     else memcpy(out, n, sizeof n);
     return true;
+}
+
+bool lint_normal(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                 size_t pixel, double out[3]) {
+    const bool two = reading->normal == GLINT_NORMAL_OCTAHEDRAL || reading->normal == GLINT_NORMAL_VIEW_XY;
+    const float *v = &data->normal[3 * pixel];
+    return two == data->two_channels && normal_of(reading, view, (const double[]){v[0], v[1], v[2]}, out);
+}
+
+double lint_normal_rounding(const struct lint_data *data, const struct lint_reading *reading,
+                            const struct lint_view *view, size_t pixel, const double normal[3]) {
+    const float *v = &data->normal[3 * pixel];
+    const double h = data->normal_half_step;
+    double least = 1, n[3];
+    for (int corner = 0; corner < 8; corner++) {
+        const double moved[3] = {v[0] + (corner & 1 ? h : -h), v[1] + (corner & 2 ? h : -h),
+                                 v[2] + (corner & 4 ? h : -h)};
+        if (!normal_of(reading, view, moved, n)) return -1;
+        least = fmin(least, n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2]);
+    }
+    return least;
+}
+
+void lint_from_center(const struct lint_data *data, const struct lint_reading *reading, size_t cube,
+                      const double world[3], double out[3]) {
+    for (int k = 0; k < 3; k++)
+        out[k] = world[k] - reading->center_scale * data->cubes[cube].map.center[k] - reading->center_offset[cube][k];
 }
 
 void lint_motion(const struct lint_data *data, const struct lint_reading *reading, size_t pixel, double out[2]) {

@@ -6,15 +6,12 @@
 #include "lint.h"
 
 const char *const lint_measure_names[] = {"normals with the depths around them", "depth with the cube maps' distances",
-                                          "motion with depth and both cameras", "lit with the cube maps' colours"};
+                                          "motion with depth and both cameras", "lit with the cube maps' colours",
+                                          "the frame before with depth and both cameras"};
 
 static const double SAME_DIRECTION = 0.9986; /* cosine of 3 degrees: cameras are often turned by little more */
 
-struct tally {
-    size_t agree, count;
-};
-
-static void add(struct tally *tally, bool agrees) {
+void lint_count(struct lint_tally *tally, bool agrees) {
     tally->count++;
     tally->agree += agrees;
 }
@@ -23,47 +20,85 @@ static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The normal of the surface through a pixel and its four neighbours, towards the eye, in world axes; false where they do not lie
-   on one. */
-static bool facet(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-                  uint32_t x, uint32_t y, double out[3]) {
+bool lint_same_direction(const double a[3], const double b[3]) {
+    return dot(a, b) > SAME_DIRECTION;
+}
+
+/* Across the two ways between opposite neighbours, towards the eye; the cosine of the angle to it, 0 when there is none. */
+static double across(const double e[2][3], const double to_eye[3], double out[3]) {
+    out[0] = e[0][1] * e[1][2] - e[0][2] * e[1][1];
+    out[1] = e[0][2] * e[1][0] - e[0][0] * e[1][2];
+    out[2] = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+    const double length = sqrt(dot(out, out));
+    if (!(length > 0) || !isfinite(length)) return 0;
+    const double facing = dot(out, to_eye) < 0 ? -1 : 1;
+    for (int k = 0; k < 3; k++) out[k] *= facing / length;
+    return dot(out, to_eye) / sqrt(dot(to_eye, to_eye));
+}
+
+/* The cosine of how far rounding may have turned a facet: its neighbours moved by as much along their rays, the opposite ones
+   against each other. */
+static double facet_rounding(double p[5][3], const double error[5], const double to_eye[3], const double eye[3],
+                             const double depth[5], const double normal[3]) {
+    double least = 1;
+    for (int corner = 0; corner < 4; corner++) {
+        double e[2][3], n[3];
+        for (int axis = 0; axis < 2; axis++)
+            for (int k = 0; k < 3; k++) {
+                const int i = 2 * axis + 1, way = corner & (1 << axis) ? 1 : -1;
+                e[axis][k] = p[i + 1][k] - p[i][k] +
+                             way * ((p[i][k] - eye[k]) * error[i] / depth[i] +
+                                    (p[i + 1][k] - eye[k]) * error[i + 1] / depth[i + 1]);
+            }
+        if (!(across((const double(*)[3])e, to_eye, n) > 0)) return -1;
+        least = fmin(least, dot(n, normal));
+    }
+    return least;
+}
+
+enum lint_facet lint_facet_of(const struct lint_data *data, const struct lint_reading *reading,
+                              const struct lint_view *view, uint32_t pixel, double out[3]) {
     static const int steps[5][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    double depth[5], p[5][3], e[2][3];
+    double depth[5], error[5], p[5][3], e[2][3], to_eye[3];
     for (int i = 0; i < 5; i++) {
-        const uint32_t px = x + (uint32_t)steps[i][0], py = y + (uint32_t)steps[i][1];
-        if (!lint_depth(data, reading, view, px, py, &depth[i])) return false;
+        const uint32_t px = pixel % data->width + (uint32_t)steps[i][0],
+                       py = pixel / data->width + (uint32_t)steps[i][1];
+        if (!lint_depth(data, reading, view, px, py, &depth[i])) return LINT_NO_FACET;
+        error[i] = lint_depth_error(data, reading, view, px, py, depth[i]);
         double in[3];
         lint_view_position(data, reading, view, px + 0.5, py + 0.5, depth[i], in);
         lint_to_world(view, in, p[i]);
     }
-    /* 1/depth is linear over a plane */
-    for (int i = 1; i < 5; i += 2)
-        if (fabs(depth[0] / depth[i] + depth[0] / depth[i + 1] - 2) > 2e-3) return false;
+    /* 1/depth is linear over a plane, but for what rounding does */
+    for (int i = 1; i < 5; i += 2) {
+        const double rounding = 2 * error[0] / depth[0] + error[i] / depth[i] + error[i + 1] / depth[i + 1];
+        if (fabs(depth[0] / depth[i] + depth[0] / depth[i + 1] - 2) > 2e-3 + rounding) return LINT_NO_FACET;
+    }
     for (int k = 0; k < 3; k++) {
         e[0][k] = p[2][k] - p[1][k];
         e[1][k] = p[4][k] - p[3][k];
+        to_eye[k] = view->position[k] - p[0][k];
     }
-    out[0] = e[0][1] * e[1][2] - e[0][2] * e[1][1];
-    out[1] = e[0][2] * e[1][0] - e[0][0] * e[1][2];
-    out[2] = e[0][0] * e[1][1] - e[0][1] * e[1][0];
-    const double length = sqrt(dot(out, out)),
-                 to_eye[3] = {view->position[0] - p[0][0], view->position[1] - p[0][1], view->position[2] - p[0][2]};
-    if (!(length > 0) || !isfinite(length)) return false;
-    const double facing = dot(out, to_eye) < 0 ? -1 : 1;
-    for (int k = 0; k < 3; k++) out[k] *= facing / length;
-    /* nearly edge-on, depths are too coarse to tell */
-    return dot(out, to_eye) > 0.05 * sqrt(dot(to_eye, to_eye));
+    /* nearly edge-on, a pixel's own extent is too coarse to tell */
+    if (!(across((const double(*)[3])e, to_eye, out) > 0.05)) return LINT_NO_FACET;
+    return facet_rounding(p, error, to_eye, view->position, depth, out) > SAME_DIRECTION ? LINT_FACET
+                                                                                         : LINT_UNSURE_FACET;
 }
 
-static struct tally facets(const struct lint_data *data, const struct lint_reading *reading) {
+/* Where rounding of depth alone may turn the facet by as much as would be told, nothing is compared. A normal may be off by what its
+   own rounding turned it, as 8 bits of X and Y do where a surface is seen edge-on (FORMAT.md, Precision); beyond 15 degrees an
+   agreement would say nothing. */
+static struct lint_tally facets(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    struct tally tally = {0, 0};
+    struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
         const uint32_t pixel = data->samples[i];
         double f[3], n[3];
-        if (!facet(data, reading, &eyes.now, pixel % data->width, pixel / data->width, f)) continue;
+        if (lint_facet_of(data, reading, &eyes.now, pixel, f) != LINT_FACET) continue;
         if (!lint_normal(data, reading, &eyes.now, pixel, n)) continue;
-        add(&tally, dot(f, n) > SAME_DIRECTION);
+        const double rounding = acos(lint_normal_rounding(data, reading, &eyes.now, pixel, n));
+        if (!(rounding < 0.26)) continue;
+        lint_count(&tally, dot(f, n) > cos(acos(SAME_DIRECTION) + rounding));
     }
     return tally;
 }
@@ -84,9 +119,10 @@ bool lint_place(const struct lint_data *data, const struct lint_reading *reading
 
 bool lint_moved(const struct lint_data *data, const struct lint_reading *reading, const struct lint_eyes *eyes,
                 uint32_t pixel, double out[2]) {
-    double world[3], now[2], before[2];
-    if (!lint_place(data, reading, &eyes->now, pixel, world) || !lint_project(data, reading, &eyes->now, world, now) ||
-        !lint_project(data, reading, &eyes->before, world, before))
+    double world[3], now[2], before[2], depth;
+    if (!lint_place(data, reading, &eyes->now, pixel, world) ||
+        !lint_project(data, reading, &eyes->now, world, now, &depth) ||
+        !lint_project(data, reading, &eyes->before, world, before, &depth))
         return false;
     for (int k = 0; k < 2; k++) out[k] = before[k] - now[k];
     return true;
@@ -101,10 +137,11 @@ int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube,
     return distance > away + 3 * slack ? -1 : 0;
 }
 
-int lint_sees(const struct lint_reading *reading, const struct lint_cube *cube, const double world[3],
+int lint_sees(const struct lint_data *data, const struct lint_reading *reading, size_t c, const double world[3],
               const float **texel) {
+    const struct lint_cube *cube = &data->cubes[c];
     double d[3], u, v;
-    for (int k = 0; k < 3; k++) d[k] = world[k] - reading->center_scale * cube->center[k];
+    lint_from_center(data, reading, c, world, d);
     const double away = sqrt(dot(d, d));
     if (!cube->has_distance || !(away > 0) || !isfinite(away)) return 0;
     const int face = cube_face_of(d, &u, &v);
@@ -113,24 +150,24 @@ int lint_sees(const struct lint_reading *reading, const struct lint_cube *cube, 
     return lint_shows(reading, cube, *texel, d);
 }
 
-static struct tally cubemaps(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally cubemaps(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    struct tally tally = {0, 0};
+    struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
         double world[3];
         if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
         for (size_t c = 0; c < data->cube_count; c++) {
             const float *texel;
-            const int s = lint_sees(reading, &data->cubes[c], world, &texel);
-            if (s) add(&tally, s > 0);
+            const int s = lint_sees(data, reading, c, world, &texel);
+            if (s) lint_count(&tally, s > 0);
         }
     }
     return tally;
 }
 
-static struct tally motion(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally motion(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    struct tally tally = {0, 0};
+    struct lint_tally tally = {0, 0};
     if (!data->has_motion || !data->frame.has_previous) return tally;
     for (size_t i = 0; i < data->sample_count; i++) {
         double moved[2], found[2];
@@ -139,7 +176,7 @@ static struct tally motion(const struct lint_data *data, const struct lint_readi
         const double expected = hypot(moved[0], moved[1]);
         if (!(expected > LINT_MOVES_PX)) continue;
         const double off = hypot(found[0] - moved[0], found[1] - moved[1]);
-        add(&tally, off < 0.05 + 0.1 * expected);
+        lint_count(&tally, off < 0.05 + 0.1 * expected);
     }
     return tally;
 }
@@ -150,10 +187,10 @@ static double linear(enum glint_color_encoding encoding, double pre_exposure, do
     return v;
 }
 
-static struct tally colors(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally colors(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     const double exposure = data->frame.pre_exposure > 0 ? data->frame.pre_exposure : 1;
-    struct tally tally = {0, 0};
+    struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
         const uint32_t pixel = data->samples[i], x = pixel % data->width, y = pixel / data->width;
         double world[3];
@@ -164,7 +201,7 @@ static struct tally colors(const struct lint_data *data, const struct lint_readi
         bool compared = false, agrees = false;
         for (size_t c = 0; c < data->cube_count && !agrees; c++) {
             const float *texel;
-            if (lint_sees(reading, &data->cubes[c], world, &texel) != 1) continue;
+            if (lint_sees(data, reading, c, world, &texel) != 1) continue;
             bool alike = true;
             for (int k = 0; k < 3 && alike; k++) {
                 const double a = linear(reading->lit, exposure, (double)lit[reading->lit_bgr ? 2 - k : k]),
@@ -174,19 +211,19 @@ static struct tally colors(const struct lint_data *data, const struct lint_readi
             compared = true;
             agrees = alike;
         }
-        if (compared) add(&tally, agrees);
+        if (compared) lint_count(&tally, agrees);
     }
     return tally;
 }
 
 struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
                                  const struct lint_agreement *known, unsigned which) {
-    static struct tally (*const take[])(const struct lint_data *, const struct lint_reading *) = {facets, cubemaps,
-                                                                                                  motion, colors};
+    static struct lint_tally (*const take[])(const struct lint_data *, const struct lint_reading *) = {
+        facets, cubemaps, motion, colors, lint_before};
     struct lint_agreement a = known ? *known : (struct lint_agreement){{0}, {0}};
     for (int m = 0; m < LINT_MEASURES; m++) {
         if (known && !(which & (1u << m))) continue;
-        const struct tally tally = take[m](data, reading);
+        const struct lint_tally tally = take[m](data, reading);
         a.count[m] = tally.count;
         a.share[m] = tally.count ? (double)tally.agree / (double)tally.count : 0;
     }

@@ -7,14 +7,6 @@
 #include "camera_facts.h"
 #include "lint.h"
 
-struct lint_finding *lint_add(struct lint_findings *findings, const char *id, const char *likelihood) {
-    static struct lint_finding lost;
-    struct lint_finding *f = findings->count < LINT_FINDINGS ? &findings->items[findings->count++] : &lost;
-    *f = (struct lint_finding){.likelihood = likelihood};
-    snprintf(f->id, sizeof f->id, "%s", id);
-    return f;
-}
-
 void lint_undecided(struct lint_findings *findings, const char *format, ...) {
     va_list arguments;
     if (findings->undecided_count == sizeof findings->undecided / sizeof *findings->undecided) return;
@@ -55,6 +47,30 @@ static const struct row {
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
+const char *lint_id(size_t i, const char **what) {
+    static const struct {
+        const char *id, *what;
+    } others[] = {
+#define FINDING(id, what) {id, what},
+#include "findings_rows.h"
+#undef FINDING
+    };
+    if (i >= ROWS + sizeof others / sizeof *others) return NULL;
+    *what = i < ROWS ? rows[i].what : others[i - ROWS].what;
+    return i < ROWS ? rows[i].id : others[i - ROWS].id;
+}
+
+struct lint_finding *lint_add(struct lint_findings *findings, const char *id, const char *likelihood) {
+    static struct lint_finding lost;
+    struct lint_finding *f = findings->count < LINT_FINDINGS ? &findings->items[findings->count++] : &lost;
+    const char *known, *what = "";
+    *f = (struct lint_finding){.likelihood = likelihood};
+    snprintf(f->id, sizeof f->id, "%s", id);
+    for (size_t i = 0; (known = lint_id(i, &what)) != NULL && strcmp(known, id) != 0;) i++;
+    snprintf(f->what, sizeof f->what, "%s", what);
+    return f;
+}
+
 static void apply(const struct lint_data *data, struct lint_reading *r, size_t row) {
     size_t at = 0;
 #define READING(id, statement, what, attribute, value)                                                                 \
@@ -72,14 +88,13 @@ static unsigned measures_of(const char *id) {
     } kinds[] = {{"normal.", 1u << LINT_FACETS},
                  {"motion.", 1u << LINT_MOTION},
                  {"cubemap.", 1u << LINT_CUBEMAPS | 1u << LINT_COLORS},
-                 {"lit.", 1u << LINT_COLORS}};
+                 {"lit.", 1u << LINT_COLORS | 1u << LINT_BEFORE}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (!strncmp(id, kinds[i].of, strlen(kinds[i].of))) return kinds[i].measures;
     return (1u << LINT_MEASURES) - 1;
 }
 
-/* What a reading's share of a measure is worth beside that of another one: nothing that was reached by comparing less. */
-static double worth(const struct lint_agreement *a, const struct lint_agreement *other, int m) {
+double lint_worth(const struct lint_agreement *a, const struct lint_agreement *other, int m) {
     const double reference = fmax((double)other->count[m], LINT_ENOUGH);
     return a->share[m] * fmin(1, 2 * (double)a->count[m] / reference);
 }
@@ -90,7 +105,7 @@ static double gain(const struct lint_agreement *from, const struct lint_agreemen
     double sum = 0, largest = 0;
     for (int m = 0; m < LINT_MEASURES; m++) {
         if (from->count[m] < LINT_ENOUGH && to->count[m] < LINT_ENOUGH) continue;
-        const double before = worth(from, to, m), after = worth(to, from, m), difference = after - before;
+        const double before = lint_worth(from, to, m), after = lint_worth(to, from, m), difference = after - before;
         if (difference < -0.02) return -1;
         sum += difference;
         if (difference <= largest || difference < 0.015) continue;
@@ -101,73 +116,166 @@ static double gain(const struct lint_agreement *from, const struct lint_agreemen
     return largest > 0 ? sum : 0;
 }
 
+static void mended_matrix(bool inverse, const double *m, double out[16]) {
+    memcpy(out, m, 16 * sizeof *out);
+    for (int i = 0; !inverse && i < 4; i++) out[i] = -m[i];
+    for (int i = 0; inverse && i < 3; i++) {
+        out[4 * i + 3] = 0;
+        for (int k = 0; k < 3; k++) {
+            out[4 * i + k] = m[4 * k + i];
+            out[4 * i + 3] -= m[4 * k + i] * m[4 * k + 3];
+        }
+    }
+}
+
 static void declare(struct lint_finding *f, const struct row *row, const struct lint_data *data,
                     const struct lint_reading *reading) {
-    const double *m = data->frame.camera.world_to_view;
     f->attribute = *row->attribute ? row->attribute : NULL;
     f->value = row->value;
     if (!strcmp(row->value, CLIP_Y)) f->value = reading->clip_y == GLINT_CLIP_Y_UP ? "up" : "down";
     if (!strcmp(row->value, CLIP_Z))
         f->value = reading->clip_z == GLINT_CLIP_Z_ZERO_TO_ONE ? "zero_to_one" : "minus_one_to_one";
-    f->has_matrix = !strcmp(row->value, INVERSE) || !strcmp(row->value, MIRRORED);
-    memcpy(f->matrix, m, sizeof f->matrix);
-    for (int i = 0; !strcmp(row->value, MIRRORED) && i < 4; i++) f->matrix[i] = -m[i];
-    for (int i = 0; !strcmp(row->value, INVERSE) && i < 3; i++) {
-        f->matrix[4 * i + 3] = 0;
-        for (int k = 0; k < 3; k++) {
-            f->matrix[4 * i + k] = m[4 * k + i];
-            f->matrix[4 * i + 3] -= m[4 * k + i] * m[4 * k + 3];
-        }
-    }
+    const bool inverse = !strcmp(row->value, INVERSE);
+    f->has_matrix = inverse || !strcmp(row->value, MIRRORED);
+    f->has_previous = f->has_matrix && data->frame.has_previous && !reading->inverse_current;
+    if (f->has_matrix) mended_matrix(inverse, data->frame.camera.world_to_view, f->matrix);
+    if (f->has_previous) mended_matrix(inverse, data->frame.previous.world_to_view, f->previous);
     if (!f->attribute) snprintf(f->mend, sizeof f->mend, "no declaration says so: change the dump");
     else if (f->has_matrix)
-        snprintf(f->mend, sizeof f->mend, "%s: %s", f->attribute,
+        snprintf(f->mend, sizeof f->mend, "%s%s: %s", f->attribute,
+                 f->has_previous ? " and glint.previousWorldToView" : "",
                  !strcmp(row->value, INVERSE) ? "its inverse" : "its first row negated");
     else snprintf(f->mend, sizeof f->mend, "%s = \"%s\"", f->attribute, f->value);
 }
 
-static void tell(struct lint_findings *findings, const struct row *row, const struct lint_data *data,
-                 const struct lint_reading *reading, const struct lint_agreement *from, const struct lint_agreement *to,
-                 int measure, bool alone) {
-    const bool clear = to->share[measure] > 0.6 && alone;
-    struct lint_finding *f = lint_add(findings, row->id, clear ? "certain" : alone ? "likely" : "possible");
-    snprintf(f->what, sizeof f->what, "%s", row->what);
+/* ---- The best other reading ---- */
+
+/* A reading that was tried: which rows, or which centres, and how it agrees. */
+enum { CENTERS = ROWS, NONE };
+struct candidate {
+    size_t row, also; /* `also`: a second row, for two mistakes of which neither shows alone */
+    struct lint_reading reading;
+    struct lint_agreement agreement;
+    double gain;
+    int measure; /* that says most */
+};
+struct contest {
+    struct candidate best, second;
+};
+
+static void enter(struct contest *contest, const struct lint_agreement *from, struct candidate *c) {
+    c->gain = gain(from, &c->agreement, &c->measure);
+    if (!(c->gain > 0) || c->agreement.share[c->measure] < LINT_TELLS) return;
+    /* the same by another name */
+    if (!memcmp(&c->reading, &contest->best.reading, sizeof c->reading)) return;
+    if (c->gain > contest->best.gain + 1e-3) {
+        contest->second = contest->best;
+        contest->best = *c;
+    } else if (c->gain > contest->second.gain) contest->second = *c;
+}
+
+static const char *what_of(const struct candidate *c) {
+    const char *what = "centres of cube maps are off";
+    if (c->row < ROWS) lint_id(c->row, &what);
+    return what;
+}
+
+/* Rows that stand bottom first are read rightly with NDC turned around, but then the picture's top points down. */
+static bool bottom_first(const struct lint_data *data, const struct lint_reading *reading) {
+    static const int axis_of[6] = {1, 2, 0, 1, 2, 0};
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    const int up = (int)data->frame.up;
+    const double top = (reading->clip_y == GLINT_CLIP_Y_UP ? 1 : -1) * (eyes.now.b < 0 ? -1 : 1);
+    return top * (up < 3 ? 1 : -1) * eyes.now.rotation[3 + axis_of[up]] < -0.5;
+}
+
+static void tell(struct lint_findings *findings, const struct contest *contest, size_t row,
+                 const struct lint_data *data, const struct lint_agreement *from) {
+    const struct candidate *c = &contest->best;
+    const int m = c->measure;
+    const bool alone = contest->second.gain<0.95 * c->gain, clear = c->agreement.share[m]> 0.6 && alone;
+    const bool turned = row < ROWS && !strcmp(rows[row].id, "camera.clip_y") && bottom_first(data, &c->reading);
+    const char *id = row == CENTERS ? "cubemap.center" : turned ? "picture.bottom_first" : rows[row].id;
+    struct lint_finding *f = lint_add(findings, id, clear ? "certain" : alone ? "likely" : "possible");
     snprintf(f->evidence, sizeof f->evidence,
-             "as declared %.0f %% of %zu comparisons of %s agree, so read %.0f %% of %zu", 100 * from->share[measure],
-             from->count[measure], lint_measure_names[measure], 100 * to->share[measure], to->count[measure]);
-    declare(f, row, data, reading);
+             "as declared %.0f %% of %zu comparisons of %s agree, so read %.0f %% of %zu", 100 * from->share[m],
+             from->count[m], lint_measure_names[m], 100 * c->agreement.share[m], c->agreement.count[m]);
+    if (!alone) snprintf(f->either, sizeof f->either, "%s", what_of(&contest->second));
+    if (row == CENTERS) lint_tell_centers(data, &c->reading, f);
+    else if (turned)
+        snprintf(f->mend, sizeof f->mend, "no declaration says so: write row 0 at the top, of every image");
+    else declare(f, &rows[row], data, &c->reading);
+}
+
+static void try_rows(const struct lint_data *data, const struct lint_reading *reading,
+                     const struct lint_agreement *agreement, struct contest *contest) {
+    for (size_t i = 0; i < ROWS; i++) {
+        struct candidate c = {.row = i, .also = NONE, .reading = *reading};
+        apply(data, &c.reading, i);
+        if (!memcmp(&c.reading, reading, sizeof c.reading)) continue;
+        c.agreement = lint_agree(data, &c.reading, agreement, measures_of(rows[i].id));
+        enter(contest, agreement, &c);
+    }
+}
+
+/* Normals may be stored in two ways at once that nothing declares, such as (n + 1) / 2 in view axes: of these neither agrees alone, or
+   one by chance a little better. */
+static void try_pairs_of_normals(const struct lint_data *data, const struct lint_reading *reading,
+                                 const struct lint_agreement *agreement, struct contest *contest) {
+    const double alone = fmax(agreement->share[LINT_FACETS], contest->best.agreement.share[LINT_FACETS]);
+    struct contest pairs = *contest;
+    if (agreement->count[LINT_FACETS] < LINT_ENOUGH || alone > 0.6) return;
+    for (size_t i = 0; i < ROWS; i++)
+        for (size_t k = i + 1; k < ROWS && !strncmp(rows[i].id, "normal.", 7); k++) {
+            struct candidate c = {.row = i, .also = k, .reading = *reading};
+            struct lint_reading first;
+            if (strncmp(rows[k].id, "normal.", 7) != 0) continue;
+            apply(data, &c.reading, i);
+            first = c.reading;
+            apply(data, &c.reading, k);
+            if (!memcmp(&c.reading, &first, sizeof first) || !memcmp(&first, reading, sizeof first)) continue;
+            c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_FACETS);
+            enter(&pairs, agreement, &c);
+        }
+    const double together = pairs.best.agreement.share[LINT_FACETS];
+    if (pairs.best.gain > contest->best.gain && together > 0.6 && together > alone + 0.15) *contest = pairs;
+}
+
+static double agreeing(const struct lint_agreement *a, int measure) {
+    return a->share[measure] * (double)a->count[measure];
+}
+
+/* Each centre was judged by itself. Of all comparisons one cube map of many changes few, and from a wrong centre things seem to stand
+   before many places, which then are not compared: it is enough that more agree than before. */
+static void try_centers(const struct lint_data *data, const struct lint_reading *reading,
+                        const struct lint_agreement *agreement, struct contest *contest) {
+    static const double nowhere[LINT_CUBES][3];
+    struct candidate c = {.row = CENTERS, .also = NONE};
+    if (agreement->count[LINT_CUBEMAPS] < LINT_ENOUGH || memcmp(reading->center_offset, nowhere, sizeof nowhere) != 0 ||
+        !lint_search_centers(data, reading, &c.reading))
+        return;
+    c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_CUBEMAPS | 1u << LINT_COLORS);
+    enter(contest, agreement, &c);
+    if (contest->best.row != NONE || agreeing(&c.agreement, LINT_CUBEMAPS) <= agreeing(agreement, LINT_CUBEMAPS) ||
+        agreeing(&c.agreement, LINT_COLORS) < agreeing(agreement, LINT_COLORS))
+        return;
+    c.gain = 1e-3;
+    c.measure = LINT_CUBEMAPS;
+    contest->best = c;
 }
 
 /* The best other reading from here; false when none is clearly better. */
 static bool step(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
                  struct lint_findings *findings) {
-    struct lint_agreement best = *agreement;
-    struct lint_reading chosen = *reading;
-    double most = 0, second = 0;
-    size_t found = ROWS;
-    int measure = 0;
-    for (size_t i = 0; i < ROWS; i++) {
-        struct lint_reading other = *reading;
-        int m = 0;
-        apply(data, &other, i);
-        if (!memcmp(&other, reading, sizeof other)) continue;
-        const struct lint_agreement a = lint_agree(data, &other, agreement, measures_of(rows[i].id));
-        const double better = gain(agreement, &a, &m);
-        if (better <= most + 1e-3) {
-            second = fmax(second, better);
-            continue;
-        }
-        second = most;
-        most = better;
-        best = a;
-        chosen = other;
-        found = i;
-        measure = m;
-    }
-    if (found == ROWS) return false;
-    tell(findings, &rows[found], data, &chosen, agreement, &best, measure, second < 0.95 * most);
-    *reading = chosen;
-    *agreement = best;
+    struct contest contest = {.best = {.row = NONE}, .second = {.row = NONE}};
+    try_rows(data, reading, agreement, &contest);
+    try_pairs_of_normals(data, reading, agreement, &contest);
+    try_centers(data, reading, agreement, &contest);
+    if (contest.best.row == NONE) return false;
+    tell(findings, &contest, contest.best.row, data, agreement);
+    if (contest.best.also != NONE) tell(findings, &contest, contest.best.also, data, agreement);
+    *reading = contest.best.reading;
+    *agreement = contest.best.agreement;
     return true;
 }
 

@@ -36,7 +36,6 @@ static void normal_lengths(const struct lint_data *data, const struct lint_readi
     }
     if (count < LINT_ENOUGH || off < count / 2) return;
     struct lint_finding *f = lint_add(findings, "normal.length", "certain");
-    snprintf(f->what, sizeof f->what, "normals are not of length 1");
     snprintf(f->evidence, sizeof f->evidence, "%zu of %zu are off by more than 0.05, the median length is %.4g", off,
              count, median(lengths, count));
     snprintf(f->mend, sizeof f->mend, "normalise in the dump; the reader does, but precision is lost");
@@ -61,31 +60,10 @@ static void depth_sky(const struct lint_data *data, struct lint_findings *findin
     }
     if (infinite || at_largest < pixels / 500 + 16 || !(largest > 1.2 * next)) return;
     struct lint_finding *f = lint_add(findings, "depth.sky_value", "likely");
-    snprintf(f->what, sizeof f->what, "sky has a depth, where +inf should stand");
     snprintf(f->evidence, sizeof f->evidence,
              "%zu pixels have exactly the depth %.9g, the next largest is %.9g, none is infinite", at_largest, largest,
              next);
     snprintf(f->mend, sizeof f->mend, "no declaration says so: write +inf under sky");
-}
-
-static void cube_sky(const struct lint_data *data, struct lint_findings *findings) {
-    size_t against = 0, with = 0;
-    for (size_t c = 0; c < data->cube_count; c++) {
-        const struct lint_cube *cube = &data->cubes[c];
-        for (size_t i = 0; i < (size_t)cube->size * cube->size * 6; i += 7) {
-            const float *t = cube->texels + 5 * i;
-            const bool flagged = t[3] < 0.5f,
-                       sky = cube->has_distance ? !isfinite((double)t[4]) : !(lint_luminance(t) > 0);
-            against += flagged != sky;
-            with += flagged == sky;
-        }
-    }
-    if (against + with < LINT_ENOUGH || against < 9 * with) return;
-    struct lint_finding *f = lint_add(findings, "cubemap.sky_inverted", "certain");
-    snprintf(f->what, sizeof f->what, "alpha of cube maps is inverted: it should be 0 where the direction sees sky");
-    snprintf(f->evidence, sizeof f->evidence, "alpha and what the texels hold disagree about sky at %zu of %zu texels",
-             against, against + with);
-    snprintf(f->mend, sizeof f->mend, "no declaration says so: write 1 - alpha");
 }
 
 /* ---- Light ---- */
@@ -115,7 +93,6 @@ static void specular(const struct lint_data *data, const struct lint_reading *re
     }
     if (lit < metals / 2) return;
     struct lint_finding *f = lint_add(findings, "lit.specular", "likely");
-    snprintf(f->what, sizeof f->what, "lit holds specular light");
     snprintf(f->evidence, sizeof f->evidence, "%zu of %zu samples of metal, which has no diffuse light, are lit", lit,
              metals);
     snprintf(f->mend, sizeof f->mend,
@@ -143,39 +120,67 @@ static struct movement movement_of(const struct lint_data *data, const struct li
     return m;
 }
 
+static bool same_camera(const struct glint_frame *frame) {
+    double largest = 0;
+    for (int i = 0; i < 16; i++)
+        largest = fmax(largest, fabs(frame->camera.world_to_view[i] - frame->previous.world_to_view[i]));
+    return largest == 0;
+}
+
+/* Samples whose depth is another one in the frame before. */
+static size_t depth_changed(const struct lint_data *data) {
+    size_t changed = 0;
+    for (size_t i = 0; i < data->sample_count; i++) {
+        const double now = (double)data->depth[data->samples[i]], before = (double)data->before_depth[data->samples[i]];
+        changed += isfinite(now) && isfinite(before) && fabs(now - before) > 2e-3 * fabs(now);
+    }
+    return changed;
+}
+
+/* Without motion vectors, the frame before tells whether the previous camera is its own. */
+static void before(const struct lint_data *data, const struct lint_agreement *agreement,
+                   struct lint_findings *findings) {
+    const double share = agreement->share[LINT_BEFORE];
+    if (agreement->count[LINT_BEFORE] < LINT_ENOUGH || !data->before_depth) return;
+    const bool same = same_camera(&data->frame) && 2 * depth_changed(data) > agreement->count[LINT_BEFORE];
+    if (share >= (same ? 0.5 : LINT_TELLS)) return;
+    struct lint_finding *f =
+        lint_add(findings, same ? "previous.same" : "previous.unexplained", same ? "certain" : "possible");
+    snprintf(f->evidence, sizeof f->evidence, "%.0f %% of %zu comparisons of %s agree%s", 100 * share,
+             agreement->count[LINT_BEFORE], lint_measure_names[LINT_BEFORE],
+             same ? "; both cameras are the same, both depths are not" : "");
+    snprintf(f->mend, sizeof f->mend,
+             same ? "no declaration says so: dump the camera of the frame before"
+                  : "dump the camera and the depth of one and the same frame before");
+}
+
 static void previous(const struct lint_data *data, const struct lint_reading *reading,
                      const struct lint_agreement *agreement, struct lint_findings *findings) {
-    if (!data->has_motion || data->frame.cut) {
-        if (!data->has_motion) lint_undecided(findings, "motion: the capture holds none");
-        return;
-    }
-    const struct movement m = movement_of(data, reading);
-    if (m.compared < LINT_ENOUGH) return;
-    const char *id = NULL, *what = NULL, *mend = "no declaration says so: dump the camera of the frame before";
-    if (m.stored > m.compared / 2 && !data->frame.has_previous) {
-        id = "previous.missing";
-        what = "the previous camera is missing, although motion says that the picture moved";
-    } else if (m.stored > m.compared / 2 && m.expected < m.compared / 20) {
+    const size_t known = findings->count;
+    if (data->frame.cut) return;
+    const struct movement m = data->has_motion ? movement_of(data, reading) : (struct movement){0, 0, 0, 0};
+    const char *id = NULL, *mend = "no declaration says so: dump the camera of the frame before";
+    if (!data->has_motion) lint_undecided(findings, "motion: the capture holds none");
+    if (m.compared >= LINT_ENOUGH && m.stored > m.compared / 2 && !data->frame.has_previous) id = "previous.missing";
+    else if (m.compared >= LINT_ENOUGH && m.stored > m.compared / 2 && m.expected < m.compared / 20)
         id = "previous.same";
-        what = "the previous camera is the current one, although motion says that the picture moved";
-    } else if (m.expected > m.compared / 2 && m.zero > m.compared * 19 / 20) {
+    else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 && m.zero > m.compared * 19 / 20) {
         id = "motion.zero";
-        what = "motion is 0, although the camera moved";
         mend = "no declaration says so: dump motion, the camera's included";
-    } else if (m.expected > m.compared / 2 && agreement->share[LINT_MOTION] < 0.2) {
+    } else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 && agreement->share[LINT_MOTION] < LINT_TELLS) {
         id = "motion.unexplained";
-        what = "motion agrees with depth and both cameras nowhere, in no reading that is known";
         mend = "compare motion with the reprojection of a still object";
     }
-    if (m.expected < m.compared / 20 && !id)
+    if (m.compared >= LINT_ENOUGH && m.expected < m.compared / 20 && !id)
         lint_undecided(findings, "which way motion points and in which unit: the camera did not move");
-    if (!id) return;
-    struct lint_finding *f = lint_add(findings, id, strcmp(id, "motion.unexplained") ? "certain" : "possible");
-    snprintf(f->what, sizeof f->what, "%s", what);
-    snprintf(f->evidence, sizeof f->evidence,
-             "of %zu samples %zu move by more than %.2f pixels as stored, %zu by both cameras; %zu are stored as 0",
-             m.compared, m.stored, LINT_MOVES_PX, m.expected, m.zero);
-    snprintf(f->mend, sizeof f->mend, "%s", mend);
+    if (id) {
+        struct lint_finding *f = lint_add(findings, id, strcmp(id, "motion.unexplained") ? "certain" : "possible");
+        snprintf(f->evidence, sizeof f->evidence,
+                 "of %zu samples %zu move by more than %.2f pixels as stored, %zu by both cameras; %zu are stored as 0",
+                 m.compared, m.stored, LINT_MOVES_PX, m.expected, m.zero);
+        snprintf(f->mend, sizeof f->mend, "%s", mend);
+    }
+    if (findings->count == known) before(data, agreement, findings);
 }
 
 /* ---- Up ---- */
@@ -229,14 +234,22 @@ static void unexplained(const struct lint_agreement *a, struct lint_findings *fi
         const int m = rows[i].measure;
         if (a->count[m] < LINT_ENOUGH || a->share[m] > rows[i].share) continue;
         struct lint_finding *f = lint_add(findings, rows[i].id, "possible");
-        snprintf(f->what, sizeof f->what, "what should agree does not, in no reading that is known");
         snprintf(f->evidence, sizeof f->evidence, "%.0f %% of %zu comparisons of %s agree", 100 * a->share[m],
                  a->count[m], lint_measure_names[m]);
         snprintf(f->mend, sizeof f->mend, "look at both: glint view");
     }
     for (int m = 0; m < LINT_MEASURES; m++)
-        if (a->count[m] < LINT_ENOUGH && m != LINT_MOTION)
+        if (a->count[m] < LINT_ENOUGH && m != LINT_MOTION && m != LINT_BEFORE)
             lint_undecided(findings, "%s: too little to compare (%zu places)", lint_measure_names[m], a->count[m]);
+}
+
+/* What is lit by another light, at another time of day, is no mistake of the dump. */
+static void unlike_light(const struct lint_agreement *a, struct lint_findings *findings) {
+    if (a->count[LINT_COLORS] < LINT_ENOUGH || a->share[LINT_COLORS] >= LINT_TELLS) return;
+    lint_undecided(findings,
+                   "why lit and the cube maps' colours agree at %.0f %% of the places, in no reading that is known: "
+                   "another light, another exposure, or one of them is none of what it should be",
+                   100 * a->share[LINT_COLORS]);
 }
 
 void lint_find_values(const struct lint_data *data, const struct lint_reading *reading,
@@ -244,11 +257,12 @@ void lint_find_values(const struct lint_data *data, const struct lint_reading *r
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     normal_lengths(data, reading, &eyes.now, findings);
     depth_sky(data, findings);
-    cube_sky(data, findings);
+    lint_find_cubes(data, findings);
     specular(data, reading, &eyes.now, findings);
     previous(data, reading, agreement, findings);
     up(data, reading, &eyes.now, findings);
     unexplained(agreement, findings);
+    unlike_light(agreement, findings);
     lint_undecided(findings,
                    "whether roughness is squared or inverted: nothing else in a capture says how rough a surface is");
     lint_undecided(findings, "how long a unit is (metresPerUnit): all lengths are in the same one");

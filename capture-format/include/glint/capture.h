@@ -298,6 +298,14 @@ bool glint_capture_perturb(struct glint_capture *capture, uint32_t seed, const c
 /* A number that tells such perturbations apart; 0 without one. */
 uint64_t glint_capture_perturbed(const struct glint_capture *capture);
 
+/* One step of what held a channel at a stored value, in stored units: of the declared storage format or of the channel's type
+   in the file, whichever is coarser. 0: the part has no such channel, or it holds whole numbers. */
+double glint_channel_step(const struct glint_capture *capture, const struct glint_part_info *part, const char *channel,
+                          double stored);
+/* What a part's depth.Z tells apart at a distance: how far the two values that the distance lies between are from each other,
+   in metres. +inf: the farther one is sky. NaN: the part has no depth, or none at that distance (before near, beyond far). */
+double glint_depth_step(const struct glint_capture *capture, const struct glint_part_info *part, double at_m);
+
 /* Checks every rule of FORMAT.md; pixels when the headers keep theirs, for what they mean depends on those. Calls
    `report` once for each rule and channel that is broken, on the calling thread; false on an I/O, memory or limit failure
    only. *violations receives the count. Takes a file of cube maps only, too. */

@@ -1,0 +1,53 @@
+/* What the files of mistakes share: access to a capture's pixels and attributes, and their own mistakes. */
+#ifndef DAMAGE_INTERNAL_H
+#define DAMAGE_INTERNAL_H
+
+#include "damage.h"
+
+size_t damage_texels_of(struct rewrite *r, const char *part);
+/* A channel as floats, from now on stored so; NULL when there is none. */
+float *damage_floats(struct rewrite *r, const char *part, const char *channel);
+bool damage_is_cube(const struct rewrite_part *p);
+const double *damage_matrix(struct rewrite *r, const char *name);
+void damage_set_matrix(struct rewrite *r, const char *name, const double m[16]);
+/* A string on the G-buffer. */
+void damage_set_text(struct rewrite *r, const char *name, const char *value);
+void remove_cubes(struct rewrite *r);
+
+#define DAMAGE(name, done)                                                                                             \
+    bool name(struct rewrite *r, double strength) {                                                                    \
+        (void)strength;                                                                                                \
+        return done;                                                                                                   \
+    }
+
+#define MISTAKE(name) bool name(struct rewrite *r, double strength);
+/* damage_cubes.c */
+MISTAKE(faces_exchanged)
+MISTAKE(faces_rotated)
+MISTAKE(faces_mirrored)
+MISTAKE(faces_upside_down)
+MISTAKE(distance_planar)
+MISTAKE(distance_hundreds)
+MISTAKE(distance_hundredths)
+MISTAKE(center_negated)
+MISTAKE(center_hundreds)
+MISTAKE(center_off)
+MISTAKE(inner_full)
+MISTAKE(sky_inverted)
+MISTAKE(sky_colored)
+MISTAKE(sky_solid)
+MISTAKE(sky_at_0)
+MISTAKE(cubes_tiny)
+/* damage_before.c: mistakes that the frame before tells, and those that only it tells */
+MISTAKE(before_same)
+MISTAKE(before_exchanged)
+MISTAKE(before_exchanged_lit)
+MISTAKE(before_right)
+MISTAKE(before_right_lit)
+MISTAKE(before_elsewhere)
+MISTAKE(before_clip_z)
+MISTAKE(before_hundreds)
+MISTAKE(before_mirrored)
+#undef MISTAKE
+
+#endif

@@ -1,0 +1,90 @@
+/* This frame's surfaces in the frame before: where both cameras put them, and as far away. It asks for no motion vectors, and it
+   alone tells readings apart that leave every direction as it is, such as another scale of depth. */
+#include <math.h>
+
+#include "lint.h"
+
+/* Over a plane 1/depth is linear, and so the four texels around a place give its depth exactly. They and those around them must lie
+   on one: second differences of 5e-4 leave at most 1.3e-4 between them. */
+static bool plane_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                        const double place[2], double *depth) {
+    const double fx = floor(place[0] - 0.5), fy = floor(place[1] - 0.5);
+    if (!(fx >= 1 && fy >= 1 && fx + 2 < data->width && fy + 2 < data->height)) return false;
+    const double u = place[0] - 0.5 - fx, v = place[1] - 0.5 - fy;
+    double d[4][4];
+    for (int y = 0; y < 4; y++)
+        for (int x = 0; x < 4; x++) {
+            if (!lint_depth_before(data, reading, view, (uint32_t)(fx - 1 + x), (uint32_t)(fy - 1 + y), &d[y][x]))
+                return false;
+            d[y][x] = 1 / d[y][x];
+        }
+    const double largest = 5e-4 * d[1][1];
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 2; i++)
+            if (fabs(d[k][i] - 2 * d[k][i + 1] + d[k][i + 2]) > largest ||
+                fabs(d[i][k] - 2 * d[i + 1][k] + d[i + 2][k]) > largest)
+                return false;
+    *depth = 1 / ((1 - v) * ((1 - u) * d[1][1] + u * d[1][2]) + v * ((1 - u) * d[2][1] + u * d[2][2]));
+    return true;
+}
+
+static double largest_of(const double v[3]) {
+    return fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+}
+
+static struct lint_tally depths(const struct lint_data *data, const struct lint_reading *reading) {
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    /* an engine's floats have the places of both eyes to 2^-24 of them */
+    const double misplaced = ldexp(largest_of(eyes.now.position) + largest_of(eyes.before.position), -23);
+    struct lint_tally tally = {0, 0};
+    for (size_t i = 0; i < data->sample_count; i++) {
+        const uint32_t pixel = data->samples[i], x = pixel % data->width, y = pixel / data->width;
+        double world[3], place[2], expected, found, now;
+        if (!lint_depth(data, reading, &eyes.now, x, y, &now) || !lint_place(data, reading, &eyes.now, pixel, world) ||
+            !lint_project(data, reading, &eyes.before, world, place, &expected) ||
+            !plane_depth(data, reading, &eyes.before, place, &found))
+            continue;
+        const double rounding = 2 * lint_depth_error(data, reading, &eyes.now, x, y, now) * expected / now;
+        lint_count(&tally, fabs(found - expected) <= 2e-4 * expected + rounding + misplaced);
+    }
+    return tally;
+}
+
+static bool alike(const float *a, const float *b, double share) {
+    for (int k = 0; k < 3; k++)
+        if (fabs((double)a[k] - (double)b[k]) > share * ((double)a[k] + (double)b[k]) + 2e-3) return false;
+    return true;
+}
+
+/* Only where the picture moved, and where that shows. */
+static struct lint_tally colors(const struct lint_data *data, const struct lint_reading *reading) {
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    struct lint_tally tally = {0, 0};
+    for (size_t i = 0; i < data->sample_count; i++) {
+        const uint32_t pixel = data->samples[i];
+        const float *now = data->lit + 3 * (size_t)pixel;
+        double world[3], place[2], moved[2], depth;
+        if (alike(now, data->before_lit + 3 * (size_t)pixel, 0.15) || !lint_moved(data, reading, &eyes, pixel, moved) ||
+            !(hypot(moved[0], moved[1]) > LINT_MOVES_PX) || !lint_place(data, reading, &eyes.now, pixel, world) ||
+            !lint_project(data, reading, &eyes.before, world, place, &depth))
+            continue;
+        const double fx = floor(place[0] - 0.5), fy = floor(place[1] - 0.5);
+        if (!(fx >= 0 && fy >= 0 && fx + 1 < data->width && fy + 1 < data->height)) continue;
+        float found[3] = {0, 0, 0};
+        for (int corner = 0; corner < 4; corner++) {
+            const double u = place[0] - 0.5 - fx, v = place[1] - 0.5 - fy;
+            const double weight = (corner & 1 ? u : 1 - u) * (corner & 2 ? v : 1 - v);
+            const size_t at = ((size_t)fy + (corner & 2 ? 1 : 0)) * data->width + (size_t)fx + (corner & 1);
+            for (int k = 0; k < 3; k++) found[k] += (float)(weight * (double)data->before_lit[3 * at + (size_t)k]);
+        }
+        lint_count(&tally, alike(now, found, 0.05));
+    }
+    return tally;
+}
+
+struct lint_tally lint_before(const struct lint_data *data, const struct lint_reading *reading) {
+    if (!data->frame.has_previous || data->frame.cut) return (struct lint_tally){0, 0};
+    if (data->before_depth) return depths(data, reading);
+    if (data->before_lit) return colors(data, reading);
+    return (struct lint_tally){0, 0};
+}

@@ -1,0 +1,25 @@
+/* What is found otherwise than by reading a capture in other ways: FINDING(id, what it means). What a capture shows in particular
+   may take the place of the meaning. */
+/* clang-format off */
+FINDING("picture.bottom_first", "the picture's rows stand bottom first")
+FINDING("camera.up", "another axis is up than is declared")
+FINDING("normal.length", "normals are not of length 1")
+FINDING("normal.unexplained", "normals and the depths around them agree nowhere, in no reading that is known")
+FINDING("depth.coarse", "depth is too coarse: what held it hides the surfaces' directions")
+FINDING("depth.sky_value", "sky has a depth, where +inf should stand")
+FINDING("previous.missing", "the previous camera is missing, although motion says that the picture moved")
+FINDING("previous.same", "the previous camera is the current one, although the picture moved")
+FINDING("previous.unexplained", "the frame before lies nowhere where depth and both cameras put it, in no reading that is known")
+FINDING("motion.zero", "motion is 0, although the camera moved")
+FINDING("motion.unexplained", "motion agrees with depth and both cameras nowhere, in no reading that is known")
+FINDING("cubemap.center", "cube maps were rendered from elsewhere than their centres say")
+FINDING("cubemap.faces_turned", "faces of cube maps are mirrored or turned")
+FINDING("cubemap.faces_exchanged", "faces of cube maps stand in another order")
+FINDING("cubemap.sky_inverted", "alpha of cube maps is inverted: it should be 0 where the direction sees sky")
+FINDING("cubemap.sky_color", "the sky's colour is left in cube maps, which should be black there")
+FINDING("cubemap.sky_alpha", "alpha of cube maps is 1 at infinite distance, where sky is")
+FINDING("cubemap.sky_distance", "sky has a distance in cube maps, where +inf should stand")
+FINDING("cubemap.inner_full", "inner volumes of cube maps, which are to be empty, hold surfaces")
+FINDING("cubemap.unexplained", "cube maps' distances and depth agree nowhere, in no reading that is known")
+FINDING("lit.specular", "lit holds specular light")
+/* clang-format on */
