@@ -12,7 +12,7 @@
 #include "gpu.h"
 #include "plain_capture.h"
 
-enum { KINDS = 7, BLOCK = 32, SIZE = KINDS * BLOCK, STEPS = 9, NODES = 20, FINE = 240, TURNS = 90 };
+enum { KINDS = 7, BLOCK = 64, SIZE = KINDS * BLOCK, STEPS = 9, NODES = 20, FINE = 240, TURNS = 90 };
 static const double pi = 3.14159265358979323846, threshold = 0.1;
 static const float roughnesses[KINDS] = {0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f};
 static const double cosines[KINDS] = {0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1}; /* of the viewer */
@@ -102,7 +102,7 @@ static void load_grid(struct gpu *gpu) {
 }
 
 /* Catches: rays of a part of the lobe, a density that is not that of the draws, cones too wide for the lobe or that see below the
-   horizon. Without cones what is left is the noise of 1,024 draws. */
+   horizon. Without cones what is left is the noise of 4,096 draws, 0.8 % of deviation if they were independent. */
 static void rays_and_cones_have_the_light_of_the_lobe(void **state) {
     struct gpu *gpu = *state;
     load_grid(gpu);
