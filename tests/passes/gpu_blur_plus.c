@@ -41,8 +41,14 @@ static void position(const struct images *in, int x, int y, double out[3]) {
     out[0] = (2 * u - 1) / focal * d, out[1] = (1 - 2 * v) / focal * d, out[2] = -d;
 }
 
+/* A lobe's value by the cosine of its normals, 1 at their peak: cosⁿ, or GGX's density. */
+static double lobe(bool ggx, double roughness, double cosine) {
+    const double a2 = pow(roughness, 4);
+    return ggx ? pow(a2 / (1 - cosine * cosine * (1 - a2)), 2) : pow(cosine, 2 / a2 - 2);
+}
+
 /* From the slides' rules and the parameters' meaning; defaults. */
-static double weight(const struct images *in, int x, int y, int ox, int oy) {
+static double weight(const struct images *in, bool ggx, int x, int y, int ox, int oy) {
     if (ox < 0 || oy < 0 || ox >= HALF || oy >= HALF) return 0;
     int i = y * HALF + x, o = oy * HALF + ox;
     if (!isfinite(in->depth[o])) return 0;
@@ -58,7 +64,7 @@ static double weight(const struct images *in, int x, int y, int ox, int oy) {
     double rough = (double)in->normal[4 * i + 3], other = (double)in->normal[4 * o + 3];
     if (fabs(off) > 0.01 * (double)in->depth[i] || fabs(rough - other) > 0.1) return 0;
     double fade = fmin(fmax((rough - 0.05) / 0.1, 0), 1);
-    return fade * pow(fmin(cosine / sqrt(lengths[0] * lengths[1]), 1), 2 / pow(rough, 4) - 2);
+    return fade * lobe(ggx, rough, fmin(cosine / sqrt(lengths[0] * lengths[1]), 1));
 }
 
 static void load(struct gpu *gpu) {
@@ -74,7 +80,7 @@ static void load(struct gpu *gpu) {
 }
 
 /* The weighted mean over a cross of offsets, by which image. */
-static void expect_mean(struct gpu *gpu, const char *before, const char *after, const int offsets[4][2]) {
+static void expect_mean(struct gpu *gpu, bool ggx, const char *before, const char *after, const int offsets[4][2]) {
     struct images in = {gpu_floats(gpu, "depth_half", NULL, NULL), gpu_floats(gpu, "normal_half", NULL, NULL),
                         gpu_floats(gpu, before, NULL, NULL), gpu_uints(gpu, "pick", NULL, NULL)};
     float *found = gpu_floats(gpu, after, NULL, NULL);
@@ -86,7 +92,7 @@ static void expect_mean(struct gpu *gpu, const char *before, const char *after, 
             double total = 1, sum = (double)in.color[4 * i];
             for (int k = 0; k < 4 && isfinite(in.depth[i]); ++k) {
                 int ox = x + offsets[k][0], oy = y + offsets[k][1];
-                double w = weight(&in, x, y, ox, oy);
+                double w = weight(&in, ggx, x, y, ox, oy);
                 shared += w > 0.5, refused += w == 0;
                 if (w > 0) sum += w * (double)in.color[4 * (oy * HALF + ox)], total += w;
             }
@@ -104,10 +110,13 @@ static const int centres[4][2] = {{1, 2}, {2, -1}, {-1, -2}, {-2, 1}};
 
 static void a_plus_is_weighted_by_the_lobe(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
-    gpu_use(gpu, "blur=plus");
-    gpu_run(gpu);
-    expect_mean(gpu, "reflection_half", "reflection_blurred", plus);
+    for (int ggx = 0; ggx < 2; ++ggx) {
+        load(gpu);
+        gpu_use(gpu, "blur=plus");
+        gpu_set(gpu, ggx ? "blur.ndf=ggx" : "blur.ndf=blinn_phong");
+        gpu_run(gpu);
+        expect_mean(gpu, ggx, "reflection_half", "reflection_blurred", plus);
+    }
 }
 
 static void without_history_the_centres_around_are_shared_too(void **state) {
@@ -116,7 +125,7 @@ static void without_history_the_centres_around_are_shared_too(void **state) {
     gpu_use(gpu, "blur=plus");
     gpu_use(gpu, "temporal=rough");
     gpu_run(gpu);
-    expect_mean(gpu, "reflection_blurred", "reflection_temporal", centres);
+    expect_mean(gpu, true, "reflection_blurred", "reflection_temporal", centres);
 }
 
 /* Whatever it is, not a number too: as if the pass were not there. Roughness is 0.05 where sharing begins, and above. */
