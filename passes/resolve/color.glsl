@@ -3,6 +3,7 @@
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
+#include "shared/cube_filter.glsl"
 #include "shared/fog.glsl"
 #include "shared/paraboloid.glsl"
 #include "probe/tell.glsl"
@@ -45,9 +46,9 @@ vec3 sky_color(Ray ray) {
     if (!fact_sky_seen) return vec3(0.0);
     if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
         float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
-        return told_sky(IMAGE_sky_mips, level, textureLod(samplerCube(sky_mips, linear_clamp), ray.direction, level).rgb);
+        return told_sky(IMAGE_sky_mips, level, cube_levels(sky_mips, ray.direction, level).rgb);
     }
-    return told_sky(IMAGE_sky, 0.0, textureLod(samplerCube(sky, linear_clamp), ray.direction, 0.0).rgb);
+    return told_sky(IMAGE_sky, 0.0, cube_finest(sky, ray.direction).rgb);
 }
 
 vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
@@ -92,10 +93,9 @@ vec4 cubemap_texel(Ray ray, vec4 at) {
     if (ray.cone > 0.0 && cone_cubemap && has_cubemap_color_mips) {
         float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
         if (level > 0.0)
-            return told_cubemap(IMAGE_cubemap_color_mips, at, level,
-                                textureLod(samplerCubeArray(cubemap_color_mips, linear_clamp), at, level));
+            return told_cubemap(IMAGE_cubemap_color_mips, at, level, cube_levels(cubemap_color_mips, at, level));
     }
-    vec4 color = filter_color ? textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0)
+    vec4 color = filter_color ? cube_finest(cubemap_color, at)
                               : textureLod(samplerCubeArray(cubemap_color, nearest_clamp), at, 0.0);
     return told_cubemap(IMAGE_cubemap_color, at, 0.0, color);
 }
@@ -112,7 +112,7 @@ vec4 cubemap_lookup(Ray ray, uint place) {
     if (color.a > 0.0 && color.a < 1.0 && ray.cone > 0.0 && !ray.endless) {
         // Whether it is the sky that is seen is the ray's to say, not the cone's: rays that end in the sky know nothing of the
         // surfaces beside it, and would not give back what the others took of it.
-        float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
+        float own = cube_finest(cubemap_color, vec4(ray.end - center, place)).a;
         color *= opacity(own) / color.a;
     }
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);

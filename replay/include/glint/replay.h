@@ -18,6 +18,8 @@ struct glint_device_info {
     char reason[256]; /* why not usable */
     uint32_t api_version;
     uint64_t memory_bytes;
+    bool
+        filters_together; /* what is looked up beside a cube map's texel changes its last bits: passes/shared/cube_filter.glsl */
     uint32_t tile_wide; /* pixels across a tile for passes that look cube maps up: passes/shared/tile_list.h */
 };
 /* Fills up to `capacity` entries, best first, and returns how many devices there are; 0 with an error when Vulkan
