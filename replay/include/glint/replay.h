@@ -150,6 +150,9 @@ struct glint_replay_options {
     const char *cache;
 };
 
+/* The reasons of passes that the caller left out, and not a plan. */
+#define GLINT_REASON_NOT_ASKED "not among the passes asked for"
+#define GLINT_REASON_SKIPPED "skipped on request"
 struct glint_plan_entry {
     const struct glint_pass *pass;
     bool runs;
