@@ -142,8 +142,8 @@ static bool decide(struct graph *graph, const struct graph_inputs *inputs, struc
     for (size_t i = graph->pass_count; i-- > 0;) {
         struct graph_pass *pass = &graph->passes[i];
         const char *slot = pass->pass->slot, *why = NULL;
-        if (options->passes && !list_has(options->passes, slot)) why = "not among the passes asked for";
-        else if (list_has(options->skip, slot)) why = "skipped on request";
+        if (options->passes && !list_has(options->passes, slot)) why = GLINT_REASON_NOT_ASKED;
+        else if (list_has(options->skip, slot)) why = GLINT_REASON_SKIPPED;
         else if (list_has(options->force, slot)) why = "forced on request", pass->runs = true;
         else if (options->all && !options->passes && makes_list(pass->pass)) /* unless it was asked for by name */
             why = "all pixels were asked for, and a list leaves some out";

@@ -215,6 +215,7 @@ static size_t describe(VkPhysicalDevice physical, struct glint_device_info *info
     *info = (struct glint_device_info){.type = type_order[rank].name,
                                        .is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
                                        .api_version = properties.properties.apiVersion};
+    info->filters_together = info->is_cpu;
     info->tile_wide = info->is_cpu ? STRIP_WIDE : TILE_WIDE;
     snprintf(info->name, sizeof info->name, "%s", properties.properties.deviceName);
     snprintf(info->driver, sizeof info->driver, "%s", driver.driverName);

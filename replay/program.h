@@ -14,7 +14,13 @@ struct workgroup {
 };
 struct workgroup pass_workgroup(const struct glint_pass *pass);
 
-enum { PUSH_BYTES_MAX = 128, CONSTANTS_MAX = 64, CONSTANT_PHASE = 4 /* its id and its place */, CONSTANT_PROBE = 999 };
+enum {
+    PUSH_BYTES_MAX = 128,
+    CONSTANTS_MAX = 64,
+    CONSTANT_PHASE = 4 /* its id and its place */,
+    CONSTANT_FILTER = 995,
+    CONSTANT_PROBE = 999
+};
 /* Those of DISPATCH_TILES: ids, and places among the constants. */
 enum {
     CONSTANT_TILE_WIDE = 996,
@@ -37,7 +43,7 @@ struct constants {
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
                     const struct spirv *spirv, const struct glint_replay_options *options, uint32_t tile_wide,
-                    uint32_t block, struct glint_error *err);
+                    uint32_t block, bool by_hand, struct glint_error *err);
 
 struct program {
     uint64_t key;

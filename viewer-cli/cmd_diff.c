@@ -14,6 +14,7 @@ static const struct example examples[] = {
     {"glint diff run run2", "which parameters differ, and the first pass that does"},
     {"glint diff run run2 --html diff.html",
      "a page to look at them with: slider, flicker, heat map, values under the pointer"},
+    {"glint diff planned all", "a run beside one of --all: whether its plan changed a bit of what both have"},
     {"glint diff run:travelled run2:travelled", "one image of each"},
     {"glint diff run street.exr", "a run against the engine's own intermediates (engine.SLOT.IMAGE)"},
     {"glint diff run run2 --metrics rmse,flip --json", "with figures of docs/metrics.md"},
@@ -63,7 +64,11 @@ const struct command cmd_diff = {
         "at "
         "all, how many are over the limit, the largest difference with its pixel, channel and both values. Of two "
         "runs: "
-        "what they say differently of themselves, and the first image, in the order of the passes, that differs.",
+        "what they say differently of themselves, and the first image, in the order of the passes, that differs. "
+        "Beside a "
+        "run of --all, one as planned is compared in what both have: images that its plan does without are named and "
+        "no "
+        "failure, and where it traces no ray only the picture counts.",
     .options = options,
     .one_dash = true,
     .usage_status = DIFF_USAGE,

@@ -1,5 +1,6 @@
 // Where rays leave the simple shape that stands for what a cube map shows. The shape is the cube map's inner volume, grown;
 // a cube map without one has a shape of its own size around its centre.
+#include "shared/cube_filter.glsl"
 #include "single.glsl"
 
 // Where a ray is inside of something convex: (enters, leaves), enters > leaves: nowhere.
@@ -46,7 +47,7 @@ Result end_on_proxy(vec3 origin, vec3 direction, float start_m, uint best, vec2 
     }
     result.fetches++;
     vec4 at = vec4(origin + result.travelled_m * direction - active_centers[best].xyz, best);
-    float alpha = textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0).a;
+    float alpha = cube_finest(cubemap_color, at).a;
     probe(PROBE_cubemap_proxy, vec4(best, span, alpha));
     if (alpha > 0.0) return result;
     return Result(INFINITE, place_of_sky(best), END_sky, result.fetches);

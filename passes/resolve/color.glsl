@@ -3,6 +3,7 @@
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
+#include "shared/cube_filter.glsl"
 #include "shared/fog.glsl"
 #include "shared/paraboloid.glsl"
 #include "probe/tell.glsl"
@@ -38,7 +39,9 @@ vec3 told_picture(uint image, vec2 uv, float level, vec3 color) {
     probe_color(image, ACTIVE_MOST, uv, level, vec4(color, 1.0));
     return color;
 }
-vec4 told_cubemap(uint image, vec4 at, float level, vec4 color) {
+// alone: what is no sky of a texel, by itself.
+vec4 told_cubemap(uint image, vec4 at, float level, vec4 color, bool alone) {
+    if (alone) color = vec4(color.rgb / max(color.a, LEAST_SHARE), 1.0);
     probe_color(image, uint(at.w), vec2(0.0), level, color);
     return color;
 }
@@ -47,9 +50,9 @@ vec3 sky_color(Ray ray) {
     if (!fact_sky_seen) return vec3(0.0);
     if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
         float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
-        return told_sky(IMAGE_sky_mips, level, textureLod(samplerCube(sky_mips, linear_clamp), ray.direction, level).rgb);
+        return told_sky(IMAGE_sky_mips, level, cube_levels(sky_mips, ray.direction, level).rgb);
     }
-    return told_sky(IMAGE_sky, 0.0, textureLod(samplerCube(sky, linear_clamp), ray.direction, 0.0).rgb);
+    return told_sky(IMAGE_sky, 0.0, cube_finest(sky, ray.direction).rgb);
 }
 
 // The four texels around a place that show a depth, +inf the sky, as far as tolerance goes; if none does, the one that is
@@ -104,7 +107,7 @@ vec4 screen_color(Ray ray) {
 }
 
 // What stands for the cube maps where the pipeline converts them; one fetch, and no face to choose.
-vec4 paraboloid_texel(Ray ray, vec4 at) {
+vec4 paraboloid_texel(Ray ray, vec4 at, bool alone) {
     vec3 d = normalize(at.xyz) * paraboloid_axes(frame.up.xyz), uv = paraboloid_uv(d, float(frame.counts.z));
     float level = 0.0;
     if (ray.cone > 0.0 && cone_cubemap) {
@@ -112,20 +115,19 @@ vec4 paraboloid_texel(Ray ray, vec4 at) {
         level = paraboloid_level(cone_tangent(ray.cone) * spread, d.z, float(frame.counts.z), texel_scale);
     }
     uv.z += 2.0 * at.w;
-    return told_cubemap(IMAGE_paraboloids, at, level, textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level));
+    return told_cubemap(IMAGE_paraboloids, at, level, textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level), alone);
 }
 
-vec4 cubemap_texel(Ray ray, vec4 at) {
-    if (has_paraboloids) return paraboloid_texel(ray, at);
+vec4 cubemap_texel(Ray ray, vec4 at, bool alone) {
+    if (has_paraboloids) return paraboloid_texel(ray, at, alone);
     if (ray.cone > 0.0 && cone_cubemap && has_cubemap_color_mips) {
         float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
         if (level > 0.0)
-            return told_cubemap(IMAGE_cubemap_color_mips, at, level,
-                                textureLod(samplerCubeArray(cubemap_color_mips, linear_clamp), at, level));
+            return told_cubemap(IMAGE_cubemap_color_mips, at, level, cube_levels(cubemap_color_mips, at, level), alone);
     }
-    vec4 color = filter_color ? textureLod(samplerCubeArray(cubemap_color, linear_clamp), at, 0.0)
+    vec4 color = filter_color ? cube_finest(cubemap_color, at)
                               : textureLod(samplerCubeArray(cubemap_color, nearest_clamp), at, 0.0);
-    return told_cubemap(IMAGE_cubemap_color, at, 0.0, color);
+    return told_cubemap(IMAGE_cubemap_color, at, 0.0, color, alone);
 }
 
 // Where three faces meet, a sampler's weights of eight bits may sum up to 255/256, in a level and in its lookup: that is no sky.
@@ -135,16 +137,15 @@ float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
 // Of a ray that ended on a surface the sky beside that is no part: rays that end in the sky bring it. Which of the two is at
 // the end is what the nearer of the cube map's texels say, and not the cone's width.
 vec4 surface_in_cubemap(Ray ray, vec3 center, uint place) {
-    float own = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray.end - center, place), 0.0).a;
-    if (own < 0.5) return vec4(sky_color(ray), 1.0);
-    vec4 color = cubemap_texel(ray, vec4(ray.end - center, place));
-    return vec4(color.rgb / max(color.a, LEAST_SHARE), 1.0);
+    vec4 at = vec4(ray.end - center, place);
+    if (cube_finest(cubemap_color, at).a < 0.5) return vec4(sky_color(ray), 1.0);
+    return vec4(cubemap_texel(ray, at, true).rgb, 1.0);
 }
 
 vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = active_centers[place].xyz;
     if (joint && fact_sky_seen && !ray.endless) return surface_in_cubemap(ray, center, place);
-    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place));
+    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place), false);
     if (!fact_sky_seen) return vec4(color.rgb, 1.0);
     color.a = opacity(color.a);
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);

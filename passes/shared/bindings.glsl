@@ -51,6 +51,7 @@ layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed
 layout(constant_id = 3) const bool halves = true; // images declared as halves are that, and not floats instead
 layout(constant_id = 4) const uint dispatch_phase = 0u;
 const uint ALL_TILES = 0xFFFFFFFFu; // no list of tiles: all of the image
+layout(constant_id = 995) const bool filter_by_hand = false; // cube maps, in shared/cube_filter.glsl
 layout(constant_id = 996) const uint tile_wide = 2u; // pixels; 16: the list of strips (tile_list.h)
 layout(constant_id = 997) const uint tile_range = ALL_TILES; // of tile_ranges.h, that the dispatch is over
 layout(constant_id = 998) const bool tile_works = true;      // false: over the rest, where the pass has nothing to do

@@ -8,6 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#include "shared/cube_filter.glsl"
 #define TILE_LIST water_tiles
 #include "shared/tiles.glsl"
 #include "probe/tell.glsl"
@@ -70,11 +71,11 @@ vec3 mirrored(Water water, ivec2 pixel) {
     }
     vec3 ray = reflect(water.towards, water.normal);
     ray += max(-dot(ray, frame.up.xyz), 0.0) * frame.up.xyz;
-    vec3 color = textureLod(samplerCube(sky, linear_clamp), ray, 0.0).rgb;
+    vec3 color = cube_finest(sky, ray).rgb;
     uint under = IMAGE_sky;
     probe(PROBE_color, vec4(IMAGE_sky, 255.0, vec2(0.0)), vec4(0.0, color), vec4(1.0));
     if (environment && frame.counts.x > 0u) {
-        vec4 around = textureLod(samplerCubeArray(cubemap_color, linear_clamp), vec4(ray, 0.0), 0.0);
+        vec4 around = cube_finest(cubemap_color, vec4(ray, 0.0));
         probe(PROBE_color, vec4(IMAGE_cubemap_color, vec3(0.0)), vec4(0.0, around.rgb), vec4(around.a));
         color = around.rgb + color * (1.0 - around.a);
         under = IMAGE_mixture;

@@ -11,6 +11,7 @@ struct pair {
     struct glint_pipeline *pipeline, *other; /* other: of the whole one; NULL: the same */
     struct glint_replay *planned, *whole;
     struct glint_survey last;                 /* of the planned one */
+    bool float_precision;                     /* of both */
     void (*lie)(struct glint_survey *survey); /* to the plan, about what the frame holds; NULL: nothing */
 };
 

@@ -183,6 +183,50 @@ static void runs_name_what_differs_first(void **state) {
     free(heat.rgb);
 }
 
+/* Catches: a plan called wrong for what it does without, and one called right that changes what is left: a ray's end, the picture,
+   an image that was lost otherwise. */
+static void a_plan_is_compared_in_what_both_have(void **state) {
+    (void)state;
+    free(glint_ok("sample", "mirror_box", "-o", in_folder("part.exr"), "--size=48x27", "--cube-size=16",
+                  "--reflecting=20"));
+    free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("planned")));
+    free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("all"), "--all"));
+    free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("shorter"), "--all",
+                  "--set=cubemap_trace.steps_hq=5"));
+    free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("dimmer"), "--all",
+                  "--set=compose.fresnel=false"));
+    free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("cut"), "--all",
+                  "--passes=downsample,hiz,screen_trace"));
+    for (int turned = 0; turned < 2; turned++) {
+        const char *const a = turned ? "all" : "planned", *const b = turned ? "planned" : "all";
+        struct outcome found = glint("diff", in_folder(a), in_folder(b), NULL);
+        assert_int_equal(found.status, 0);
+        assert_contains(found.out, "not made by the plan of ");
+        assert_contains(found.out, "images that both have are the same");
+        outcome_free(&found);
+        json_t *json = diff_of(0, a, b);
+        const json_t *planned = json_object_get(json, "planned"), *images = json_object_get(json, "images");
+        assert_string_equal(json_string_value(json_object_get(planned, "run")), in_folder("planned"));
+        assert_true(number(planned, "images_left_out") > 0);
+        assert_true(number(planned, "rays_left_out") > 0.5 * 24 * 14 && number(planned, "rays_left_out") < 24 * 14);
+        assert_string_equal(json_string_value(json_object_get(named(images, "name", "tile_list"), "verdict")),
+                            "left out");
+        assert_true(number(named(images, "name", "reflection_half"), "differing") == 0);
+        json_decref(json);
+    }
+    json_t *json = diff_of(2, "planned", "shorter");
+    assert_string_equal(json_string_value(json_object_get(json_object_get(json, "first"), "slot")), "cubemap_trace");
+    json_decref(json);
+    json = diff_of(2, "planned", "dimmer");
+    assert_string_equal(json_string_value(json_object_get(json_object_get(json, "first"), "image")), "composed");
+    json_decref(json);
+    json = diff_of(2, "planned", "cut");
+    assert_contains(
+        json_string_value(json_object_get(named(json_object_get(json, "images"), "name", "composed"), "note")),
+        "the second has no such image");
+    json_decref(json);
+}
+
 /* The engine's own image under its slot's name; what it did not dump is not missed. */
 static void a_run_is_compared_with_the_engine(void **state) {
     static const char *const rgba[] = {"R", "G", "B", "A"};
@@ -227,6 +271,7 @@ int main(void) {
         cmocka_unit_test(figures_are_idiffs),
         cmocka_unit_test(what_cannot_be_compared_has_its_own_code),
         cmocka_unit_test(runs_name_what_differs_first),
+        cmocka_unit_test(a_plan_is_compared_in_what_both_have),
         cmocka_unit_test(a_run_is_compared_with_the_engine),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

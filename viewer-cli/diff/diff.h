@@ -48,6 +48,7 @@ bool diff_side_read(struct diff_side *side, const struct diff_image *image, cons
 struct diff_pair {
     const struct diff_image *a, *b; /* one of them may be missing */
     enum diff_status status;
+    bool left_out;  /* one side lacks it, and may: a plan does without */
     char note[160]; /* why, where no value says it */
     struct glint_difference difference;
     struct glint_metric_table metrics; /* no rows: none were asked for, or there are no figures of this image */
@@ -63,6 +64,11 @@ struct diff {
     struct diff_options options;
     struct diff_pair *pairs;
     size_t count;
+    int planned;     /* the side that was planned while the other ran everything; -1: neither */
+    size_t left_out; /* images, with what one side lacks */
+    bool *rayless;   /* texels of rays that the plan does not trace, and the other run does; NULL: none are known */
+    uint32_t rays_width, rays_height;
+    size_t rayless_count;
     json_t *settings; /* what two runs say differently of themselves: [{"what", "a", "b"}] */
     enum diff_status status;
 };
@@ -71,6 +77,15 @@ void diff_finish(struct diff *diff);
 const struct diff_image *diff_pair_image(const struct diff_pair *pair); /* whichever is there */
 /* The pair whose pass, in the order of the run, is the first that differs; diff->count when none does. */
 size_t diff_first(const struct diff *diff);
+
+/* ---- A run as planned beside one of everything: planned.c ---- */
+
+bool diff_planned_begin(struct diff *diff, struct glint_error *err);
+/* Whether one side lacks the image because its run did without: it says why of the pass that makes it. */
+bool diff_is_planned_out(const struct diff *diff, const struct diff_pair *pair);
+/* Makes values of rays that only one of the runs traced the same. */
+void diff_planned_skip(const struct diff *diff, const struct diff_pair *pair, size_t count, const uint32_t *a,
+                       uint32_t *b);
 
 /* settings.c */
 json_t *diff_settings(const json_t *a, const json_t *b);

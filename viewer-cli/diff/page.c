@@ -119,10 +119,11 @@ static void add_table(json_t *document, const struct diff *diff) {
     size_t equal = 0;
     char text[128];
     json_t *blocks = page_section(document, "What differs, in the order of the passes");
-    for (size_t i = 0; i < diff->count; i++) equal += !differs(&diff->pairs[i]);
-    snprintf(text, sizeof text, "%zu of %zu images are equal in every value.", equal, diff->count);
+    for (size_t i = 0; i < diff->count; i++) equal += !differs(&diff->pairs[i]) && !diff->pairs[i].left_out;
+    snprintf(text, sizeof text, "%zu of %zu images%s are equal in every value.", equal, diff->count - diff->left_out,
+             diff->planned < 0 ? "" : " that both have, where both trace rays,");
     page_text(blocks, "text", text);
-    if (equal == diff->count) return;
+    if (equal == diff->count - diff->left_out) return;
     json_t *table = page_table(blocks);
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++) page_column(table, columns[k][0], columns[k][1]);
     for (size_t i = 0; i < diff->count; i++)

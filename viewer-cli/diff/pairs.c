@@ -114,6 +114,7 @@ static bool compare_kind(struct diff *diff, struct diff_pair *pair, bool integer
     bool ok = (a && b) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     ok = ok && diff_side_read(&diff->sides[0], pair->a, names, count, integers, a, err) &&
          diff_side_read(&diff->sides[1], pair->b, names, count, integers, b, err);
+    if (ok) diff_planned_skip(diff, pair, count, a, b);
     if (ok) glint_difference_add(&pair->difference, a, b, integers, (uint32_t)count, *channels, &diff->options.limits);
     if (ok && pair->heat) add_heat(pair, a, b, integers, count);
     if (ok && !integers && diff->options.metrics.metrics)
@@ -127,7 +128,9 @@ static bool compare_kind(struct diff *diff, struct diff_pair *pair, bool integer
 static bool compare_pair(struct diff *diff, struct diff_pair *pair, struct glint_error *err) {
     size_t channels = 0;
     if (!pair->a || !pair->b) {
-        pair->status = DIFF_FAIL;
+        pair->left_out = diff_is_planned_out(diff, pair);
+        diff->left_out += pair->left_out;
+        pair->status = pair->left_out ? DIFF_SAME : DIFF_FAIL;
         snprintf(pair->note, sizeof pair->note, "%s has no such image", pair->a ? "the second" : "the first");
         return true;
     }
@@ -148,7 +151,7 @@ static bool compare_pair(struct diff *diff, struct diff_pair *pair, struct glint
 }
 
 bool diff_compare(struct diff *diff, glint_progress progress, void *user, struct glint_error *err) {
-    if (!pair_up(diff, err)) return false;
+    if (!pair_up(diff, err) || !diff_planned_begin(diff, err)) return false;
     if (diff->sides[0].json && diff->sides[1].json)
         diff->settings = diff_settings(diff->sides[0].json, diff->sides[1].json);
     for (size_t i = 0; i < diff->count; i++) {
@@ -174,6 +177,7 @@ void diff_finish(struct diff *diff) {
         free(diff->pairs[i].heat);
     }
     free(diff->pairs);
+    free(diff->rayless);
     json_decref(diff->settings);
     for (int k = 0; k < 2; k++) diff_side_finish(&diff->sides[k]);
 }

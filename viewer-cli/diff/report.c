@@ -52,8 +52,9 @@ static json_t *places_json(const struct glint_difference *d) {
 static json_t *pair_json(const struct diff_pair *pair) {
     const struct diff_image *image = diff_pair_image(pair);
     const struct glint_difference *d = &pair->difference;
-    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i}", "name", image->name, "slot", image->slot, "unit", image->unit,
-                             "verdict", diff_words[pair->status], "status", (int)pair->status);
+    json_t *json =
+        json_pack("{s:s, s:s, s:s, s:s, s:i}", "name", image->name, "slot", image->slot, "unit", image->unit, "verdict",
+                  pair->left_out ? "left out" : diff_words[pair->status], "status", (int)pair->status);
     if (pair->note[0]) json_object_set_new(json, "note", json_string(pair->note));
     if (!d->marks) return json;
     json_t *largest = json_pack(
@@ -86,6 +87,10 @@ json_t *diff_json(const struct diff *diff) {
         json_object_set_new(json, "first", json_pack("{s:s, s:s}", "image", image->name, "slot", image->slot));
     }
     if (diff->settings) json_object_set(json, "settings", diff->settings);
+    if (diff->planned >= 0)
+        json_object_set_new(json, "planned",
+                            json_pack("{s:s, s:I, s:I}", "run", diff->sides[diff->planned].text, "images_left_out",
+                                      (json_int_t)diff->left_out, "rays_left_out", (json_int_t)diff->rayless_count));
     return json;
 }
 
@@ -138,7 +143,8 @@ static void print_pairs(const struct diff *diff, bool verbose) {
     const bool runs = diff->sides[0].run || diff->sides[1].run;
     struct table *t = table_create(runs ? titles : titles + 1);
     for (size_t i = 0; i < diff->count; i++)
-        if (verbose || diff->pairs[i].status != DIFF_SAME || diff->pairs[i].difference.differing)
+        if (diff->pairs[i].left_out) continue;
+        else if (verbose || diff->pairs[i].status != DIFF_SAME || diff->pairs[i].difference.differing)
             pair_row(t, &diff->pairs[i], runs);
     if (!table_is_empty(t)) table_print(t, stdout);
     table_destroy(&t);
@@ -165,16 +171,36 @@ static void print_alone(const struct diff_pair *pair) {
     if (pair->metrics.count) metrics_print(&pair->metrics);
 }
 
+/* What one of the runs alone made, in a line for each run. */
+static void print_left_out(const struct diff *diff) {
+    for (int k = 0; k < 2 && diff->planned >= 0; k++) {
+        const char *mark = k == diff->planned ? "not made by the plan of" : "not made without a plan, in";
+        size_t named = 0;
+        for (size_t i = 0; i < diff->count; i++) {
+            const struct diff_pair *pair = &diff->pairs[i];
+            if (!pair->left_out || (k ? pair->b : pair->a) || strstr(diff_pair_image(pair)->name, ".level")) continue;
+            if (named++ == 0) printf("%s %s: ", mark, diff->sides[k].text);
+            printf("%s%s", named > 1 ? ", " : "", diff_pair_image(pair)->name);
+        }
+        if (named) putchar('\n');
+    }
+    if (diff->rayless_count)
+        printf("%s traces no ray at %zu of %zu texels; there images of rays were not compared\n",
+               diff->sides[diff->planned].text, diff->rayless_count, (size_t)diff->rays_width * diff->rays_height);
+}
+
 void diff_print(const struct diff *diff, bool verbose) {
     static const char *const verdicts[] = {"PASS", "WARNING", "FAILURE", "FAILURE: other sizes"};
     const size_t first = diff_first(diff);
     size_t same = 0;
     if (diff->settings) print_settings(diff->settings);
-    for (size_t i = 0; i < diff->count; i++) same += diff->pairs[i].status == DIFF_SAME;
+    for (size_t i = 0; i < diff->count; i++) same += diff->pairs[i].status == DIFF_SAME && !diff->pairs[i].left_out;
     print_pairs(diff, verbose);
+    print_left_out(diff);
     if (diff->count == 1) print_alone(&diff->pairs[0]);
     else {
-        printf("%zu of %zu images are the same within the limits", same, diff->count);
+        printf("%zu of %zu images%s are the same within the limits", same, diff->count - diff->left_out,
+               diff->planned >= 0 ? " that both have" : "");
         if (first < diff->count) {
             const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
             printf("; %s%s%s is the first that differs", image->slot, image->slot[0] ? ": " : "", image->name);

@@ -18,6 +18,8 @@ struct glint_device_info {
     char reason[256]; /* why not usable */
     uint32_t api_version;
     uint64_t memory_bytes;
+    bool
+        filters_together; /* what is looked up beside a cube map's texel changes its last bits: passes/shared/cube_filter.glsl */
     uint32_t tile_wide; /* pixels across a tile for passes that look cube maps up: passes/shared/tile_list.h */
 };
 /* Fills up to `capacity` entries, best first, and returns how many devices there are; 0 with an error when Vulkan
@@ -148,6 +150,9 @@ struct glint_replay_options {
     const char *cache;
 };
 
+/* The reasons of passes that the caller left out, and not a plan. */
+#define GLINT_REASON_NOT_ASKED "not among the passes asked for"
+#define GLINT_REASON_SKIPPED "skipped on request"
 struct glint_plan_entry {
     const struct glint_pass *pass;
     bool runs;

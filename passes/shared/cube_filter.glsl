@@ -1,0 +1,66 @@
+// Bilinear and trilinear lookups of cube maps, seamless across edges, whose every bit is the lookup's own. llvmpipe filters the
+// eight texels of a vector together: where one of them lies at a corner of the cube it sums all eight up by weights, elsewhere it
+// interpolates twice, and the two part in the last bit. A texel would then depend on what is looked up beside it, by invocations
+// that do nothing, too. filter_by_hand: such a device fetches texels, one by one, and they are mixed here; others filter themselves.
+#ifndef GLINT_CUBE_FILTER
+#define GLINT_CUBE_FILTER
+
+// Towards the centres of the four texels around a direction; weights have the sum 1.
+struct CubeTaps {
+    vec3 direction[4];
+    vec4 weight;
+};
+
+// Places are in units of half a texel, so that centres are whole numbers, on the cube whose faces lie at ±size. A texel beyond an
+// edge is the first one of the next face: that component comes to lie on the face, and the one that did goes back by one.
+vec3 centre_on_cube(vec3 place, vec3 major, float size) {
+    bool beyond = any(greaterThan(abs(place), vec3(size)));
+    return beyond ? clamp(place, -size, size) - major * sign(place) : place;
+}
+
+CubeTaps cube_taps(vec3 direction, float size) {
+    vec3 a = abs(direction);
+    bool z = a.z >= a.x && a.z >= a.y, y = !z && a.y >= a.x;
+    vec3 major = z ? vec3(0.0, 0.0, 1.0) : y ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 right = major.x > 0.0 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), down = 1.0 - major - right;
+    float widest = max(max(a.x, max(a.y, a.z)), 1e-30); // at the centre itself there is no direction: any face's middle
+    precise vec3 texel = 0.5 * (direction * (size / widest) + size) - 0.5;
+    vec3 first = mix(2.0 * floor(texel) + 1.0 - size, size * sign(direction), greaterThan(major, vec3(0.0)));
+    precise vec3 part = texel - floor(texel);
+    precise float across = dot(part, right), along = dot(part, down);
+    CubeTaps taps;
+    precise vec4 weight = vec4((1.0 - across) * (1.0 - along), across * (1.0 - along), (1.0 - across) * along, across * along);
+    vec4 corner = vec4(0.0); // where three faces meet there is no fourth texel: the others share its weight
+    for (int i = 0; i < 4; ++i) {
+        vec3 place = first + 2.0 * float(i & 1) * right + 2.0 * float(i >> 1) * down;
+        corner[i] = dot(vec3(greaterThan(abs(place), vec3(size))), vec3(1.0)) > 1.5 ? 1.0 : 0.0;
+        taps.direction[i] = centre_on_cube(place, major, size);
+    }
+    precise vec4 own = (1.0 - corner) * (weight + dot(weight, corner) * (1.0 / 3.0));
+    taps.weight = own;
+    return taps;
+}
+
+#define CUBE_FILTER(texture_kind, sampler_kind, coordinate, at_tap)                                                      \
+    vec4 cube_level(texture_kind image, coordinate at, int level) {                                                      \
+        CubeTaps taps = cube_taps(at.xyz, float(max(textureSize(sampler_kind(image, nearest_clamp), 0).x >> level, 1))); \
+        precise vec4 sum = vec4(0.0);                                                                                    \
+        for (int i = 0; i < 4; ++i)                                                                                      \
+            sum += taps.weight[i] * textureLod(sampler_kind(image, nearest_clamp), at_tap, float(level));                \
+        return sum;                                                                                                      \
+    }                                                                                                                    \
+    vec4 cube_finest(texture_kind image, coordinate at) {                                                                \
+        return filter_by_hand ? cube_level(image, at, 0) : textureLod(sampler_kind(image, linear_clamp), at, 0.0);       \
+    }                                                                                                                    \
+    vec4 cube_levels(texture_kind image, coordinate at, float level) {                                                   \
+        if (!filter_by_hand) return textureLod(sampler_kind(image, linear_clamp), at, level);                            \
+        precise float within = clamp(level, 0.0, float(textureQueryLevels(sampler_kind(image, nearest_clamp)) - 1));     \
+        precise float part = within - floor(within);                                                                     \
+        precise vec4 finer = cube_level(image, at, int(within)), coarser = cube_level(image, at, int(ceil(within)));     \
+        precise vec4 color = finer + part * (coarser - finer);                                                           \
+        return color;                                                                                                    \
+    }
+CUBE_FILTER(textureCube, samplerCube, vec3, taps.direction[i])
+CUBE_FILTER(textureCubeArray, samplerCubeArray, vec4, vec4(taps.direction[i], at.w))
+#undef CUBE_FILTER
+#endif
