@@ -94,6 +94,9 @@ static json_t *warnings(const struct run *run) {
                                                  (long long)history_number(run->history), frame->number));
     if (run->sizes.history && !frame->has_previous)
         json_array_append_new(list, json_string("the capture has no camera of the frame before: it counts as still"));
+    char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
+    for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
+        json_array_append_new(list, json_string(notes[i]));
     const char *last = NULL;
     uint32_t messages = glint_device_messages(run->replay->device, &last);
     if (messages) json_array_append_new(list, json_sprintf("%u validation messages, the last: %s", messages, last));
