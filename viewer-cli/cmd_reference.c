@@ -28,7 +28,7 @@ static const struct argp_option options[] = {
         "objects are, halved and doubled, with so many rays a pixel each (default 32)", 0},
     {"like",        KEY_LIKE,        "NAME|FILE", 0, "The reference of this preset: of the lobe that it draws from and with its fog", 0},
     USE_OPTION,
-    {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as resolve.fog=false for comparisons with the truth, which has no fog", 0},
+    {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as pipeline.fog=false for comparisons with the truth, which has no fog", 0},
     ALL_OPTION,
     {"anew",        KEY_ANEW,        NULL,   0, "Replace what the folder holds", 0},
     DEVICE_OPTION,
@@ -120,7 +120,7 @@ static void print_noise(const struct glint_reference_state *state, const struct 
     puts("noise: standard error of the mean, by what two halves of the rays differ by");
     if (missing->known) puts("missing information: RMSE against the capture's truth, the noise of both taken off");
     if (missing->known && missing->fog)
-        puts("the truth has no fog and this reference has; --set resolve.fog=false compares the same");
+        puts("the truth has no fog and this reference has; --set pipeline.fog=false compares the same");
 }
 
 static void print_sensitivity(const struct glint_reference_sensitivity *s) {
@@ -283,7 +283,7 @@ const struct command cmd_reference = {
         "left: half of the rays share no random number with the others, and what the halves differ by is the noise. "
         "What a preset is off the reference is the error of its algorithms; what the reference is off the truth that "
         "the capture may carry is information that its data lack. The truth has no fog: for comparisons with it, trace "
-        "the reference with --set resolve.fog=false, and give glint replay --against both=RUN the same.",
+        "the reference with --set pipeline.fog=false, and give glint replay --against both=RUN the same.",
     .options = options,
     .parse = parse,
     .examples = examples,

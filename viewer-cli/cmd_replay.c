@@ -39,7 +39,7 @@ static const struct argp_option options[] = {
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better answer. truth: the true reflection and the mirror rays "
         "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
         "preset reference on the same capture, or what glint reference kept of it: reference=RUN. both (or both=RUN): also what "
-        "the reference itself is off the truth. The truth has no fog: with truth and both add --set resolve.fog=false, and trace "
+        "the reference itself is off the truth. The truth has no fog: with truth and both add --set pipeline.fog=false, and trace "
         "RUN with it too", 0},
     METRIC_OPTIONS,
     {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset's file or a shader changes: RUN holds the newest version, "

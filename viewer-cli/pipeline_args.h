@@ -37,7 +37,7 @@ enum {
 #define WHOLE_PIPELINE_OPTIONS(what) \
     {"preset",  'p',         "NAME|FILE",      0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
     USE_OPTION, \
-    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter; glint passes SLOT lists them", 0}, \
+    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter, which glint passes SLOT lists; pipeline.PARAM: in every pass that has it", 0}, \
     {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead", 0}, \
     ALL_OPTION, DEVICE_OPTION
 #define SKIP_OPTION \
