@@ -78,6 +78,13 @@ static json_int_t history_number(const struct glint_run *history) {
     return number;
 }
 
+static bool diagnoses(const struct run *run) {
+    for (size_t i = 0; i < run->graph.image_count; i++)
+        if (run->graph.images[i].row->kind == GLINT_ROW_DIAGNOSTIC && run->graph.images[i].source == SOURCE_MADE)
+            return true;
+    return false;
+}
+
 static json_t *warnings(const struct run *run) {
     json_t *list = json_array();
     for (size_t i = 0; i < run->graph.image_count; i++) {
@@ -86,6 +93,8 @@ static json_t *warnings(const struct run *run) {
             json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
                                                      image->row->role, image->name, image->row->nothing));
     }
+    if (run->options->diagnostics && !diagnoses(run))
+        json_array_append_new(list, json_string("no pass that runs has the diagnostics that were asked for"));
     if (run->inputs && !inputs_match(run))
         json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->replay->capture);

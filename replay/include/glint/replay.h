@@ -132,7 +132,8 @@ struct glint_replay_options {
     const uint32_t (*probes)[2];
     size_t probe_count;
     bool captured;        /* images that are read from the capture are among the run's, with no pass */
-    bool diagnostics;     /* end reasons, steps, fetches; changes no bit of the other images */
+    /* End reasons, steps, fetches of all passes that run, whatever `outputs` names; changes no bit of the other images. */
+    bool diagnostics;
     bool float_precision; /* every half image as float */
     uint32_t repeat;      /* timed rounds after a warm-up; 0: one round, first use included */
     uint32_t warmup;      /* rounds before the timed ones; 0: 1 */
