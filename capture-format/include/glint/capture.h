@@ -138,7 +138,9 @@ struct glint_cubemap {
     bool outdoor;
     double fade; /* weight while it is added or removed, (0, 1]; 0: 1 */
     uint32_t age_frames;
-    enum glint_volume inner; /* a volume known to be empty, positions relative to the centre, in units */
+    /* A volume of air around the centre, into which no surface reaches, furniture included: rays begin where they leave it.
+       Not the room's walls. Positions relative to the centre, in units. */
+    enum glint_volume inner;
     double box_min[3], box_max[3];
     double sphere_center[3], sphere_radius;
     double planes[GLINT_MAX_PLANES][4]; /* inside: n·p + d <= 0 */
