@@ -135,10 +135,8 @@ static void what_cannot_be_is_said(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_kept_and_goes_on),
-        cmocka_unit_test(how_far_it_is_is_told_on_request),
-        cmocka_unit_test(runs_are_compared_with_it),
-        cmocka_unit_test(another_captures_reference_is_told),
+        cmocka_unit_test(it_is_kept_and_goes_on),    cmocka_unit_test(how_far_it_is_is_told_on_request),
+        cmocka_unit_test(runs_are_compared_with_it), cmocka_unit_test(another_captures_reference_is_told),
         cmocka_unit_test(what_cannot_be_is_said),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -131,7 +131,7 @@ struct glint_replay_options {
        nothing changed. */
     const uint32_t (*probes)[2];
     size_t probe_count;
-    bool captured;        /* images that are read from the capture are among the run's, with no pass */
+    bool captured; /* images that are read from the capture are among the run's, with no pass */
     /* End reasons, steps, fetches of all passes that run, whatever `outputs` names; changes no bit of the other images. */
     bool diagnostics;
     bool float_precision; /* every half image as float */
