@@ -22,6 +22,8 @@ bool glint_attributes_encode(struct glint_arena *arena, struct glint_attribute_l
 /* Fills `to` (zeroed) from the part's attributes and checks them: types, ranges, matrices, volumes. */
 bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
                              void *to);
+/* The nearest rotation in place of one that is less than double precise; the position stays. Sets rotation_error. */
+void glint_camera_make_rigid(struct glint_camera *camera);
 /* Whether the name belongs to glint (any `glint.` name). */
 bool glint_attribute_is_ours(const char *name);
 

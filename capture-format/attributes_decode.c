@@ -159,7 +159,9 @@ static bool decode_numbers(struct context *c, const struct glint_exr_attribute *
     switch (c->row->kind) {
     case GLINT_KIND_CAMERA_VIEW:
         memcpy(member, n, 16 * sizeof *n);
-        return check_view(c, n);
+        if (!check_view(c, n)) return false;
+        glint_camera_make_rigid(member); /* a camera's first member */
+        return true;
     case GLINT_KIND_CAMERA_CLIP:
         memcpy(member, n, 16 * sizeof *n);
         return check_clip(c, n);

@@ -125,18 +125,27 @@ static bool keep_foreign(struct glint_arena *arena, const struct glint_exr_part_
 
 /* ---- channels ---- */
 
+/* The ends of a vector's channels; NULL of a scalar. */
+static const char *axes_of(const struct glint_role_channel *row) {
+    if (is_normal(row) || !strcmp(row->encoding, "motion")) return "XYZ";
+    return ends_in(row->name, ".R") || ends_in(row->name, ".G") || ends_in(row->name, ".B") ? "RGB" : NULL;
+}
+
+/* Of a previous G-buffer depth suffices: it says what was hidden then. */
+static bool is_required(const struct glint_part_info *out, const struct glint_role_channel *row) {
+    return row->required && (!out->previous || strcmp(out->role->name, "gbuffer") || !strcmp(row->encoding, "depth"));
+}
+
 static bool check_required(struct glint_check *check, const struct glint_part_info *out) {
     for (size_t i = 0; i < out->role->channel_count; i++) {
         const struct glint_role_channel *row = &out->role->channels[i];
-        bool wanted = row->required;
+        bool wanted = is_required(out, row);
+        char other[64];
+        snprintf(other, sizeof other, "%s", row->name);
         /* Optional vectors come whole: one of X, Y, Z asks for the others; motion.Z stays optional. */
-        if (!strcmp(row->encoding, "vertex_normal") || !strcmp(row->encoding, "motion")) {
-            char first[64];
-            snprintf(first, sizeof first, "%s", row->name);
-            for (const char *axis = "XYZ"; *axis; axis++) {
-                first[strlen(first) - 1] = *axis;
-                wanted = wanted || glint_part_has_channel(out, first);
-            }
+        for (const char *axis = axes_of(row); axis && *axis; axis++) {
+            other[strlen(other) - 1] = *axis;
+            wanted = wanted || glint_part_has_channel(out, other);
         }
         if (wanted && !glint_part_has_channel(out, row->name) && !BROKEN(CHANNELS, row->name, "missing")) return false;
     }

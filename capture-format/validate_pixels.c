@@ -72,7 +72,9 @@ static void bounds(const struct glint_role_channel *row, float *low, float *high
     *low = -INFINITY;
     *high = INFINITY;
     const bool bare = !row->encoding[0];
-    if (!strcmp(row->unit, "radiance") || (!strcmp(row->unit, "m") && strcmp(row->name, "motion.Z"))) *low = 0;
+    if (!strcmp(row->unit, "radiance") || !strcmp(row->unit, "relative") ||
+        (!strcmp(row->unit, "m") && strcmp(row->name, "motion.Z")))
+        *low = 0;
     if (!strcmp(row->encoding, "roughness") || (bare && !strcmp(row->unit, "1")))
         *low = -RANGE_TOLERANCE, *high = 1 + RANGE_TOLERANCE;
 }

@@ -4,12 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* view = R · world + t, so the eye, which is the view's origin, is -Rᵀ · t. */
-void camera_eye(const struct glint_camera *camera, double eye[3]) {
-    const double *m = camera->world_to_view;
-    for (int i = 0; i < 3; i++) eye[i] = -(m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);
-}
-
 int up_axis(enum glint_axis up, double *sign) {
     static const struct {
         int axis;
@@ -92,7 +86,7 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
     const struct projection p = projection_of(&planar->camera);
     const vec4 uv = uv_from_view(&p, frame->clip_y);
     double eye[3], offset = planar->plane[3], length = 0;
-    camera_eye(&frame->camera, eye);
+    glint_camera_position(&frame->camera, eye);
     mat4 view;
     fill_previous(&view, planar->camera.world_to_view, eye, metres);
     for (int c = 0; c < 4; c++) {
@@ -121,7 +115,7 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     double eye[3];
     memset(block, 0, sizeof *block); /* padding and all: the block is hashed */
-    camera_eye(&frame->camera, eye);
+    glint_camera_position(&frame->camera, eye);
     fill_rotation(&block->view_from_world, &block->world_from_view, frame->camera.world_to_view);
     const struct projection p = projection_of(&frame->camera);
     block->view_from_uv = view_from_uv(&p, frame->clip_y);

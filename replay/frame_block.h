@@ -29,8 +29,6 @@ struct frame_sizes {
     bool history;       /* what HISTORY rows name is there */
 };
 
-/* World position of a camera in engine units. */
-void camera_eye(const struct glint_camera *camera, double eye[3]);
 /* Index of the up axis and its sign. */
 int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);

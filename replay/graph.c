@@ -192,16 +192,17 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                 faults_add(faults, GLINT_ERROR_USAGE, "%s/%s dispatches over %s, which is no list", pass->pass->slot,
                            pass->pass->variant, row->name);
             if (!row_is_output(row)) continue;
-            const bool made = row->kind == GLINT_ROW_WRITE ? !is_left_out(pass, row->name) : options->diagnostics;
-            graph->images[graph->image_count++] =
-                (struct graph_image){.name = row->name,
-                                     .row = row,
-                                     .pass = pass->pass,
-                                     .source = made ? SOURCE_MADE : SOURCE_NOTHING,
-                                     .wanted = made && (!options->outputs || list_has(options->outputs, row->name)),
-                                     .maker = i,
-                                     .first_use = i,
-                                     .last_use = i};
+            const bool diagnostic = row->kind == GLINT_ROW_DIAGNOSTIC;
+            const bool made = diagnostic ? options->diagnostics : !is_left_out(pass, row->name);
+            graph->images[graph->image_count++] = (struct graph_image){
+                .name = row->name,
+                .row = row,
+                .pass = pass->pass,
+                .source = made ? SOURCE_MADE : SOURCE_NOTHING,
+                .wanted = made && (diagnostic || !options->outputs || list_has(options->outputs, row->name)),
+                .maker = i,
+                .first_use = i,
+                .last_use = i};
         }
     }
     for (size_t i = 0; i < graph->pass_count; i++) /* once it is known what is made */

@@ -151,14 +151,11 @@ uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline) {
     return pipeline->rays ? pipeline->rays : 1;
 }
 
-/* pipeline.rays and pipeline.first_ray are the pipeline's own. */
 static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, const char *text,
                      struct glint_error *err) {
     const bool first = strcmp(parameter, "first_ray") == 0;
     const int lowest = first ? 0 : 1, highest = first ? FIRST_RAY_MAX : RAYS_MAX;
     char *end;
-    if (!first && strcmp(parameter, "rays") != 0)
-        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline has no parameter '%s'; known: rays, first_ray", parameter);
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= lowest && value <= highest) || value != floor(value))
         return glint_fail(err, GLINT_ERROR_USAGE, "pipeline.%s: expected a whole number from %d to %d, found '%s'",
@@ -167,10 +164,39 @@ static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, con
     return true;
 }
 
+static bool has_parameter(const struct glint_pass *pass, const char *parameter) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (row_is_parameter(&pass->rows[r]) && strcmp(pass->rows[r].name, parameter) == 0) return true;
+    return false;
+}
+
+static bool set_text(struct glint_pipeline *pipeline, const char *slot, const char *parameter, const char *text,
+                     struct glint_error *err);
+
+/* pipeline.rays and pipeline.first_ray are the pipeline's own. Any other name is set in each pass that has it, which may
+   be none of this pipeline: a switch that is off in all of them is off. */
+static bool set_everywhere(struct glint_pipeline *pipeline, const char *parameter, const char *text,
+                           struct glint_error *err) {
+    size_t count;
+    const struct glint_pass *all = glint_passes(&count);
+    bool known = false;
+    if (!strcmp(parameter, "rays") || !strcmp(parameter, "first_ray")) return set_rays(pipeline, parameter, text, err);
+    for (size_t i = 0; i < count && !known; i++) known = has_parameter(&all[i], parameter);
+    if (!known)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "pipeline has no parameter '%s'; known: rays, first_ray, and those that any pass has",
+                          parameter);
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (has_parameter(pipeline->passes[i].pass, parameter) &&
+            !set_text(pipeline, pipeline->passes[i].pass->slot, parameter, text, err))
+            return false;
+    return true;
+}
+
 static bool set_text(struct glint_pipeline *pipeline, const char *slot, const char *parameter, const char *text,
                      struct glint_error *err) {
     size_t i;
-    if (strcmp(slot, "pipeline") == 0) return set_rays(pipeline, parameter, text, err);
+    if (strcmp(slot, "pipeline") == 0) return set_everywhere(pipeline, parameter, text, err);
     struct pipeline_pass *entry = locate(pipeline, slot, parameter, &i, err);
     if (!entry) return false;
     const struct glint_row *row = &entry->pass->rows[i];

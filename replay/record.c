@@ -78,6 +78,13 @@ static json_int_t history_number(const struct glint_run *history) {
     return number;
 }
 
+static bool diagnoses(const struct run *run) {
+    for (size_t i = 0; i < run->graph.image_count; i++)
+        if (run->graph.images[i].row->kind == GLINT_ROW_DIAGNOSTIC && run->graph.images[i].source == SOURCE_MADE)
+            return true;
+    return false;
+}
+
 static json_t *warnings(const struct run *run) {
     json_t *list = json_array();
     for (size_t i = 0; i < run->graph.image_count; i++) {
@@ -86,6 +93,8 @@ static json_t *warnings(const struct run *run) {
             json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
                                                      image->row->role, image->name, image->row->nothing));
     }
+    if (run->options->diagnostics && !diagnoses(run))
+        json_array_append_new(list, json_string("no pass that runs has the diagnostics that were asked for"));
     if (run->inputs && !inputs_match(run))
         json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->replay->capture);
@@ -94,6 +103,9 @@ static json_t *warnings(const struct run *run) {
                                                  (long long)history_number(run->history), frame->number));
     if (run->sizes.history && !frame->has_previous)
         json_array_append_new(list, json_string("the capture has no camera of the frame before: it counts as still"));
+    char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
+    for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
+        json_array_append_new(list, json_string(notes[i]));
     const char *last = NULL;
     uint32_t messages = glint_device_messages(run->replay->device, &last);
     if (messages) json_array_append_new(list, json_sprintf("%u validation messages, the last: %s", messages, last));

@@ -101,7 +101,7 @@ bool tables_init(struct tables *tables, const struct graph *graph, struct glint_
                                              .value = value_of,
                                              .table = make_table,
                                              .user = &run};
-        camera_eye(&context.frame->camera, context.eye);
+        glint_camera_position(&context.frame->camera, context.eye);
         double start = now_seconds();
         ok = pass->pass->host(&context, err) && check_all_made(tables, pass->pass, err);
         seconds[i] = now_seconds() - start;

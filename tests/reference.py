@@ -17,10 +17,10 @@ from pages import HERE, KINDS, options, run, sample, table
 RECORDS = HERE / "records/reference"
 SCENES = ("street", "room")
 PRESETS = ("mafia3", "mafia_de", "gtav")
-FOG = ("--set", "resolve.fog=false")  # which the truth lacks
+FOG = ("--set", "pipeline.fog=false")  # which the truth lacks
 # Mirror rays alone, in captures of their own: one a pixel.
 MIRROR_SIZE, MIRROR_CUBE, MIRROR_TRUTH = "240x135", "128", "16"
-MIRROR = "pipeline.rays=1 downsample.jitter=false resolve.fog=false"
+MIRROR = "pipeline.rays=1 downsample.jitter=false pipeline.fog=false"
 CHOSEN = "**`dda`, as the reference**"
 TRACES = [
     ("`linear`, 512 steps, thickness 0.01", "screen_trace=linear screen_trace.steps=512 screen_trace.thickness=0.01"),

@@ -2,6 +2,7 @@
 #include "camera_facts.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* View depth at NDC z = n, from z_clip = A z + B and w = s z. */
 static double depth_at(double a, double b, double s, double n) {
@@ -13,10 +14,8 @@ struct camera_facts camera_facts(const struct glint_frame *frame) {
     struct camera_facts f;
     const double *m = frame->camera.world_to_view, *p = frame->camera.view_to_clip;
     double s = p[14];
-    for (int i = 0; i < 3; i++) {
-        f.position[i] = -(m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);
-        f.forward[i] = s * m[8 + i];
-    }
+    glint_camera_position(&frame->camera, f.position);
+    for (int i = 0; i < 3; i++) f.forward[i] = s * m[8 + i];
     f.fov_x_deg = 2 * atan(1 / fabs(p[0])) * (180 / M_PI);
     f.fov_y_deg = 2 * atan(1 / fabs(p[5])) * (180 / M_PI);
     double low = depth_at(p[10], p[11], s, frame->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? -1 : 0);
@@ -24,6 +23,19 @@ struct camera_facts camera_facts(const struct glint_frame *frame) {
     f.near = fmin(low, high);
     f.far = fmax(low, high);
     return f;
+}
+
+json_t *frame_notes_json(const struct glint_frame *frame) {
+    char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
+    json_t *list = json_array();
+    for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
+        json_array_append_new(list, json_string(notes[i]));
+    return list;
+}
+
+void frame_notes_print(const struct glint_frame *frame) {
+    char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
+    for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++) printf("note: %s\n", notes[i]);
 }
 
 const char *axis_name(enum glint_axis axis) {

@@ -2,6 +2,8 @@
 #ifndef GLINT_VIEWER_CAMERA_FACTS_H
 #define GLINT_VIEWER_CAMERA_FACTS_H
 
+#include <jansson.h>
+
 #include "glint/capture.h"
 
 struct camera_facts {
@@ -11,6 +13,9 @@ struct camera_facts {
 };
 
 struct camera_facts camera_facts(const struct glint_frame *frame);
+/* glint_frame_notes, as a list and as lines on stdout. */
+json_t *frame_notes_json(const struct glint_frame *frame);
+void frame_notes_print(const struct glint_frame *frame);
 const char *axis_name(enum glint_axis axis);
 
 #endif

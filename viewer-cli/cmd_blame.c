@@ -6,20 +6,29 @@
 #include "blame/blame.h"
 #include "pass_names.h"
 #include "pipeline_args.h"
-#include "text_file.h"
 
 struct arguments {
     struct blame blame;
     struct pipeline_args pipeline;
     const char *metric;
-    bool json;
+    bool json, progress;
 };
 
-enum { KEY_SEED = 256, KEY_REPEAT, KEY_PLAYER_RAYS, KEY_METRIC, KEY_SHOT, KEY_EXACT, KEY_INTERVAL, KEY_PERMUTATIONS };
+enum {
+    KEY_SEED = 256,
+    KEY_REPEAT,
+    KEY_PLAYER_RAYS,
+    KEY_METRIC,
+    KEY_SHOT,
+    KEY_EXACT,
+    KEY_INTERVAL,
+    KEY_PERMUTATIONS,
+    KEY_PROGRESS
+};
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",    'o',           "FOLDER",        0, "Where all results are kept, with a page and charts; an interrupted call goes on from what is there", 0},
+    {"output",    'o',           "FOLDER",        0, "Where all results are kept, with a page and charts of what is known so far; an interrupted call goes on from what is there", 0},
     {"metric",    KEY_METRIC,    "NAME",          0, "The error that is shared out (default symmetric): symmetric, relative_mse, rmse, clean_relative_mse, clean_rmse, "
                                                      "flip or hdr_flip", 0},
     {"reference", KEY_REFERENCE, "RUN|truth",     0, "What errors are against: a run of glint reference (one for each capture), or the truth in the capture "
@@ -33,8 +42,9 @@ static const struct argp_option options[] = {
                                                      "of what is shared out (default 2)", 0},
     {"permutations", KEY_PERMUTATIONS, "N",       0, "At most so many (default 200)", 0},
     {"seed",      KEY_SEED,      "N",             0, "Of the permutations (default 1)", 0},
-    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds, in turns: each pipeline once a round (default 3; 0: no times)", 0},
+    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds, in turns: each pipeline once a round, when all shares are known and shown (default 3; 0: no times)", 0},
     WHOLE_PIPELINE_OPTIONS("The pipeline"),
+    PROGRESS_OPTION,
     {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/shares.json", 0},
     {0},
 };
@@ -99,6 +109,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     case 'j':
         a->json = true;
         return 0;
+    case KEY_PROGRESS:
+        a->progress = true;
+        return 0;
     case KEY_METRIC:
         a->metric = arg;
         return 0;
@@ -146,15 +159,25 @@ static bool begin(struct arguments *a, struct glint_error *err) {
     return (blame->device = pipeline_args_device(&a->pipeline, err)) && blame_open(blame, &a->pipeline.shader, err);
 }
 
-static bool write_json(const struct blame *blame, struct glint_error *err) {
-    char path[4096];
-    json_t *json = blame_json(blame);
-    char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL;
-    const bool ok = (text || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-                    journal_path(blame->out, "shares.json", path, err) && text_file_write(path, text, err);
-    free(text);
-    json_decref(json);
-    return ok;
+/* Answers as soon as they are known; times take as long again and more. */
+static bool work(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
+    if (!blame_find_shares(blame, err) || !blame_tell(blame, true, err)) return false;
+    progress_end(blame->progress);
+    if (!json) blame_print_shares(blame);
+    *shown = true;
+    if (!blame_find_times(blame, err)) return false;
+    blame->complete = true;
+    return blame_tell(blame, true, err);
+}
+
+/* What is known so far, in the folder and on the screen. */
+static void interrupted(struct blame *blame, bool json, bool shown) {
+    struct glint_error err = {0};
+    if (!blame_tell(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);
+    if (!json && !shown && blame_is_known(&blame->captured[0])) blame_print_shares(blame);
+    if (!json && shown) blame_print_times(blame);
+    if (blame->out)
+        command_note(&cmd_blame, "%s keeps what was found; the same command goes on from there", blame->out);
 }
 
 static enum status run(int argc, char **argv) {
@@ -163,18 +186,18 @@ static enum status run(int argc, char **argv) {
                                     .options = {.exact = 8, .interval = 0.02, .permutations = 200, .seed = 1}}};
     struct glint_error err = {0};
     struct progress progress;
+    bool shown = false;
     command_parse(&cmd_blame, argc, argv, &a);
     struct blame *blame = &a.blame;
     progress_begin(&progress);
     blame->progress = &progress;
-    bool ok = begin(&a, &err) && blame_run(blame, &err) && blame_sum_up(blame, &err);
-    ok = ok && (!blame->out || (write_json(blame, &err) && blame_write_page(blame, &err)));
+    progress.lines = a.progress;
+    const bool ok = begin(&a, &err) && work(blame, a.json, &shown, &err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_blame, &err);
-    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->out)
-        command_note(&cmd_blame, "%s keeps what was found; the same command goes on from there", blame->out);
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->captured) interrupted(blame, a.json, shown);
     if (ok && a.json) status = print_json(blame_json(blame));
-    else if (ok) blame_print(blame);
+    else if (ok) blame_print_times(blame);
     struct glint_device *device = blame->device;
     blame_finish(blame);
     if (device) glint_device_destroy(&device);

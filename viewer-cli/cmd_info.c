@@ -124,11 +124,11 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
         for (size_t i = 0; i < glint_capture_part_count(capture); i++)
             json_array_append_new(parts, part_json(glint_capture_part(capture, i), all));
         return print_json(json_pack(
-            "{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o*}", "file", a->path, "capture", 1, "frame",
+            "{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*}", "file", a->path, "capture", 1, "frame",
             (json_int_t)frame->number, "camera", camera_json(frame), "depth", depth_facts_json(&depth), "parts", parts,
             "has_previous", frame->has_previous, "fog", frame->has_fog, "jitter_px", numbers_json(frame->jitter_px, 2),
-            "metres_per_unit", frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "survey",
-            survey ? survey_json(survey) : NULL));
+            "metres_per_unit", frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes",
+            frame_notes_json(frame), "survey", survey ? survey_json(survey) : NULL));
     }
     struct stat file = {0};
     stat(glint_capture_path(capture), &file);

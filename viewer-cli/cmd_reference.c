@@ -12,10 +12,10 @@ struct arguments {
     const char *capture, *out, *like;
     uint32_t rays, sensitivity;
     double noise;
-    bool anew, json;
+    bool anew, json, progress;
 };
 
-enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_ANEW };
+enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_ANEW, KEY_PROGRESS };
 enum { RAYS = 64, RAYS_FOR_NOISE = 16384, RAYS_FOR_SENSITIVITY = 32 };
 
 /* clang-format off */
@@ -28,10 +28,11 @@ static const struct argp_option options[] = {
         "objects are, halved and doubled, with so many rays a pixel each (default 32)", 0},
     {"like",        KEY_LIKE,        "NAME|FILE", 0, "The reference of this preset: of the lobe that it draws from and with its fog", 0},
     USE_OPTION,
-    {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as resolve.fog=false for comparisons with the truth, which has no fog", 0},
+    {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as pipeline.fog=false for comparisons with the truth, which has no fog", 0},
     ALL_OPTION,
     {"anew",        KEY_ANEW,        NULL,   0, "Replace what the folder holds", 0},
     DEVICE_OPTION,
+    PROGRESS_OPTION,
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
@@ -73,6 +74,9 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_LIKE:
         a->like = arg;
+        return 0;
+    case KEY_PROGRESS:
+        a->progress = true;
         return 0;
     case KEY_ANEW:
         a->anew = true;
@@ -120,7 +124,7 @@ static void print_noise(const struct glint_reference_state *state, const struct 
     puts("noise: standard error of the mean, by what two halves of the rays differ by");
     if (missing->known) puts("missing information: RMSE against the capture's truth, the noise of both taken off");
     if (missing->known && missing->fog)
-        puts("the truth has no fog and this reference has; --set resolve.fog=false compares the same");
+        puts("the truth has no fog and this reference has; --set pipeline.fog=false compares the same");
 }
 
 static void print_sensitivity(const struct glint_reference_sensitivity *s) {
@@ -221,6 +225,13 @@ static void print_all(const struct glint_reference *reference, const struct argu
     else puts("\nnothing written (-o RUN keeps it)");
 }
 
+static void note_interrupted(const struct glint_reference_state *state, const char *folder) {
+    const uint32_t rays = state->rays + state->begun;
+    if (rays)
+        command_note(&cmd_reference, "%u rays a pixel are kept in %s; the same call goes on from there", rays, folder);
+    else command_note(&cmd_reference, "no ray was complete: nothing is kept");
+}
+
 static enum status trace(const struct arguments *a, const struct opened *opened, struct glint_error *err) {
     struct glint_replay *replay = opened->replay;
     struct glint_capture *capture = opened->capture;
@@ -231,6 +242,7 @@ static enum status trace(const struct arguments *a, const struct opened *opened,
     struct progress progress;
     enum status status = STATUS_DONE;
     progress_begin(&progress);
+    progress.lines = a->progress;
     struct glint_reference *reference = glint_replay_load(replay, capture, err)
                                             ? glint_reference_create(replay, capture, pipeline, &options, err)
                                             : NULL;
@@ -242,9 +254,7 @@ static enum status trace(const struct arguments *a, const struct opened *opened,
     if (!ok) status = command_fail(&cmd_reference, err);
     else if (a->json) status = print_as_json(reference, a, &missing);
     else print_all(reference, a, glint_device_get_info(opened->device), &missing, &sensitivity);
-    if (reference && status == STATUS_INTERRUPTED && a->out)
-        command_note(&cmd_reference, "%u rays a pixel are kept in %s; the same call goes on from there",
-                     glint_reference_state(reference)->rays, a->out);
+    if (reference && status == STATUS_INTERRUPTED && a->out) note_interrupted(glint_reference_state(reference), a->out);
     glint_reference_destroy(&reference);
     return status;
 }
@@ -283,7 +293,7 @@ const struct command cmd_reference = {
         "left: half of the rays share no random number with the others, and what the halves differ by is the noise. "
         "What a preset is off the reference is the error of its algorithms; what the reference is off the truth that "
         "the capture may carry is information that its data lack. The truth has no fog: for comparisons with it, trace "
-        "the reference with --set resolve.fog=false, and give glint replay --against both=RUN the same.",
+        "the reference with --set pipeline.fog=false, and give glint replay --against both=RUN the same.",
     .options = options,
     .parse = parse,
     .examples = examples,

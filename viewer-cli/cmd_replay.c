@@ -31,7 +31,7 @@ static const struct argp_option options[] = {
     {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round, not warmed up)", 0},
     {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before the timed ones of --repeat (default 1)", 0},
     {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
-    {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches; changes no other bit", 0},
+    {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches, of all passes that run; changes no other bit", 0},
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed, and every frame although it is complete", 0},
     {"cache",       KEY_CACHE,       "DIR",  0, "Folder in which work on cube maps that a run holds is kept for later calls, 4 GiB at most; "
         "none: nowhere. Not looked up with --no-cache and --repeat (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, "
@@ -39,7 +39,7 @@ static const struct argp_option options[] = {
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better answer. truth: the true reflection and the mirror rays "
         "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
         "preset reference on the same capture, or what glint reference kept of it: reference=RUN. both (or both=RUN): also what "
-        "the reference itself is off the truth. The truth has no fog: with truth and both add --set resolve.fog=false, and trace "
+        "the reference itself is off the truth. The truth has no fog: with truth and both add --set pipeline.fog=false, and trace "
         "RUN with it too", 0},
     METRIC_OPTIONS,
     {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset's file or a shader changes: RUN holds the newest version, "

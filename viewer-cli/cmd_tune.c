@@ -54,7 +54,8 @@ static const struct argp_option options[] = {
     {"over",      KEY_OVER,      "mean|worst",   0, "Of several captures: the means count, or the one that errs most, and the one that costs most, in parts "
                                                     "of what the baseline does there, without one of what the start does (default mean)", 0},
     {"tries",     KEY_TRIES,     "N",            0, "Points to try at most, and a fourth of that again each time, three at most, that measured times correct the search's "
-                                                    "(default 150, and 3 for each parameter)", 0},
+                                                    "(default 150, and 3 for each parameter). With fewer than some three for each parameter, groups of parameters are moved together "
+                                                    "first, and those that change most are searched one by one", 0},
     {"seed",      KEY_SEED,      "N",            0, "Of the search's new starts (default 1)", 0},
     {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of a point, each in turn with the start (default 3)", 0},
     {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds in the end, of all that is compared (default 15; 0: no times)", 0},

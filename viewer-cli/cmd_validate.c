@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "args.h"
+#include "camera_facts.h"
 #include "glint/capture.h"
 #include "pipe.h"
 #include "table.h"
@@ -54,21 +55,32 @@ static void on_violation(void *user, const char *rule, const char *message) {
     }
 }
 
+/* What a valid capture should be asked about; a file of cube maps alone has no frame. */
+static void add_notes(const char *file, json_t *record) {
+    struct glint_capture *capture = glint_capture_open(file, NULL, NULL);
+    if (!capture) return;
+    if (record) json_object_set_new(record, "notes", frame_notes_json(glint_capture_frame(capture)));
+    else frame_notes_print(glint_capture_frame(capture));
+    glint_capture_close(&capture);
+}
+
 static enum status validate(const char *path, json_t *files) {
     struct listing listing = {files ? json_array() : NULL};
     struct glint_error err = {0};
     struct pipe pipe;
     size_t violations = 0;
     const char *file = pipe_input(&pipe, path, &err);
-    bool ok = file && glint_capture_validate(file, NULL, on_violation, &listing, &violations, &err);
+    const bool ok = file && glint_capture_validate(file, NULL, on_violation, &listing, &violations, &err);
+    json_t *record =
+        ok && files ? json_pack("{s:s, s:b, s:o}", "file", path, "valid", violations == 0, "violations", listing.json)
+                    : NULL;
+    if (ok && !violations) add_notes(file, record);
     pipe_finish(&pipe);
     if (!ok) {
         json_decref(listing.json);
         return command_fail(&cmd_validate, &err);
     }
-    if (files)
-        json_array_append_new(
-            files, json_pack("{s:s, s:b, s:o}", "file", path, "valid", violations == 0, "violations", listing.json));
+    if (files) json_array_append_new(files, record);
     else if (violations) printf("%s: %zu violation%s\n", path, violations, violations == 1 ? "" : "s");
     else printf("%s: valid\n", path);
     return violations ? STATUS_CHECK : STATUS_DONE;

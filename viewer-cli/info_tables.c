@@ -177,6 +177,7 @@ void info_print_camera(const struct glint_frame *frame) {
            : frame->cut         ? "after a cut"
                                 : "has the previous frame",
            number_text(frame->exposure > 0 ? frame->exposure : 1), frame->has_fog ? "fog" : "no fog");
+    frame_notes_print(frame);
 }
 
 /* A line and a bar for each bin; `of` is what 100 % are. */

@@ -102,14 +102,5 @@ struct glint_replay_options pipeline_args_options(const struct pipeline_args *ar
 }
 
 bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err) {
-    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        for (size_t r = 0; r < pass->row_count; r++) {
-            char assignment[128];
-            if (!row_is_parameter(&pass->rows[r]) || strcmp(pass->rows[r].name, "fog")) continue;
-            snprintf(assignment, sizeof assignment, "%.64s.fog=false", pass->slot);
-            if (!glint_pipeline_set(pipeline, assignment, err)) return false;
-        }
-    }
-    return true;
+    return glint_pipeline_set(pipeline, "pipeline.fog=false", err);
 }

@@ -37,7 +37,7 @@ enum {
 #define WHOLE_PIPELINE_OPTIONS(what) \
     {"preset",  'p',         "NAME|FILE",      0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
     USE_OPTION, \
-    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter; glint passes SLOT lists them", 0}, \
+    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter, which glint passes SLOT lists; pipeline.PARAM: in every pass that has it", 0}, \
     {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead", 0}, \
     ALL_OPTION, DEVICE_OPTION
 #define SKIP_OPTION \
@@ -48,7 +48,7 @@ enum {
     {"passes",  KEY_PASSES,  "SLOT,...",       0, "Only these slots; what they need comes from --inputs", 0}, \
     {"inputs",  KEY_INPUTS,  "RUN",            0, "A run to read missing images from", 0}, \
     {"history", KEY_HISTORY, "RUN",            0, "The run of the frame before, for passes that remember it", 0}, \
-    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, and what they need (default: all)", 0}, \
+    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, from the passes that they need; those of --diagnostics come with them (default: all)", 0}, \
     SKIP_OPTION, \
     {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when the plan finds nothing for them to do", 0}
 /* clang-format on */

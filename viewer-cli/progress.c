@@ -1,16 +1,20 @@
-/* The progress bar on a terminal, and Ctrl-C as a polite request to stop. */
+/* The progress bar on a terminal, lines elsewhere, and Ctrl-C as a polite request to stop. */
 #include "progress.h"
 
 #include <signal.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t interrupted, asked;
 
 static void on_interrupt(int number) {
     (void)number;
     interrupted = 1;
+}
+
+static void on_question(int number) {
+    (void)number;
+    asked = 1;
 }
 
 bool progress_interrupted(void) {
@@ -23,24 +27,40 @@ static double seconds_between(const struct timespec *a, const struct timespec *b
 
 void progress_begin(struct progress *progress) {
     *progress = (struct progress){.terminal = isatty(STDERR_FILENO)};
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
+    struct sigaction interrupt = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction question = {.sa_handler = on_question, .sa_flags = SA_RESTART};
+    sigaction(SIGINT, &interrupt, NULL);
+    sigaction(SIGUSR1, &question, NULL);
     clock_gettime(CLOCK_MONOTONIC, &progress->start);
+}
+
+/* " 4:10 left", from what was done since the step began; "" as long as that is a guess. */
+static const char *time_left(const struct progress *progress, double done, double elapsed, char text[32]) {
+    const double share = done - progress->begun;
+    *text = '\0';
+    if (elapsed > 0.5 && (share > 0.02 || (elapsed > 10 && share > 0.0005))) {
+        const long s = (long)(elapsed * (1 - done) / share + 0.5);
+        if (s >= 3600) snprintf(text, 32, " %ld:%02ld:%02ld left", s / 3600, s / 60 % 60, s % 60);
+        else snprintf(text, 32, " %ld:%02ld left", s / 60, s % 60);
+    }
+    return text;
 }
 
 static void draw(struct progress *progress, const char *what, double done, double elapsed) {
     enum { WIDTH = 30 };
     int full = (int)(done * WIDTH + 0.5);
-    char left[32] = "";
-    if (done > 0.02 && elapsed > 0.5) {
-        long s = (long)(elapsed * (1 - done) / done + 0.5);
-        snprintf(left, sizeof left, " %ld:%02ld left", s / 60, s % 60);
-    }
-    fprintf(stderr, "\r\033[K%-24.24s ", what);
+    char left[32];
+    fprintf(stderr, "\r\033[K%-*.*s ", PROGRESS_TEXT, PROGRESS_TEXT, what);
     for (int i = 0; i < WIDTH; i++) fputs(i < full ? "█" : "░", stderr);
-    fprintf(stderr, " %3.0f %%%s", done * 100, left);
+    fprintf(stderr, " %3.0f %%%s", done * 100, time_left(progress, done, elapsed, left));
     fflush(stderr);
     progress->drawn = true;
+}
+
+static void print_line(const struct progress *progress, const char *what, double done, double elapsed) {
+    char left[32];
+    fprintf(stderr, "%s%s: %.1f %%%s\n", progress->drawn ? "\r\033[K" : "", what, done * 100,
+            time_left(progress, done, elapsed, left));
 }
 
 bool progress_report(void *user, const char *what, double done) {
@@ -50,15 +70,16 @@ bool progress_report(void *user, const char *what, double done) {
     if (!(done >= 0)) done = 0;
     if (done > 1) done = 1;
     if (!what) what = "";
-    if (strncmp(what, progress->what, sizeof progress->what - 1) != 0) {
-        snprintf(progress->what, sizeof progress->what, "%s", what);
-        /* A step that starts anew gets its own estimate of the time left. */
-        if (done < 0.02) progress->start = now;
-    }
-    if (progress->terminal && (!progress->drawn || seconds_between(&progress->shown, &now) > 0.1)) {
-        draw(progress, what, done, seconds_between(&progress->start, &now));
-        progress->shown = now;
-    }
+    /* A step that starts anew gets its own estimate of the time left. */
+    if (done < progress->done - 1e-6) progress->start = now, progress->begun = done;
+    progress->done = done;
+    const double elapsed = seconds_between(&progress->start, &now), since = seconds_between(&progress->shown, &now);
+    const bool first = progress->shown.tv_sec == 0 && progress->shown.tv_nsec == 0;
+    const bool line = asked || (progress->lines && !progress->terminal && (first || since > PROGRESS_LINES_SECONDS));
+    asked = 0;
+    if (line) print_line(progress, what, done, elapsed);
+    if (progress->terminal && (first || line || since > 0.1)) draw(progress, what, done, elapsed);
+    if (line || (progress->terminal && (first || since > 0.1))) progress->shown = now;
     return !interrupted;
 }
 

@@ -1,17 +1,24 @@
-/* The progress bar on a terminal, and Ctrl-C as a polite request to stop. */
+/* The progress bar on a terminal, lines elsewhere, and Ctrl-C as a polite request to stop. */
 #ifndef GLINT_VIEWER_PROGRESS_H
 #define GLINT_VIEWER_PROGRESS_H
 
 #include <stdbool.h>
 #include <time.h>
 
+enum { PROGRESS_TEXT = 36, PROGRESS_LINES_SECONDS = 10 };
 struct progress {
     struct timespec start, shown;
-    char what[64];
+    double begun, done; /* where the step started, and where it is */
     bool terminal, drawn;
+    bool lines; /* asked for: a line every few seconds where there is no terminal */
 };
 
-/* From here the first Ctrl-C only sets a flag; a second one ends the program as usual. */
+/* For commands that may take long, with `lines` set where it was given. */
+#define PROGRESS_OPTION \
+    {"progress", KEY_PROGRESS, NULL, 0, "Say on stderr every ten seconds how far it is and how long it will take, though that is no terminal; " \
+        "signal USR1 asks any command of long work once", 0}
+
+/* From here the first Ctrl-C only sets a flag; a second one ends the program as usual. SIGUSR1 is answered with a line. */
 void progress_begin(struct progress *progress);
 /* A glint_progress callback; `user` is a struct progress. Returns false after Ctrl-C. */
 bool progress_report(void *user, const char *what, double done);

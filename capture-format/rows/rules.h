@@ -20,7 +20,7 @@ RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the captu
 /* ---- pixels: checked by validate alone ---- */
 RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not looked at.")
 RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals are unit within 0.02 before the reader makes them unit.")
-RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance and metres (but motion.Z) are not negative; encoded depth, unorm, octahedral and view_xy values lie in [0, 1].")
+RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance, metres (but motion.Z) and relative errors are not negative; encoded depth, unorm, octahedral and view_xy values lie in [0, 1].")
 RULE(PIXEL_SKY,       "pixels-sky",       "In cube maps, where A is 0 (sky), R G B are 0 and distance.Z is +inf; where A is 1, distance.Z is a number. An A between, as filtering leaves it, binds nothing.")
 /* clang-format on */
 #undef RULE

@@ -30,6 +30,7 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
     reference->capture = capture;
     reference->all = options && options->all;
     reference->keep_bytes = options ? options->keep_bytes : 0;
+    reference->at_once = options ? options->at_once : 0;
     bool ok = (reference->pipeline = glint_pipeline_copy(pipeline, err)) != NULL &&
               (reference->surfaces = glint_study_surfaces(capture, err)) != NULL;
     if (ok && !any_reflects(reference))
@@ -58,6 +59,10 @@ void glint_reference_destroy(struct glint_reference **pointer) {
     free(reference);
 }
 
+static uint32_t all_rays(const struct glint_reference_state *state) {
+    return state->rays + state->begun;
+}
+
 /* How many rays it will take: noise falls with the root of their number. */
 static double rays_expected(const struct glint_reference_state *state, uint32_t rays, double noise) {
     const double now = state->noise[0].relative;
@@ -69,46 +74,76 @@ static bool reached(const struct glint_reference_state *state, uint32_t rays, do
     return state->rays >= rays || (noise > 0 && state->rays > 0 && state->noise[0].relative <= noise);
 }
 
-struct round {
+/* Some rays, as the caller sees all that this call has to do. */
+struct part {
     glint_progress progress;
     void *user;
     char text[64];
     double done, share;
 };
-static bool report_round(void *user, const char *what, double done) {
-    struct round *round = user;
+static bool report_part(void *user, const char *what, double done) {
+    struct part *part = user;
     (void)what;
-    return !round->progress || round->progress(round->user, round->text, round->done + round->share * done);
+    return !part->progress || part->progress(part->user, part->text, part->done + part->share * done);
+}
+
+static void describe_part(struct part *part, const struct glint_reference_state *state, uint32_t first,
+                          double expected) {
+    const double todo = fmax(expected - first, 1);
+    const int length = snprintf(part->text, sizeof part->text, "%u of %.0f rays", all_rays(state),
+                                ceil(expected / GLINT_REFERENCE_ROUND) * GLINT_REFERENCE_ROUND);
+    if (state->rays)
+        snprintf(part->text + length, sizeof part->text - (size_t)length, ", noise %.3g %%",
+                 100 * state->noise[0].relative);
+    part->done = (all_rays(state) - first) / todo;
+    part->share = 1 / todo;
+}
+
+/* The next rays, and what follows when they complete a round. */
+static bool trace_part(struct glint_reference *reference, struct part *part, struct glint_error *err) {
+    struct glint_reference_state *state = &reference->state;
+    struct halves *halves = &reference->halves;
+    const uint32_t before = halves->rays;
+    const double start = now_seconds();
+    part->share *= halves_next(halves, reference);
+    bool ok = halves_run(halves, reference, reference->pipeline, report_part, part, err);
+    state->begun = halves->batched[0] + halves->batched[1];
+    if (ok) state->seconds += now_seconds() - start;
+    if (ok && halves->rays != before)
+        ok = reference_measure(reference, err) && (!reference->folder || reference_note(reference, err));
+    return ok;
+}
+
+/* `kept`: the rays of the complete reference in the folder, which what is under way goes on from. */
+static bool save(struct glint_reference *reference, uint32_t *kept, struct glint_error *err) {
+    const uint32_t rays = reference->state.rays;
+    if (rays != *kept && !reference_save(reference, err)) return false;
+    *kept = rays;
+    return !reference->state.begun || reference_save_round(reference, err);
 }
 
 bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, double noise, glint_progress progress,
                            void *user, struct glint_error *err) {
     struct glint_reference_state *state = &reference->state;
-    const uint32_t first = state->rays;
+    struct part part = {.progress = progress, .user = user};
+    const uint32_t first = all_rays(state);
+    uint32_t kept = state->rays;
     double saved = now_seconds();
+    bool unsaved = false;
     bool ok = rays <= GLINT_REFERENCE_RAYS_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "rays: expected at most %d, found %u", GLINT_REFERENCE_RAYS_MAX, rays);
-    bool unsaved = false;
     while (ok && !reached(state, rays, noise)) {
-        const double start = now_seconds(), todo = fmax(rays_expected(state, rays, noise) - first, 1);
-        struct round round = {.progress = progress, .user = user, .done = (state->rays - first) / todo};
-        round.share = GLINT_REFERENCE_ROUND / todo;
-        snprintf(round.text, sizeof round.text, "%u rays", state->rays);
-        if (state->rays)
-            snprintf(round.text, sizeof round.text, "%u rays, noise %.3g %%", state->rays,
-                     100 * state->noise[0].relative);
-        ok = halves_trace(&reference->halves, reference, reference->pipeline, report_round, &round, err) &&
-             reference_measure(reference, err) && (!reference->folder || reference_note(reference, err));
-        if (!ok) break;
-        state->seconds += now_seconds() - start;
-        unsaved = reference->folder != NULL;
-        if (!unsaved || now_seconds() - saved < SAVE_SECONDS) continue;
-        ok = reference_save(reference, err);
+        const uint32_t before = all_rays(state);
+        describe_part(&part, state, first, rays_expected(state, rays, noise));
+        ok = trace_part(reference, &part, err);
+        unsaved = unsaved || (reference->folder && all_rays(state) != before);
+        if (!ok || !unsaved || now_seconds() - saved < SAVE_SECONDS) continue;
+        ok = save(reference, &kept, err);
         saved = now_seconds();
         unsaved = !ok;
     }
     if (!unsaved) return ok;
-    return reference_save(reference, ok ? err : NULL) && ok;
+    return save(reference, &kept, ok ? err : NULL) && ok;
 }
 
 const struct glint_reference_state *glint_reference_state(const struct glint_reference *reference) {

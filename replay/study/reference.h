@@ -9,9 +9,16 @@
 /* Both halves' means of R G B A. */
 struct halves {
     struct glint_pixels of[2], batch[2];
-    uint32_t rays; /* a pixel, of each */
+    uint32_t rays;       /* a pixel, of each */
+    uint32_t batched[2]; /* of the round under way, in batch[] */
 };
-/* One more batch for each half. Nothing is changed when it fails. */
+/* Runs some more rays of the round under way. Nothing is changed when it fails. After the last of them both means have them,
+   and none is under way. */
+bool halves_run(struct halves *halves, const struct glint_reference *reference, struct glint_pipeline *pipeline,
+                glint_progress progress, void *user, struct glint_error *err);
+/* How many rays that runs. */
+uint32_t halves_next(const struct halves *halves, const struct glint_reference *reference);
+/* The rest of the round. */
 bool halves_trace(struct halves *halves, const struct glint_reference *reference, struct glint_pipeline *pipeline,
                   glint_progress progress, void *user, struct glint_error *err);
 void halves_finish(struct halves *halves);
@@ -23,6 +30,7 @@ struct glint_reference {
     char *folder;
     bool all;
     uint64_t keep_bytes;
+    uint32_t at_once;
     uint8_t *surfaces;
     struct halves halves;
     struct glint_reference_state state;
@@ -47,5 +55,13 @@ bool reference_resume(struct glint_reference *reference, bool anew, struct glint
 /* What the replay's last run was is kept for run.json. */
 bool reference_note(struct glint_reference *reference, struct glint_error *err);
 bool reference_save(struct glint_reference *reference, struct glint_error *err);
+/* Names the first setting in which two differ. */
+bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err);
+
+/* reference_round.c: the round under way, in the folder's unfinished.exr. */
+bool reference_save_round(struct glint_reference *reference, struct glint_error *err);
+/* Nothing when there is none, or when the reference has gone on since. */
+bool reference_resume_round(struct glint_reference *reference, struct glint_error *err);
+void reference_remove_round(const struct glint_reference *reference);
 
 #endif

@@ -2,6 +2,7 @@
    its images by their number of rays, so that replacing it is all that ever changes the folder's contents. */
 #include "reference.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,8 +36,7 @@ static void value_text(const json_t *value, char text[80]) {
     free(dumped);
 }
 
-/* Names the first setting in which two differ. */
-static bool same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err) {
+bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err) {
     const char *key;
     json_t *value;
     if (json_equal(there, here)) return true;
@@ -44,7 +44,7 @@ static bool same_settings(const char *where, const json_t *there, const json_t *
     json_object_foreach((json_t *)more, key, value) { /* the macro reads alone */
         char path[256];
         snprintf(path, sizeof path, "%s%s%s", where, *where ? "." : "", key);
-        if (!same_settings(path, json_object_get(there, key), json_object_get(here, key), err)) return false;
+        if (!reference_same_settings(path, json_object_get(there, key), json_object_get(here, key), err)) return false;
     }
     if (json_is_object(there) && json_is_object(here)) return true; /* the other one's keys are the same number */
     char texts[2][80];
@@ -76,7 +76,7 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
     if (!own)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds a run that is no reference; expected another folder",
                           folder);
-    if (!same_settings("", json_object_get(own, "settings"), reference->settings, &differs))
+    if (!reference_same_settings("", json_object_get(own, "settings"), reference->settings, &differs))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds another reference: %s", folder, differs.message);
     if (rays < 1 || rays % GLINT_REFERENCE_ROUND || rays > GLINT_REFERENCE_RAYS_MAX)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json: reference.rays: expected rounds of %d, found %lld",
@@ -89,17 +89,27 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
            reference_measure(reference, err);
 }
 
+/* Whether it can be written is known before anything is traced; an empty folder that was not there before is taken away
+   again until there is something to keep. */
+static bool probe_folder(const char *folder, struct glint_error *err) {
+    const bool there = access(folder, F_OK) == 0;
+    if (!glint_make_folder(folder, err)) return false;
+    if (access(folder, W_OK) != 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
+    if (!there) rmdir(folder);
+    return true;
+}
+
 bool reference_resume(struct glint_reference *reference, bool anew, struct glint_error *err) {
     char path[4096];
-    if (!glint_make_folder(reference->folder, err)) return false;
+    if (!probe_folder(reference->folder, err)) return false;
     if (snprintf(path, sizeof path, "%s/run.json", reference->folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
-    if (anew) return run_remove(reference->folder, err);
-    if (access(path, F_OK) != 0) return true;
+    if (anew) return reference_remove_round(reference), run_remove(reference->folder, err);
+    if (access(path, F_OK) != 0) return reference_resume_round(reference, err);
     struct glint_run *run = glint_run_open(reference->folder, err);
     bool ok = run && read_folder(reference, run, err);
     glint_run_close(&run);
-    return ok;
+    return ok && reference_resume_round(reference, err);
 }
 
 bool glint_study_run_error(struct glint_run *run, float **error, struct glint_error *err) {
@@ -199,6 +209,7 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
     snprintf(file, sizeof file, "reference-%u.exr", reference->state.rays);
     if (snprintf(path, sizeof path, "%s/%s", reference->folder, file) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
+    if (!glint_make_folder(reference->folder, err)) return false;
     if (strcmp(before, file) != 0 && !write_images(reference, path, err)) return false;
     json_t *image;
     size_t i;
@@ -206,6 +217,7 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
         json_object_set_new(image, "file", json_string(file));
     }
     if (!run_write_json(reference->folder, reference->record, err)) return false;
+    if (!reference->state.begun) reference_remove_round(reference);
     if (*before && strcmp(before, file) != 0 && snprintf(path, sizeof path, "%s/%s", reference->folder, before) > 0)
         unlink(path);
     return true;

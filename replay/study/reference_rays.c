@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "state.h"
+
 void halves_finish(struct halves *halves) {
     for (int h = 0; h < 2; h++) {
         glint_pixels_finish(&halves->of[h]);
@@ -13,29 +15,39 @@ void halves_finish(struct halves *halves) {
     *halves = (struct halves){0};
 }
 
-/* Part of a round, as its caller sees the whole. */
-struct step {
-    glint_progress progress;
-    void *user;
-    double done, share;
-};
-static bool report_step(void *user, const char *what, double done) {
-    struct step *step = user;
-    return !step->progress || step->progress(step->user, what, step->done + step->share * done);
+/* Little should be lost by an interruption. A software device takes seconds or minutes for one ray of all pixels; a GPU is faster
+   with several in one piece, of pictures above 960 × 540 with fewer. */
+static uint32_t rays_at_once(const struct glint_reference *reference) {
+    const struct glint_part_info *part = glint_capture_find(reference->capture, "gbuffer");
+    uint32_t rays = GLINT_REFERENCE_BATCH;
+    if (reference->at_once) return reference->at_once;
+    if (glint_device_get_info(reference->replay->device)->is_cpu) return 1;
+    for (size_t pixels = (size_t)part->width * part->height; rays > 1 && pixels > 960 * 540; pixels /= 2) rays /= 2;
+    return rays;
 }
 
-static bool trace_batch(struct halves *halves, int half, const struct glint_reference *reference,
-                        struct glint_pipeline *pipeline, struct step *step, struct glint_error *err) {
+/* The half that is begun, or the first. */
+static int next_half(const struct halves *halves) {
+    return halves->batched[0] == GLINT_REFERENCE_BATCH;
+}
+
+uint32_t halves_next(const struct halves *halves, const struct glint_reference *reference) {
+    const uint32_t left = GLINT_REFERENCE_BATCH - halves->batched[next_half(halves)], most = rays_at_once(reference);
+    return most < left ? most : left;
+}
+
+static bool trace_rays(const struct glint_reference *reference, struct glint_pipeline *pipeline, uint32_t first,
+                       uint32_t count, struct glint_pixels *pixels, glint_progress progress, void *user,
+                       struct glint_error *err) {
     static const char *const reflection[] = {"reflection", NULL};
     const struct glint_replay_options options = {
         .outputs = reflection, .all = reference->all, .float_precision = true, .keep_bytes = reference->keep_bytes};
-    char rays[64], first[64];
-    snprintf(rays, sizeof rays, "pipeline.rays=%d", GLINT_REFERENCE_BATCH);
-    snprintf(first, sizeof first, "pipeline.first_ray=%u", (uint32_t)half * GLINT_REFERENCE_SECOND + halves->rays);
-    glint_pixels_finish(&halves->batch[half]);
-    return glint_pipeline_set(pipeline, rays, err) && glint_pipeline_set(pipeline, first, err) &&
-           glint_replay_run(reference->replay, pipeline, &options, report_step, step, err) &&
-           glint_study_reflection(reference->replay, &halves->batch[half], err);
+    char rays[64], from[64];
+    snprintf(rays, sizeof rays, "pipeline.rays=%u", count);
+    snprintf(from, sizeof from, "pipeline.first_ray=%u", first);
+    return glint_pipeline_set(pipeline, rays, err) && glint_pipeline_set(pipeline, from, err) &&
+           glint_replay_run(reference->replay, pipeline, &options, progress, user, err) &&
+           glint_study_reflection(reference->replay, pixels, err);
 }
 
 static size_t count_invalid(const struct glint_pixels *pixels) {
@@ -49,33 +61,65 @@ static size_t count_invalid(const struct glint_pixels *pixels) {
     return invalid;
 }
 
-/* The mean goes on from the mean of n batches, so that what is kept is what is shown. */
-static void add_batch(struct halves *halves, int half) {
-    struct glint_pixels *mean = &halves->of[half], *batch = &halves->batch[half];
-    const double n = halves->rays / GLINT_REFERENCE_BATCH + 1;
-    if (!mean->values) {
-        *mean = *batch;
-        *batch = (struct glint_pixels){0};
+/* The mean of `before` values goes on with that of `count` more, so that what is kept is what is shown. */
+static void add_mean(struct glint_pixels *mean, uint32_t before, struct glint_pixels *more, uint32_t count) {
+    if (before == 0) {
+        glint_pixels_finish(mean);
+        *mean = *more;
+        *more = (struct glint_pixels){0};
         return;
     }
+    const double part = (double)count / (before + count);
     for (size_t i = 0; i < (size_t)mean->width * mean->height * mean->components; i++) {
-        const double before = (double)mean->values[i];
-        mean->values[i] = (float)(before + ((double)batch->values[i] - before) / n);
+        const double value = (double)mean->values[i];
+        mean->values[i] = (float)(value + ((double)more->values[i] - value) * part);
     }
+    glint_pixels_finish(more);
+}
+
+bool halves_run(struct halves *halves, const struct glint_reference *reference, struct glint_pipeline *pipeline,
+                glint_progress progress, void *user, struct glint_error *err) {
+    const int half = next_half(halves);
+    const uint32_t begun = halves->batched[half], count = halves_next(halves, reference);
+    const uint32_t first = (uint32_t)half * GLINT_REFERENCE_SECOND + halves->rays + begun;
+    struct glint_pixels more = {0};
+    if (!trace_rays(reference, pipeline, first, count, &more, progress, user, err)) return false;
+    const size_t invalid = count_invalid(&more);
+    if (invalid) {
+        glint_pixels_finish(&more);
+        return glint_fail(err, GLINT_ERROR_FORMAT, "reference: the reflection is NaN or infinite in %zu pixels",
+                          invalid);
+    }
+    add_mean(&halves->batch[half], begun, &more, count);
+    halves->batched[half] += count;
+    if (halves->batched[1] < GLINT_REFERENCE_BATCH) return true;
+    for (int h = 0; h < 2; h++) {
+        add_mean(&halves->of[h], halves->rays, &halves->batch[h], GLINT_REFERENCE_BATCH);
+        halves->batched[h] = 0;
+    }
+    halves->rays += GLINT_REFERENCE_BATCH;
+    return true;
+}
+
+/* Part of a round, as its caller sees the whole. */
+struct part {
+    glint_progress progress;
+    void *user;
+    double done, share;
+};
+static bool report_part(void *user, const char *what, double done) {
+    struct part *part = user;
+    return !part->progress || part->progress(part->user, what, part->done + part->share * done);
 }
 
 bool halves_trace(struct halves *halves, const struct glint_reference *reference, struct glint_pipeline *pipeline,
                   glint_progress progress, void *user, struct glint_error *err) {
-    for (int h = 0; h < 2; h++) {
-        struct step step = {.progress = progress, .user = user, .done = 0.5 * h, .share = 0.5};
-        if (!trace_batch(halves, h, reference, pipeline, &step, err)) return false;
-        const size_t invalid = count_invalid(&halves->batch[h]);
-        if (invalid)
-            return glint_fail(err, GLINT_ERROR_FORMAT, "reference: the reflection is NaN or infinite in %zu pixels",
-                              invalid);
-    }
-    for (int h = 0; h < 2; h++) add_batch(halves, h);
-    halves->rays += GLINT_REFERENCE_BATCH;
+    const double round = GLINT_REFERENCE_ROUND;
+    do {
+        const double done = halves->batched[0] + halves->batched[1];
+        struct part part = {progress, user, done / round, halves_next(halves, reference) / round};
+        if (!halves_run(halves, reference, pipeline, report_part, &part, err)) return false;
+    } while (halves->batched[0]);
     return true;
 }
 

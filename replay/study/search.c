@@ -31,6 +31,7 @@ struct profile {
     bool *skip;     /* axes that are left as they are */
     double *weight; /* what a step of an axis changed when it was last looked at, a part of both figures */
     double *before; /* an earlier centre */
+    size_t *order;  /* axes by weight */
 };
 
 static bool matters(const struct search *search, const struct glint_search_figures *a,
@@ -67,25 +68,72 @@ static size_t rank(const struct search *search, const double *weight, size_t axi
     return heavier;
 }
 
-/* Axes alone, the `most` heaviest of them: each other choice; a step below and above. */
+/* Axes by their weight, the heaviest first. */
+static void put_in_order(const struct search *search, const double *weight, size_t *order) {
+    for (size_t a = 0; a < search->count; a++) order[rank(search, weight, a)] = a;
+}
+
+/* Where an axis is looked at alone: each other choice; a step below and above. The i-th; NAN: there is none, *more false: nor
+   is another. */
+static double place(const struct glint_search_axis *axis, double centre, double step, uint32_t i, bool *more) {
+    *more = i < (axis->choices ? axis->choices : 2);
+    if (!*more) return (double)NAN;
+    if (axis->choices) return i == centre ? (double)NAN : i;
+    return axis_move(axis, centre, i ? step : -step);
+}
+
+/* Axes alone, the `most` heaviest of them, in this order: what no try is left for is the lightest. */
 static bool take_profile(struct search *search, struct profile *profile, double step, size_t most,
                          struct glint_error *err) {
     profile->count = 0;
-    memcpy(profile->before, profile->weight, search->count * sizeof *profile->before);
-    for (size_t a = 0; a < search->count; a++) {
-        const struct glint_search_axis *axis = &search->axes[a];
-        bool tried = true;
-        if (profile->skip[a] || rank(search, profile->before, a) >= most) continue;
+    put_in_order(search, profile->weight, profile->order);
+    for (size_t r = 0; r < most && r < search->count; r++) {
+        const size_t a = profile->order[r];
+        bool tried = true, more = true;
+        if (profile->skip[a]) continue;
         profile->weight[a] = 0;
-        for (uint32_t c = 0; c < axis->choices; c++)
-            if (c != profile->centre[a] && !look(search, profile, a, c, &tried, err)) return false;
-        for (int sign = -1; !axis->choices && sign <= 1; sign += 2) {
-            const double to = axis_move(axis, profile->centre[a], sign * step);
+        for (uint32_t i = 0; more; i++) {
+            const double to = place(&search->axes[a], profile->centre[a], step, i, &more);
             if (isfinite(to) && !look(search, profile, a, to, &tried, err)) return false;
         }
         if (!tried) return true;
     }
     return true;
+}
+
+/* Tries that an axis alone takes. */
+static uint32_t price_of(struct search *search, struct profile *profile, size_t axis, double step) {
+    const double from = profile->centre[axis];
+    uint32_t price = 0;
+    bool more = true;
+    for (uint32_t i = 0; more; i++) {
+        const double to = place(&search->axes[axis], from, step, i, &more);
+        if (!isfinite(to)) continue;
+        profile->centre[axis] = to;
+        price += !search_knows(search, profile->centre);
+    }
+    profile->centre[axis] = from;
+    return price;
+}
+
+/* The first profile. Where tries do not suffice for every axis and for what then follows, a third of them screens all axes, and
+   those that weigh most are looked at alone. */
+static bool take_first_profile(struct search *search, struct profile *profile, double step, struct glint_error *err) {
+    static const double LIGHT = 0.01; /* of the heaviest: there is better to do with few tries */
+    const uint32_t left = search->options->tries - (uint32_t)search->result->count;
+    uint32_t price = 0, reserve = left / 4 > 8 ? left / 4 : 8;
+    size_t most = 0;
+    for (size_t a = 0; a < search->count; a++) price += price_of(search, profile, a, step);
+    if (left >= price + reserve) return take_profile(search, profile, step, search->count, err);
+    if (!search_screen(search, profile->centre, &profile->at, left / 3 + 1, profile->weight, err)) return false;
+    put_in_order(search, profile->weight, profile->order);
+    price = (uint32_t)search->result->count + reserve;
+    for (; most < search->count && price < search->options->tries; most++) {
+        if (profile->weight[profile->order[most]] <= LIGHT * profile->weight[profile->order[0]]) break;
+        price += price_of(search, profile, profile->order[most], step);
+    }
+    for (size_t a = 0; a < search->count; a++) search->result->matters[a] = true; /* none was shown not to */
+    return take_profile(search, profile, step, most, err);
 }
 
 /* For each axis the move that is worth most at this price of what is limited; returns what they all change of it. */
@@ -281,7 +329,7 @@ static bool run(struct search *search, struct profile *profile, struct glint_err
     profile->at = start->figures;
     if (!search_answers(&start->figures))
         return glint_fail(err, GLINT_ERROR_USAGE, "the start has no figures: nothing can be compared with it");
-    if (!try_known(search, profile, err) || !take_profile(search, profile, 2, search->count, err)) return false;
+    if (!try_known(search, profile, err) || !take_first_profile(search, profile, 2, err)) return false;
     const size_t begun = search->result->best;
     for (size_t a = 0; a < search->count; a++) {
         if (search_spent(search)) search->result->matters[a] = true;
@@ -320,13 +368,15 @@ bool glint_search(const struct glint_search_axis *axes, size_t count, const stru
                               .chosen = calloc(count + 1, sizeof *profile.chosen),
                               .skip = calloc(count + 1, sizeof *profile.skip),
                               .weight = calloc(count + 1, sizeof(double)),
-                              .before = calloc(count + 1, sizeof(double))};
+                              .before = calloc(count + 1, sizeof(double)),
+                              .order = calloc(count + 1, sizeof *profile.order)};
     *result = (struct glint_search_result){.axes = count, .matters = calloc(count + 1, sizeof *result->matters)};
     bool ok = (search.scratch && profile.centre && profile.moves && profile.chosen && profile.skip && profile.weight &&
-               profile.before && result->matters) ||
+               profile.before && profile.order && result->matters) ||
               no_memory(&own);
     ok = ok && run(&search, &profile, &own);
     if (!ok) glint_fail(err, own.code, "%s", own.message);
+    free(profile.order);
     free(profile.before);
     free(profile.weight);
     free(profile.skip);

@@ -54,13 +54,25 @@ static bool add_point(struct search *search, const double *values, const struct 
     return true;
 }
 
-const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err) {
-    struct glint_search_result *result = search->result;
-    struct glint_search_figures figures = {NAN, NAN};
+/* The point at `steps`, or NULL; their values are in `scratch` then. */
+static const struct glint_search_point *known_at(struct search *search, const double *steps) {
+    const struct glint_search_result *result = search->result;
     for (size_t i = 0; i < search->count; i++) search->scratch[i] = axis_value_at(&search->axes[i], steps[i]);
     for (size_t i = 0; i < result->count; i++)
         if (!memcmp(result->points[i].values, search->scratch, search->count * sizeof(double)))
             return &result->points[i];
+    return NULL;
+}
+
+bool search_knows(struct search *search, const double *steps) {
+    return known_at(search, steps) != NULL;
+}
+
+const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err) {
+    struct glint_search_result *result = search->result;
+    struct glint_search_figures figures = {NAN, NAN};
+    const struct glint_search_point *known = known_at(search, steps);
+    if (known) return known;
     if (search_spent(search) || !search->try_point(search->user, search->scratch, &figures, err) ||
         !add_point(search, search->scratch, &figures, err))
         return NULL;

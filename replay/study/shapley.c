@@ -32,6 +32,10 @@ static uint32_t everyone(const struct glint_game *game) {
     return (1u << game->players) - 1;
 }
 
+static bool tell(const struct glint_game *game, struct glint_error *err) {
+    return !game->news || game->news(game->user, err);
+}
+
 /* Alone, and last of all. */
 static bool find_ends(struct play *play, struct glint_shapley *out, struct glint_error *err) {
     const struct glint_game *game = play->game;
@@ -135,8 +139,10 @@ static bool sum_drawn(struct play *play, const struct glint_shapley_options *opt
         memset(sample, 0, count * sizeof *sample);
         shuffle(order, game->players, &state);
         ok = walk(play, order, false, sample, err) && walk(play, order, true, sample, err);
-        if (ok) add_sample(out, sample, spread, pair, count);
+        if (!ok) break;
+        add_sample(out, sample, spread, pair, count);
         out->permutations = 2 * pair;
+        ok = tell(game, err);
         if (out->permutations >= options->permutations || (pair >= PAIRS_MIN && narrow(game, options, out))) break;
     }
     free(sample);
@@ -152,21 +158,21 @@ bool glint_shapley(const struct glint_game *game, const struct glint_shapley_opt
         return glint_fail(err, GLINT_ERROR_USAGE, "expected 1 to %d players, found %zu", GLINT_PLAYERS_MAX, n);
     play.known = calloc((size_t)1 << n, sizeof *play.known);
     out->share = calloc(4 * n * v + 2 * v + 1, sizeof *out->share);
-    bool ok = (play.known && out->share) || no_memory(err);
+    bool ok = (play.known && out->share) || no_memory(err), ends = false;
     if (ok) {
         out->half = out->share + n * v;
         out->first = out->half + n * v;
         out->last = out->first + n * v;
         out->none = out->last + n * v;
         out->all = out->none + v;
-        /* All coalitions come in order; the ends are among them. */
-        ok = n <= options->exact ? sum_all(&play, out, err) && find_ends(&play, out, err)
-                                 : find_ends(&play, out, err) && sum_drawn(&play, options, out, err);
+        ends = find_ends(&play, out, err);
+        ok = ends && tell(game, err) &&
+             (n <= options->exact ? sum_all(&play, out, err) && tell(game, err) : sum_drawn(&play, options, out, err));
         out->coalitions = play.asked;
     }
     for (size_t c = 0; play.known && c < (size_t)1 << n; c++) free(play.known[c]);
     free(play.known);
-    if (!ok) glint_shapley_finish(out);
+    if (!ends) glint_shapley_finish(out);
     return ok;
 }
 

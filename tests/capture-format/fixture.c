@@ -166,7 +166,10 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
         add(&part, c, "depth.Z", f->gbuffer, 17);
         part.planar = &f->planar;
     }
-    if (which == FIXTURE_TRUTH) add(&part, c, "weight", color + 3, stride);
+    if (which == FIXTURE_TRUTH) {
+        add(&part, c, "weight", color + 3, stride);
+        add(&part, c, "error", f->gbuffer + 4, 17);
+    }
     return part;
 }
 

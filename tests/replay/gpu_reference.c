@@ -15,16 +15,21 @@
 #include "glint/reference.h"
 #include "plain_capture.h"
 
-static struct glint_reference *open_reference(struct fixture *fixture, const char *folder, const char *set, bool anew,
-                                              struct glint_error *err) {
+static struct glint_reference *open_at_once(struct fixture *fixture, const char *folder, const char *set, bool anew,
+                                            uint32_t at_once, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_create("reference", err);
     assert_non_null(pipeline);
     if (set && !glint_pipeline_set(pipeline, set, err)) fail_msg("%s", err->message);
-    struct glint_reference *reference =
-        glint_reference_create(fixture->replay, fixture->capture, pipeline,
-                               &(struct glint_reference_options){.folder = folder, .anew = anew}, err);
+    struct glint_reference *reference = glint_reference_create(
+        fixture->replay, fixture->capture, pipeline,
+        &(struct glint_reference_options){.folder = folder, .anew = anew, .at_once = at_once}, err);
     glint_pipeline_destroy(&pipeline);
     return reference;
+}
+
+static struct glint_reference *open_reference(struct fixture *fixture, const char *folder, const char *set, bool anew,
+                                              struct glint_error *err) {
+    return open_at_once(fixture, folder, set, anew, 0, err);
 }
 
 static struct glint_reference *need_reference(struct fixture *fixture, const char *folder, const char *set) {
@@ -188,6 +193,66 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     fixture_check_messages(fixture);
 }
 
+static void refused(struct fixture *fixture, const char *folder, const char *set, const char *why) {
+    struct glint_error err = {0};
+    struct glint_reference *reference = open_reference(fixture, folder, set, false, &err);
+    assert_null(reference);
+    fixture_says(&err, why);
+}
+
+/* As with a picture so large that a round takes an hour: what it has of the first round is kept, and no folder is left that
+   holds nothing. */
+static void a_round_goes_on_from_its_midst(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    char folder[128], file[160];
+    uint32_t most = 0, calls = 0;
+    snprintf(folder, sizeof folder, "%s/midst", fixture->folder);
+    snprintf(file, sizeof file, "%s/unfinished.exr", folder);
+    struct glint_reference *whole = open_at_once(fixture, NULL, NULL, false, 3, &err);
+    assert_non_null(whole);
+    trace(whole, 32, 0);
+    for (uint32_t rays = 0, begun = 0; rays < 32; calls++) {
+        struct glint_reference *part = open_at_once(fixture, folder, NULL, false, 3, &err);
+        if (!part) fail_msg("%s", err.message);
+        const struct glint_reference_state *now = glint_reference_state(part);
+        assert_int_equal(now->rays, rays);
+        assert_int_equal(now->begun, begun);
+        if (rays + begun == 0) assert_int_not_equal(access(folder, F_OK), 0);
+        /* a run of three rays reports some 20 to 30 times: one of them is complete, or two */
+        int left = 40;
+        err = (struct glint_error){0};
+        const bool done = glint_reference_trace(part, 32, 0, stop_late, &left, &err);
+        if (!done) assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
+        assert_true(now->rays + now->begun > rays + begun);
+        rays = now->rays, begun = now->begun;
+        most = begun > most ? begun : most;
+        assert_int_equal(access(file, F_OK) == 0, begun > 0);
+        assert_true(done == (rays == 32) && calls < 32);
+        glint_reference_destroy(&part);
+        if (calls == 0) refused(fixture, folder, "screen_trace.thickness=0.5", "screen_trace.values.thickness");
+    }
+    assert_true(calls > 3 && most > 8); /* into the second half's part of a round */
+    struct glint_reference *again = open_at_once(fixture, folder, NULL, false, 3, &err);
+    assert_non_null(again);
+    struct glint_pixels a = pixels_of(whole, NULL), b = pixels_of(again, NULL);
+    check_same(&a, &b);
+    glint_pixels_finish(&a);
+    glint_pixels_finish(&b);
+    glint_reference_destroy(&again);
+    /* the mean of three, three and two is that of eight, but for rounding */
+    struct glint_reference *eight = need_reference(fixture, NULL, NULL);
+    trace(eight, 32, 0);
+    a = pixels_of(whole, NULL), b = pixels_of(eight, NULL);
+    for (size_t i = 0; i < (size_t)a.width * a.height * 4; i++)
+        assert_true(fabsf(a.values[i] - b.values[i]) <= 32 * 0x1p-24f * fabsf(b.values[i]));
+    glint_pixels_finish(&a);
+    glint_pixels_finish(&b);
+    glint_reference_destroy(&eight);
+    glint_reference_destroy(&whole);
+    fixture_check_messages(fixture);
+}
+
 static void it_stops_at_the_noise_that_is_asked_for(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_reference *reference = need_reference(fixture, NULL, NULL);
@@ -203,13 +268,6 @@ static void it_stops_at_the_noise_that_is_asked_for(void **state) {
     assert_int_equal(glint_reference_state(reference)->rays, rays);
     glint_reference_destroy(&reference);
     fixture_check_messages(fixture);
-}
-
-static void refused(struct fixture *fixture, const char *folder, const char *set, const char *why) {
-    struct glint_error err = {0};
-    struct glint_reference *reference = open_reference(fixture, folder, set, false, &err);
-    assert_null(reference);
-    fixture_says(&err, why);
 }
 
 static void a_folder_of_something_else_is_refused(void **state) {
@@ -418,6 +476,7 @@ int main(void) {
         cmocka_unit_test(noise_falls_with_the_root_of_independent_rays),
         cmocka_unit_test(a_half_is_one_run_of_its_rays),
         cmocka_unit_test(an_interrupted_reference_goes_on_to_the_same_bits),
+        cmocka_unit_test(a_round_goes_on_from_its_midst),
         cmocka_unit_test(it_stops_at_the_noise_that_is_asked_for),
         cmocka_unit_test(a_folder_of_something_else_is_refused),
         cmocka_unit_test(captures_that_lack_something),

@@ -204,6 +204,39 @@ static void a_frame_far_from_the_origin_has_the_same_block(void **unused) {
         if (x[i] != y[i]) assert_true(fabsf(x[i] - y[i]) <= 1e-6f * (1 + fabsf(x[i]))); /* 1e6 in double: 1e-10 */
 }
 
+/* An engine's matrices with rotations of floats, which are orthonormal to 1e-7 alone: where a still point was in the
+   previous picture is what those matrices say, though the world is 1,000 km wide. */
+static void rotations_in_floats_do_not_move_the_camera(void **unused) {
+    (void)unused;
+    uint64_t state = 9;
+    for (int n = 0; n < 60; n++) {
+        static const double distances[] = {0, 1e5, 1e6};
+        struct glint_frame frame = {.has_previous = true};
+        double eye[3], previous_eye[3], view[4], exact[4];
+        random_camera(&state, n & 1, -1, distances[n % 3], &frame.camera, eye);
+        frame.previous = frame.camera;
+        for (int i = 0; i < 3; i++) previous_eye[i] = eye[i] + uniform(&state) - 0.5;
+        struct glint_camera *const cameras[] = {&frame.camera, &frame.previous};
+        for (int c = 0; c < 2; c++)
+            for (int i = 0; i < 3; i++) {
+                double *row = cameras[c]->world_to_view + 4 * i;
+                for (int k = 0; k < 3; k++) row[k] = (double)(float)row[k];
+                row[3] = 0;
+                for (int k = 0; k < 3; k++) row[3] -= row[k] * (c ? previous_eye : eye)[k];
+            }
+        struct frame_block block;
+        fill(&block, &frame);
+        for (int p = 0; p < 20; p++) {
+            const double relative[4] = {8 * uniform(&state) - 4, 8 * uniform(&state) - 4, 8 * uniform(&state) - 4, 1};
+            const double world[4] = {relative[0] + eye[0], relative[1] + eye[1], relative[2] + eye[2], 1};
+            transform(frame.previous.world_to_view, world, exact);
+            apply(&block.previous_view_from_world, relative, view);
+            /* 4e-6 m: lengths below 8 m in floats. A camera moved by 12 mm is off by that much. */
+            for (int i = 0; i < 3; i++) assert_true(fabs(view[i] - exact[i]) < 4e-6);
+        }
+    }
+}
+
 static void fog_and_up_are_in_metres(void **unused) {
     (void)unused;
     struct glint_frame frame = {.metres_per_unit = 0.01,
@@ -235,6 +268,7 @@ int main(void) {
         cmocka_unit_test(points_project_as_the_matrices_say),
         cmocka_unit_test(the_depth_range_is_that_of_the_projection),
         cmocka_unit_test(a_frame_far_from_the_origin_has_the_same_block),
+        cmocka_unit_test(rotations_in_floats_do_not_move_the_camera),
         cmocka_unit_test(fog_and_up_are_in_metres),
         cmocka_unit_test(the_layout_is_std140),
     };

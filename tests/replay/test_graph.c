@@ -181,6 +181,16 @@ static void diagnostic_images_exist_only_on_request(void **state) {
     const char *const outputs[] = {"why", NULL};
     assert_false(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs}, &err));
     fixture_says(&err, "why is a diagnostic image");
+    /* nobody has to name them one by one, but what makes them has to run */
+    const char *const others[] = {"a", NULL}, *const before[] = {"z", NULL};
+    assert_true(
+        build(state, &graph, &made, (struct glint_replay_options){.outputs = others, .diagnostics = true}, &err));
+    assert_true(graph_find(&graph, "why")->wanted && graph_find(&graph, "a")->wanted);
+    graph_finish(&graph);
+    assert_true(
+        build(state, &graph, &made, (struct glint_replay_options){.outputs = before, .diagnostics = true}, &err));
+    assert_null(graph_find(&graph, "why"));
+    graph_finish(&graph);
 }
 
 static void a_missing_input_names_the_pass_that_makes_it(void **state) {

@@ -87,6 +87,23 @@ static void what_is_wrong_with_an_assignment_is_said(void **state) {
     }
 }
 
+static void a_switch_is_set_in_every_pass_that_has_it(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = glint_pipeline_create("mafia_de", &err),
+                          *without = glint_pipeline_create("kf2", &err);
+    assert_true(value_of(pipeline, "resolve", "fog") == 1 && value_of(pipeline, "transparent_resolve", "fog") == 1);
+    assert_true(glint_pipeline_set(pipeline, "pipeline.fog=false", &err));
+    assert_true(value_of(pipeline, "resolve", "fog") == 0 && value_of(pipeline, "transparent_resolve", "fog") == 0);
+    assert_true(glint_pipeline_set(without, "pipeline.fog=false", &err)); /* none of its passes has fog */
+    assert_false(glint_pipeline_set(without, "pipeline.fogs=false", &err));
+    assert_says(&err, "pipeline has no parameter 'fogs'; known: rays, first_ray");
+    assert_false(glint_pipeline_set(pipeline, "pipeline.fog=perhaps", &err));
+    assert_says(&err, "resolve.fog: expected true, false or a number");
+    glint_pipeline_destroy(&pipeline);
+    glint_pipeline_destroy(&without);
+}
+
 static void slots_can_be_left_out_and_variants_are_checked(void **state) {
     (void)state;
     struct glint_error err = {0};
@@ -177,6 +194,7 @@ int main(void) {
         cmocka_unit_test(the_preset_holds_every_slot_with_its_defaults),
         cmocka_unit_test(values_are_set_by_number_by_word_and_by_choice),
         cmocka_unit_test(what_is_wrong_with_an_assignment_is_said),
+        cmocka_unit_test(a_switch_is_set_in_every_pass_that_has_it),
         cmocka_unit_test(slots_can_be_left_out_and_variants_are_checked),
         cmocka_unit_test(a_host_pass_has_no_shader_to_replace),
         cmocka_unit_test(a_good_preset_file_is_read),

@@ -217,6 +217,48 @@ static void twenty_numbers_take_some_hundred_tries(void **state) {
     glint_search_result_finish(&result);
 }
 
+/* Sixty axes, of which three late ones matter, and forty tries: no two for each. One of the three is best further up, one is a
+   choice, and half of the cost goes with the third. */
+enum { SIXTY = 60, UP = 41, CHOICE = 47, COSTLY = 58, FORTY = 40 };
+struct touched {
+    bool axis[SIXTY];
+    size_t count;
+};
+static bool try_sixty(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
+    struct touched *touched = user;
+    (void)err;
+    for (int a = 0; a < SIXTY; a++) touched->axis[a] |= v[a] != (a == CHOICE ? 0 : 8);
+    touched->count++;
+    *figures = (struct glint_search_figures){1 + 8 / v[UP] + (v[CHOICE] > 0 ? 0 : 0.5) + 0.4 / v[COSTLY],
+                                             20 + v[UP] + 4 * v[COSTLY]};
+    for (int a = 0; a < SIXTY; a++) { /* the others change a little each */
+        if (a == UP || a == CHOICE || a == COSTLY) continue;
+        figures->wanted += 1e-4 * (8 - v[a]);
+        figures->limited += 1e-3 * v[a];
+    }
+    return true;
+}
+static void few_tries_are_spent_on_what_matters(void **state) {
+    (void)state;
+    struct glint_search_axis sixty[SIXTY];
+    struct glint_search_result result;
+    struct glint_error err = {0};
+    struct touched touched = {.count = 0};
+    for (int a = 0; a < SIXTY; a++)
+        sixty[a] = (struct glint_search_axis){
+            .lowest = 1, .highest = 64, .start = 8, .whole = true, .scale = GLINT_SEARCH_DOUBLING};
+    sixty[CHOICE] = (struct glint_search_axis){.choices = 2};
+    const struct glint_search_options options = {.limit = 61, .tries = FORTY, .seed = 1};
+    if (!glint_search(sixty, SIXTY, &options, try_sixty, &touched, &result, &err)) fail_msg("%s", err.message);
+    assert_true(touched.count <= FORTY);
+    for (int a = 0; a < SIXTY; a++) assert_true(touched.axis[a] && result.matters[a]);
+    const struct glint_search_point *best = &result.points[result.best];
+    /* The start errs 2.55 at 60.5; of these three alone, 32 and 2 with the choice taken are within the limit and err 1.45. */
+    assert_true(result.within && best->values[CHOICE] == 1);
+    assert_true(best->figures.wanted < 1.6);
+    glint_search_result_finish(&result);
+}
+
 static void better_is_within_then_less(void **state) {
     (void)state;
     const struct glint_search_figures in = {2, 9}, less = {1, 9.5}, out = {0.1, 11}, far = {0.05, 20}, none = {NAN, 1};
@@ -258,6 +300,7 @@ int main(void) {
         cmocka_unit_test(noise_moves_the_answer_little),
         cmocka_unit_test(what_matters_under_another_choice_is_found),
         cmocka_unit_test(twenty_numbers_take_some_hundred_tries),
+        cmocka_unit_test(few_tries_are_spent_on_what_matters),
         cmocka_unit_test(better_is_within_then_less),
         cmocka_unit_test(odd_searches_end),
     };

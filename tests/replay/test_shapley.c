@@ -186,6 +186,50 @@ static void the_same_seed_draws_the_same(void **state) {
     glint_shapley_finish(&c);
 }
 
+/* What is known while the game goes on: first what players change alone, later shares. */
+struct watch {
+    struct record record;
+    struct glint_shapley found;
+    size_t news, stop_at;
+    uint32_t asked_first, permutations;
+};
+static bool play_watched(void *user, uint32_t coalition, double *values, struct glint_error *err) {
+    return play(&((struct watch *)user)->record, coalition, values, err);
+}
+static bool look(void *user, struct glint_error *err) {
+    struct watch *watch = user;
+    const struct glint_shapley *found = &watch->found;
+    if (++watch->news == watch->stop_at) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "stopped");
+    if (watch->news == 1) {
+        watch->asked_first = watch->record.asked;
+        assert_true(!found->exact && found->permutations == 0);
+        for (size_t i = 0; i < PLAYERS; i++) {
+            assert_true(fabs(found->first[i * GAMES + AIRPORT] - (runway[i] + 4)) < 1e-12);
+            assert_true(found->share[i * GAMES + AIRPORT] == 0);
+        }
+    } else assert_true(found->exact || found->permutations == watch->permutations + 2);
+    watch->permutations = found->permutations;
+    return true;
+}
+static void what_is_known_is_told_at_once(void **state) {
+    (void)state;
+    struct glint_error err = {0};
+    for (size_t exact = 0; exact <= PLAYERS; exact += PLAYERS)
+        for (size_t stop = 0; stop < 3; stop++) {
+            struct watch watch = {.stop_at = stop};
+            const struct glint_game game = {
+                .players = PLAYERS, .values = GAMES, .play = play_watched, .news = look, .user = &watch};
+            const struct glint_shapley_options options = {.exact = exact, .permutations = 20};
+            const bool done = glint_shapley(&game, &options, &watch.found, &err);
+            assert_int_equal(done, stop == 0);
+            assert_non_null(watch.found.share);
+            if (stop == 0) assert_int_equal(watch.news, exact ? 2 : 11);
+            if (stop != 1) assert_int_equal(watch.asked_first, 2 * PLAYERS + 2);
+            if (stop == 0 && exact) assert_sums(&watch.found);
+            glint_shapley_finish(&watch.found);
+        }
+}
+
 static void failures_end_the_game(void **state) {
     (void)state;
     for (size_t exact = 0; exact <= PLAYERS; exact += PLAYERS)
@@ -198,7 +242,10 @@ static void failures_end_the_game(void **state) {
             assert_false(glint_shapley(&game, &options, &found, &err));
             assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
             assert_int_equal(record.asked, at);
-            assert_null(found.share);
+            /* alone and last are known after 2 · 9 + 2 coalitions, and stay */
+            assert_int_equal(found.share != NULL, at > 2 * PLAYERS + 2);
+            assert_true(!found.exact);
+            glint_shapley_finish(&found);
         }
     static const size_t wrong[] = {0, GLINT_PLAYERS_MAX + 1};
     for (size_t i = 0; i < 2; i++) {
@@ -212,13 +259,10 @@ static void failures_end_the_game(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_coalitions_give_the_closed_forms),
-        cmocka_unit_test(ends_are_those_of_one_exchange),
-        cmocka_unit_test(intervals_hold_what_they_say),
-        cmocka_unit_test(opposite_orders_cancel),
-        cmocka_unit_test(drawing_stops_at_the_interval),
-        cmocka_unit_test(the_same_seed_draws_the_same),
-        cmocka_unit_test(failures_end_the_game),
+        cmocka_unit_test(all_coalitions_give_the_closed_forms), cmocka_unit_test(ends_are_those_of_one_exchange),
+        cmocka_unit_test(intervals_hold_what_they_say),         cmocka_unit_test(opposite_orders_cancel),
+        cmocka_unit_test(drawing_stops_at_the_interval),        cmocka_unit_test(the_same_seed_draws_the_same),
+        cmocka_unit_test(what_is_known_is_told_at_once),        cmocka_unit_test(failures_end_the_game),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

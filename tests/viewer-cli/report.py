@@ -176,7 +176,7 @@ class Tests:
         self.browser.show(os.path.join(compared, "index.html"))
         assert self.browser.evaluate("[...document.querySelectorAll('h2')].map(e => e.textContent)") == [NAME]
         assert self.browser.evaluate("[...document.querySelectorAll('h3')].map(e => e.textContent)") == \
-            ["Error against time", "Error by surface", "Why rays ended", "Reflection", "Its error, 0 (dark) to 1 (bright)", "Picture"]
+            ["Error against time", "Error by surface", "Why rays ended", "Reflection", "Its error, 0 (dark) to 1 (bright); grey: not compared", "Picture"]
         (rows,) = [t for t in self.browser.evaluate(f"{TABLE}({json.dumps(NAME)})") if t[0][-1] == "notes"]
         for row, preset in zip(rows[1:], presets, strict=True):
             (everything,) = [s for s in preset["surfaces"] if s["surfaces"] == "all"]

@@ -80,6 +80,17 @@ static void metrics_are_chosen(void **state) {
     glint_fails(2, "above 0", "replay", CAPTURE, "--against=truth", "--ppd=0");
 }
 
+/* Presets whose passes have no fog have none to switch off. */
+static void what_help_advises_works_in_every_preset(void **state) {
+    (void)state;
+    static const char *const presets[] = {"mafia3", "mafia_de", "gtav", "kf2"};
+    char *help = glint_ok("replay", "--help");
+    assert_contains(help, "pipeline.fog=false");
+    free(help);
+    for (size_t i = 0; i < sizeof presets / sizeof *presets; i++)
+        free(glint_ok("replay", CAPTURE, "--against=truth", "--preset", presets[i], "--set=pipeline.fog=false"));
+}
+
 /* Rays of a tracer's end reason by what the truth says; where both have a reflection from. */
 static void ends_are_held_against_the_truth_and_the_reference(void **state) {
     (void)state;
@@ -131,6 +142,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(classes_part_the_pixels),
         cmocka_unit_test(metrics_are_chosen),
+        cmocka_unit_test(what_help_advises_works_in_every_preset),
         cmocka_unit_test(ends_are_held_against_the_truth_and_the_reference),
         cmocka_unit_test(what_is_no_number_fails),
     };

@@ -127,14 +127,18 @@ static void a_killed_blame_goes_on(void **state) {
     static const char arguments[] = "--rays=16 --player-rays=2 --use=upscale=best_match --repeat=0";
     snprintf(
         command, sizeof command,
-        "cd %s && \"$GLINT\" blame room.exr -o killed -p %s %s & pid=$!; i=0; "
+        "cd %s && exec \"$GLINT\" blame room.exr -o killed -p %s %s & pid=$!; i=0; "
         "until [ \"$(cat %s/killed/log.jsonl 2>/dev/null | wc -l)\" -ge 5 ]; do i=$((i+1)); [ $i -lt 600 ] || exit "
         "9; sleep 0.05; done; kill -9 $pid; wait $pid",
         in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
     struct outcome killed = run_program("sh", "-c", command, NULL);
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
-    assert_false(file_exists(in_folder("killed/shares.json")));
+    if (file_exists(in_folder("killed/shares.json"))) { /* what was known by then */
+        json_t *partial = load("killed/shares.json");
+        assert_true(json_is_false(json_object_get(partial, "complete")));
+        json_decref(partial);
+    }
     FILE *log = fopen(in_folder("killed/log.jsonl"), "ab");
     assert_non_null(log);
     fputs("{\"errors\":{\"reference\":{\"all\":{\"pix", log);
@@ -148,6 +152,42 @@ static void a_killed_blame_goes_on(void **state) {
     assert_int_equal(lines_of("killed/log.jsonl"), 1 << json_array_size(json_object_get(whole, "players")));
     json_decref(whole);
     json_decref(resumed);
+}
+
+/* Who waits for no times has the answers, on the screen and in the folder, and may have more times later. */
+static void answers_come_before_times(void **state) {
+    (void)state;
+    char command[1024];
+    static const char arguments[] = "--rays=16 --player-rays=2 --use=upscale=best_match";
+    snprintf(command, sizeof command,
+             "cd %s && cp -r killed asked && exec \"$GLINT\" blame room.exr -o asked -p %s %s --repeat=100000 & "
+             "pid=$!; i=0; "
+             "until grep -q '\"round\":' %s/asked/log.jsonl 2>/dev/null; do i=$((i+1)); [ $i -lt 600 ] || exit 9; "
+             "sleep 0.05; "
+             "done; kill -INT $pid; wait $pid",
+             in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
+    /* a shell's background job ignores interrupts, which exec'd programs inherit: glint listens all the same */
+    struct outcome stopped = run_program("sh", "-c", command, NULL);
+    assert_int_equal(stopped.status, 130);
+    assert_contains(stopped.out, "exact, of all");
+    assert_contains(stopped.out, "adds ms");
+    assert_contains(stopped.err, "asked keeps what was found");
+    outcome_free(&stopped);
+    json_t *whole = load("blame/shares.json"), *found = load("asked/shares.json");
+    assert_true(json_is_false(json_object_get(found, "complete")) && json_is_true(json_object_get(whole, "complete")));
+    assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
+                           json_object_get(json_object_get(found, "mean"), "errors")));
+    assert_true(file_exists(in_folder("asked/index.html")));
+    const int lines = lines_of("asked/log.jsonl");
+    json_decref(found);
+    free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("asked"), SMALL, "--use=upscale=best_match",
+                  "--repeat=1"));
+    found = load("asked/shares.json");
+    assert_true(json_is_true(json_object_get(found, "complete")) && lines_of("asked/log.jsonl") >= lines);
+    const json_t *ms = json_object_get(json_object_get(found, "mean"), "frame_ms");
+    assert_true(number(ms, "preset") > 0 && number(ms, "reference") > 0);
+    json_decref(found);
+    json_decref(whole);
 }
 
 /* Permutations in the same folder: no pipeline is run again, and another error is shared out as well. */
@@ -282,10 +322,10 @@ static void the_handbook_shows_references(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_add_up_to_the_error),    cmocka_unit_test(a_killed_blame_goes_on),
-        cmocka_unit_test(permutations_have_intervals),   cmocka_unit_test(several_captures_have_their_mean),
-        cmocka_unit_test(a_shot_has_a_history),          cmocka_unit_test(what_is_wrong_is_named),
-        cmocka_unit_test(the_handbook_shows_references),
+        cmocka_unit_test(shares_add_up_to_the_error),       cmocka_unit_test(a_killed_blame_goes_on),
+        cmocka_unit_test(answers_come_before_times),        cmocka_unit_test(permutations_have_intervals),
+        cmocka_unit_test(several_captures_have_their_mean), cmocka_unit_test(a_shot_has_a_history),
+        cmocka_unit_test(what_is_wrong_is_named),           cmocka_unit_test(the_handbook_shows_references),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../capture-format/rewrite.h"
+
 static const json_t *preset_of(const json_t *json, size_t capture, const char *name) {
     const json_t *row = json_array_get(json_object_get(json, "captures"), capture);
     return named(json_object_get(row, "presets"), "preset", name);
@@ -104,6 +106,34 @@ static void water_is_compared_in_the_finished_picture(void **state) {
     free(text);
 }
 
+/* The left half of the truth has no weight: no error can be told there, and none is painted. */
+static void what_the_truth_does_not_know_is_neutral(void **state) {
+    (void)state;
+    static struct rewrite r;
+    rewrite_load(&r, in_folder("room.exr"));
+    const struct rewrite_part *truth = rewrite_find(&r, "truth.reflection.ggx");
+    const uint32_t width = truth->part.width, height = truth->part.height;
+    float *weight = rewrite_pixels(&r, "truth.reflection.ggx", "weight");
+    for (size_t i = 0; i < (size_t)width * height; i++)
+        if (i % width < width / 2) weight[i] = 0;
+    rewrite_save(&r, in_folder("half.exr"));
+    rewrite_finish(&r);
+    free(glint_ok("compare", in_folder("half.exr"), "--presets=mafia3", "--repeat=1", "-o", in_folder("half")));
+    const struct pixels error = read_png(in_folder("half/pictures/0-1-error.png"));
+    assert_true(error.width == width && error.height == height);
+    const uint8_t *neutral = pixel(&error, 0, 0);
+    size_t painted = 0;
+    assert_true(neutral[0] > 64 && abs(neutral[0] - neutral[1]) < 8 && abs(neutral[1] - neutral[2]) < 8);
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const bool grey = !memcmp(pixel(&error, x, y), neutral, 3);
+            if (x < width / 2) assert_true(grey);
+            else painted += !grey;
+        }
+    assert_true(painted > (size_t)width * height / 4); /* most of the right half reflects */
+    free(error.rgb);
+}
+
 static void settings_reach_their_preset_alone(void **state) {
     (void)state;
     char *text = glint_ok("compare", in_folder("box.exr"), "--presets=kf2,mafia3_shipped", "--repeat=1", "--json",
@@ -129,6 +159,7 @@ int main(void) {
         cmocka_unit_test(errors_are_those_of_replay),
         cmocka_unit_test(several_captures_make_one_table_and_one_sheet),
         cmocka_unit_test(water_is_compared_in_the_finished_picture),
+        cmocka_unit_test(what_the_truth_does_not_know_is_neutral),
         cmocka_unit_test(settings_reach_their_preset_alone),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -54,6 +54,19 @@ static void it_is_kept_and_goes_on(void **state) {
     free(picture.rgb);
 }
 
+/* Where there is no terminal, too. */
+static void how_far_it_is_is_told_on_request(void **state) {
+    (void)state;
+    struct outcome silent = glint("reference", in_folder("room.exr"), "--rays=16", NULL),
+                   told = glint("reference", in_folder("room.exr"), "--rays=16", "--progress", NULL);
+    assert_int_equal(silent.status, 0);
+    assert_int_equal(told.status, 0);
+    assert_string_equal(silent.err, "");
+    assert_contains(told.err, "0 of 16 rays: 0.0 %");
+    outcome_free(&silent);
+    outcome_free(&told);
+}
+
 /* Against itself nothing is left; against both, both answers are those of one each. */
 static void runs_are_compared_with_it(void **state) {
     (void)state;
@@ -122,9 +135,8 @@ static void what_cannot_be_is_said(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_kept_and_goes_on),
-        cmocka_unit_test(runs_are_compared_with_it),
-        cmocka_unit_test(another_captures_reference_is_told),
+        cmocka_unit_test(it_is_kept_and_goes_on),    cmocka_unit_test(how_far_it_is_is_told_on_request),
+        cmocka_unit_test(runs_are_compared_with_it), cmocka_unit_test(another_captures_reference_is_told),
         cmocka_unit_test(what_cannot_be_is_said),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

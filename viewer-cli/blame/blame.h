@@ -3,6 +3,8 @@
 #ifndef GLINT_VIEWER_BLAME_H
 #define GLINT_VIEWER_BLAME_H
 
+#include <math.h>
+
 #include "answer_args.h"
 #include "glint/blame.h"
 #include "journal.h"
@@ -43,7 +45,9 @@ struct blame {
     struct journal journal;
     json_t *definition, *lines; /* lines: by blame_look_key, blame_time_key */
     struct blame_sum *captured; /* of each capture */
-    struct blame_sum mean;      /* of all; the only one's when there is one */
+    struct blame_sum mean;      /* of those whose shares are known, or of the first; the only one's when there is one */
+    bool complete;              /* all shares, and all times */
+    struct timespec told;
 };
 void blame_finish(struct blame *blame);
 static inline size_t blame_value(size_t answer, size_t class) {
@@ -61,8 +65,14 @@ static inline double blame_removed(const struct blame_sum *sum, size_t player, s
 static inline double blame_made(const struct blame_sum *sum, size_t player, size_t value) {
     return -sum->shapley.last[player * BLAME_VALUES + value];
 }
+/* NAN as long as it is not known. */
 static inline double blame_share(const struct blame_sum *sum, size_t player, size_t value) {
-    return -sum->shapley.share[player * BLAME_VALUES + value];
+    const bool known = sum->shapley.exact || sum->shapley.permutations;
+    return known ? -sum->shapley.share[player * BLAME_VALUES + value] : (double)NAN;
+}
+/* Whether it says anything: what one exchange changes is known first, then shares, then times. */
+static inline bool blame_is_known(const struct blame_sum *sum) {
+    return sum->shapley.share != NULL;
 }
 static inline double blame_half(const struct blame_sum *sum, size_t player, size_t value) {
     return sum->shapley.half[player * BLAME_VALUES + value];
@@ -76,9 +86,13 @@ double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bo
 /* "exact, of all 128 pipelines" */
 void blame_how(const struct blame_sum *sum, char text[96]);
 
-/* blame_run.c: finds what is missing, capture by capture, and sums it up. */
+/* blame_run.c: finds what is missing: the shares of all captures, then times. Both tell what is known as they go. */
 bool blame_open(struct blame *blame, const struct list *shaders, struct glint_error *err);
-bool blame_run(struct blame *blame, struct glint_error *err);
+bool blame_find_shares(struct blame *blame, struct glint_error *err);
+bool blame_find_times(struct blame *blame, struct glint_error *err);
+
+/* blame_tell.c: writes what is known so far into the folder, if there is one. `at_once`: though it was done a moment ago. */
+bool blame_tell(struct blame *blame, bool at_once, struct glint_error *err);
 
 /* blame_sum.c */
 /* What a line of a look says; NAN where it does not. */
@@ -92,7 +106,8 @@ void blame_look_key(size_t capture, uint32_t coalition, char key[64]);
 void blame_time_key(size_t capture, uint32_t coalition, uint32_t round, char key[64]);
 
 /* blame_table.c */
-void blame_print(const struct blame *blame);
+void blame_print_shares(const struct blame *blame);
+void blame_print_times(const struct blame *blame);
 json_t *blame_json(const struct blame *blame);
 
 /* blame_page.c: OUT/index.html, OUT/page.json, OUT/shares.svg and, with times, OUT/bought.svg. */

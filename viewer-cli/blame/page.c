@@ -131,7 +131,7 @@ static void add_sum(const struct blame *blame, json_t *document, const char *tit
     for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
         const size_t v = blame_value(a, 0);
         char text[500], how[96];
-        if (!isfinite(sum->shapley.none[v])) continue;
+        if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
         const char *answer = glint_answer_name(blame_answer(blame, a));
         snprintf(text, sizeof text, "%.300s, against the %s", title, answer);
         json_t *blocks = page_section(document, text);
@@ -179,6 +179,8 @@ static void add_facts(const struct blame *blame, json_t *document) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
     char text[300];
     for (size_t c = 0; c < blame->captures.count; c++) page_fact(document, "capture", blame->captures.items[c]);
+    if (!blame->complete)
+        page_fact(document, "not complete", "what is known so far; the same command goes on from there");
     page_fact(document, "preset", glint_pipeline_name(blame->base));
     page_fact(document, "error", glint_metric(blame->metric)->title);
     page_fact(document, "device", device->name);

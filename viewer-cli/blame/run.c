@@ -136,18 +136,10 @@ static bool take_turns(struct work *work, struct glint_error *err) {
             blame_time_key(work->capture, timed[i], round, key);
             if (!json_object_get(blame->lines, key) && !time_one(work, timed[i], round, err)) return false;
         }
+        blame_sum_times(blame, work->capture);
+        if (!blame_tell(blame, false, err)) return false;
     }
     return true;
-}
-
-static bool find_shares(struct work *work, struct glint_error *err) {
-    struct blame *blame = work->blame;
-    const struct glint_game game = {.players = blame->count, .values = BLAME_VALUES, .play = play, .user = work};
-    const size_t whole = (size_t)1 << blame->count,
-                 drawn = 2 * blame->count + 2 + blame->options.permutations * blame->count;
-    work->done = 0;
-    work->total = blame->count <= blame->options.exact || drawn > whole ? whole : drawn;
-    return glint_shapley(&game, &blame->options, &blame->captured[work->capture].shapley, err);
 }
 
 /* The answer before the coalitions: it can take longer than they do. */
@@ -155,6 +147,23 @@ static bool find_answer(struct work *work, struct glint_error *err) {
     const float *error;
     return work->blame->against.truth || glint_judge_answer(work->judge, GLINT_ANSWER_REFERENCE, work->blame->base,
                                                             &error, progress_report, work->blame->progress, err);
+}
+
+static bool tell(void *user, struct glint_error *err) {
+    struct work *work = user;
+    return blame_tell(work->blame, false, err);
+}
+
+static bool find_shares(struct work *work, struct glint_error *err) {
+    struct blame *blame = work->blame;
+    const struct glint_game game = {
+        .players = blame->count, .values = BLAME_VALUES, .play = play, .news = tell, .user = work};
+    const size_t whole = (size_t)1 << blame->count,
+                 drawn = 2 * blame->count + 2 + blame->options.permutations * blame->count;
+    work->done = 0;
+    work->total = blame->count <= blame->options.exact || drawn > whole ? whole : drawn;
+    return find_answer(work, err) &&
+           glint_shapley(&game, &blame->options, &blame->captured[work->capture].shapley, err);
 }
 
 /* Frames that do not follow each other, or follow a cut, leave no history. */
@@ -177,31 +186,35 @@ static bool open_shot(struct work *work, struct glint_error *err) {
     return true;
 }
 
-static bool on_capture(struct work *work, struct glint_error *err) {
-    struct blame *blame = work->blame;
-    const size_t c = work->capture;
+static bool on_capture(struct blame *blame, size_t c, bool (*task)(struct work *work, struct glint_error *err),
+                       struct glint_error *err) {
+    struct work work = {.blame = blame, .capture = c};
     struct glint_judge_options options = answer_args_judge(&blame->against, blame->out, c);
     options.truth = true;
     options.all = blame->all;
     options.metrics = blame->metrics;
-    const bool ok = (work->open = glint_capture_open(blame->captures.items[c], NULL, err)) && open_shot(work, err) &&
-                    (work->judge = glint_judge_create(blame->device, &options, err)) &&
-                    glint_judge_load(work->judge, work->open, err) && find_answer(work, err) &&
-                    find_shares(work, err) && take_turns(work, err);
-    if (work->judge) glint_judge_destroy(&work->judge);
-    for (size_t i = 0; work->before && i < blame->before.count; i++)
-        if (work->before[i]) glint_capture_close(&work->before[i]);
-    free(work->before);
-    if (work->open) glint_capture_close(&work->open);
+    const bool ok = (work.open = glint_capture_open(blame->captures.items[c], NULL, err)) && open_shot(&work, err) &&
+                    (work.judge = glint_judge_create(blame->device, &options, err)) &&
+                    glint_judge_load(work.judge, work.open, err) && task(&work, err);
+    if (work.judge) glint_judge_destroy(&work.judge);
+    for (size_t i = 0; work.before && i < blame->before.count; i++)
+        if (work.before[i]) glint_capture_close(&work.before[i]);
+    free(work.before);
+    if (work.open) glint_capture_close(&work.open);
     return ok;
 }
 
-bool blame_run(struct blame *blame, struct glint_error *err) {
+bool blame_find_shares(struct blame *blame, struct glint_error *err) {
     for (size_t c = 0; c < blame->captures.count; c++) {
-        struct work work = {.blame = blame, .capture = c};
-        if (!on_capture(&work, err)) return false;
+        if (!on_capture(blame, c, find_shares, err)) return false;
         blame_sum_times(blame, c);
     }
+    return true;
+}
+
+bool blame_find_times(struct blame *blame, struct glint_error *err) {
+    for (size_t c = 0; c < blame->captures.count && blame->rounds; c++)
+        if (!on_capture(blame, c, take_turns, err)) return false;
     return true;
 }
 
@@ -250,5 +263,6 @@ bool blame_open(struct blame *blame, const struct list *shaders, struct glint_er
     blame->captured = calloc(blame->captures.count + 1, sizeof *blame->captured);
     blame->journal = (struct journal){.folder = blame->out, .kind = "blame", .keep = keep, .user = blame};
     if (!blame->lines || !blame->captured) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t c = 0; c < blame->captures.count; c++) blame_sum_times(blame, c); /* none are known */
     return (blame->definition = define(blame, shaders, err)) && journal_open(&blame->journal, blame->definition, err);
 }

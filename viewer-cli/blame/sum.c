@@ -79,38 +79,48 @@ void blame_sum_times(struct blame *blame, size_t capture) {
     }
 }
 
+/* Those whose shares are known; before there is any, the first alone. */
+static bool in_mean(const struct blame *blame, size_t capture, bool any) {
+    const struct glint_shapley *of = &blame->captured[capture].shapley;
+    return any ? of->exact || of->permutations : capture == 0 && of->share;
+}
+
+static void add_times(const struct blame *blame, struct blame_time *mean, const struct blame_time *of, double part) {
+    mean->preset += part * of->preset;
+    mean->reference += part * of->reference;
+    for (size_t p = 0; p < blame->count; p++) {
+        mean->added[p] += part * of->added[p];
+        mean->saved[p] += part * of->saved[p];
+    }
+}
+
 /* Shares of a mean are means of shares; captures are independent of each other, but permutations were drawn alike, so that
    widths are added as they are. */
-static bool copy_mean(struct blame *blame, struct glint_error *err) {
+bool blame_sum_up(struct blame *blame, struct glint_error *err) {
     struct glint_shapley *mean = &blame->mean.shapley;
     const size_t n = blame->count * BLAME_VALUES, size = 4 * n + 2 * BLAME_VALUES;
-    const double part = 1.0 / (double)blame->captures.count;
-    *mean = blame->captured[0].shapley;
-    mean->share = calloc(size + 1, sizeof *mean->share);
-    if (!mean->share) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t c = 0; c < blame->captures.count; c++)
-        for (size_t i = 0; i < size; i++) mean->share[i] += part * blame->captured[c].shapley.share[i];
+    size_t known = 0, last = 0;
+    for (size_t c = 0; c < blame->captures.count; c++) known += in_mean(blame, c, true);
+    glint_shapley_finish(mean);
+    blame->mean = (struct blame_sum){.time = {.preset = 0}};
+    double *values = calloc(size + 1, sizeof *values);
+    if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t c = 0; c < blame->captures.count; c++) {
+        const struct blame_sum *of = &blame->captured[c];
+        const double part = 1.0 / (double)(known ? known : 1);
+        if (!in_mean(blame, c, known > 0)) continue;
+        for (size_t i = 0; i < size; i++) values[i] += part * of->shapley.share[i];
+        add_times(blame, &blame->mean.time, &of->time, part);
+        last = c;
+    }
+    *mean = blame->captured[last].shapley;
+    mean->share = values;
     mean->half = mean->share + n;
     mean->first = mean->half + n;
     mean->last = mean->first + n;
     mean->none = mean->last + n;
     mean->all = mean->none + BLAME_VALUES;
     return true;
-}
-
-bool blame_sum_up(struct blame *blame, struct glint_error *err) {
-    struct blame_time *time = &blame->mean.time;
-    const double part = 1.0 / (double)blame->captures.count;
-    for (size_t c = 0; c < blame->captures.count; c++) {
-        const struct blame_time *of = &blame->captured[c].time;
-        time->preset += part * of->preset;
-        time->reference += part * of->reference;
-        for (size_t p = 0; p < blame->count; p++) {
-            time->added[p] += part * of->added[p];
-            time->saved[p] += part * of->saved[p];
-        }
-    }
-    return copy_mean(blame, err);
 }
 
 double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bool *already) {
@@ -120,7 +130,8 @@ double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bo
 }
 
 void blame_how(const struct blame_sum *sum, char text[96]) {
-    if (sum->shapley.exact) snprintf(text, 96, "exact, of all %u pipelines", sum->shapley.coalitions);
+    if (!sum->shapley.exact && !sum->shapley.permutations) snprintf(text, 96, "not known yet");
+    else if (sum->shapley.exact) snprintf(text, 96, "exact, of all %u pipelines", sum->shapley.coalitions);
     else
         snprintf(text, 96, "of %u permutations, %u pipelines; ± 95 %%", sum->shapley.permutations,
                  sum->shapley.coalitions);

@@ -17,35 +17,28 @@ static void share_cell(struct table *table, double share, double half) {
 }
 
 static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
-    static const char *const titles[] = {"<player",      ">share",           ">%",     ">removes",  ">adds ms",
-                                         ">buys per ms", ">adds fetches/px", ">makes", ">saves ms", NULL};
+    static const char *const titles[] = {"<player", ">share", ">%", ">removes", ">adds fetches/px", ">makes", NULL};
     struct table *table = table_create(titles);
     const size_t v = blame_value(answer, 0);
     double shares = 0, removed = 0, made = 0;
     for (size_t p = blame->count; p-- > 0;) {
-        bool already;
-        const double bought = blame_bought(sum, p, v, &already);
-        shares += blame_share(sum, p, v);
+        const double share = blame_share(sum, p, v);
+        shares += share;
         removed += blame_removed(sum, p, v);
         made += blame_made(sum, p, v);
         table_cell(table, "%s", glint_player_name(blame->players, p));
-        share_cell(table, blame_share(sum, p, v), blame_half(sum, p, v));
-        table_cell(table, "%.1f", 100 * blame_share(sum, p, v) / blame_total(sum, v));
+        share_cell(table, share, blame_half(sum, p, v));
+        cell(table, 100 * share / blame_total(sum, v));
         cell(table, blame_removed(sum, p, v));
-        cell(table, sum->time.added[p]);
-        if (already && isfinite(bought)) table_cell(table, "%s already", number_text(bought));
-        else cell(table, bought);
         cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
         cell(table, blame_made(sum, p, v));
-        cell(table, sum->time.saved[p]);
     }
     table_cell(table, "sum");
     cell(table, shares);
-    table_cell(table, "%.1f", 100 * shares / blame_total(sum, v));
+    cell(table, 100 * shares / blame_total(sum, v));
     cell(table, removed);
-    for (int i = 0; i < 3; i++) table_cell(table, "%s", "");
-    cell(table, made);
     table_cell(table, "%s", "");
+    cell(table, made);
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -54,7 +47,7 @@ static void print_sum(const struct blame *blame, const char *title, const struct
     for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
         const size_t v = blame_value(a, 0);
         char how[96];
-        if (!isfinite(sum->shapley.none[v])) continue;
+        if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
         blame_how(sum, how);
         printf("%s: %s of %s against the %s is %s, its reference's %s; shares of the difference %s (%s):\n\n", title,
                glint_metric(blame->metric)->title, glint_pipeline_name(blame->base),
@@ -65,24 +58,54 @@ static void print_sum(const struct blame *blame, const char *title, const struct
     }
 }
 
-void blame_print(const struct blame *blame) {
-    const struct glint_device_info *device = glint_device_get_info(blame->device);
-    if (blame->captures.count > 1) print_sum(blame, "mean of the captures", &blame->mean);
-    for (size_t c = 0; c < blame->captures.count; c++) print_sum(blame, blame->captures.items[c], &blame->captured[c]);
+static void each_sum(const struct blame *blame,
+                     void (*print)(const struct blame *blame, const char *title, const struct blame_sum *sum)) {
+    if (blame->captures.count > 1) print(blame, "mean of the captures", &blame->mean);
+    for (size_t c = 0; c < blame->captures.count; c++) print(blame, blame->captures.items[c], &blame->captured[c]);
+}
+
+void blame_print_shares(const struct blame *blame) {
+    each_sum(blame, print_sum);
     puts("share: mean of what a player changes over all orders of exchanging them; removes, adds: it alone exchanged "
-         "for "
-         "its reference in the preset;\nbuys: error removed for each ms, or what its own ms buy already; makes, saves: "
-         "it "
-         "alone kept in the reference. Players:");
+         "for its reference in the preset;\nmakes: it alone kept in the reference. Players:");
     for (size_t p = blame->count; p-- > 0;) {
         const char *why = glint_player_why(blame->players, p);
         printf("  %s: %s%s%s%s\n", glint_player_name(blame->players, p), glint_player_change(blame->players, p),
                why[0] ? " (" : "", why, why[0] ? ")" : "");
     }
-    if (blame->rounds)
-        printf("times: median of %u rounds in turns on %s%s\n", blame->rounds, device->name,
-               device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
     if (blame->out) printf("page, charts and tables: %s/index.html\n", blame->out);
+    fflush(stdout);
+}
+
+/* What a millisecond buys is by the error that comes first. */
+static void print_time(const struct blame *blame, const char *title, const struct blame_sum *sum) {
+    static const char *const titles[] = {"<player", ">adds ms", ">buys per ms", ">saves ms", NULL};
+    if (!blame_is_known(sum)) return;
+    struct table *table = table_create(titles);
+    for (size_t p = blame->count; p-- > 0;) {
+        bool already;
+        const double bought = blame_bought(sum, p, blame_value(0, 0), &already);
+        table_cell(table, "%s", glint_player_name(blame->players, p));
+        cell(table, sum->time.added[p]);
+        if (already && isfinite(bought)) table_cell(table, "%s already", number_text(bought));
+        else cell(table, bought);
+        cell(table, sum->time.saved[p]);
+    }
+    printf("\n%s: %s takes ", title, glint_pipeline_name(blame->base));
+    printf("%s ms, ", number_text(sum->time.preset));
+    printf("its reference %s ms:\n\n", number_text(sum->time.reference));
+    table_print(table, stdout);
+    table_destroy(&table);
+}
+
+void blame_print_times(const struct blame *blame) {
+    const struct glint_device_info *device = glint_device_get_info(blame->device);
+    if (!blame->rounds) return;
+    each_sum(blame, print_time);
+    printf("buys: error against the %s removed for each ms, or what its own ms buy already; saves: it alone kept in "
+           "the reference\ntimes: median of %u rounds in turns on %s%s\n",
+           glint_answer_name(blame_answer(blame, 0)), blame->rounds, device->name,
+           device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
 }
 
 static json_t *player_json(const struct blame_sum *sum, size_t p, size_t v) {
@@ -139,15 +162,15 @@ json_t *blame_json(const struct blame *blame) {
         json_array_append_new(players, json_pack("{s:s, s:s, s:s}", "name", glint_player_name(blame->players, p),
                                                  "change", glint_player_change(blame->players, p), "why",
                                                  glint_player_why(blame->players, p)));
-    for (size_t c = 0; c < blame->captures.count; c++) {
+    for (size_t c = 0; c < blame->captures.count && blame_is_known(&blame->captured[c]); c++) {
         json_t *capture = sum_json(blame, &blame->captured[c]);
         json_object_set_new(capture, "capture", json_string(blame->captures.items[c]));
         json_array_append_new(captures, capture);
     }
-    return json_pack("{s:i, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:o, s:o}", "format", 1, "preset",
-                     glint_pipeline_name(blame->base), "metric", glint_metric(blame->metric)->name, "against",
-                     glint_answer_name(blame_answer(blame, 0)), "device", "name", device->name, "is_cpu",
-                     device->is_cpu, "rounds", (json_int_t)blame->rounds, "reference_rays",
-                     (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS), "players", players,
-                     "captures", captures, "mean", sum_json(blame, &blame->mean));
+    return json_pack("{s:i, s:b, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:o, s:o}", "format", 1, "complete",
+                     blame->complete, "preset", glint_pipeline_name(blame->base), "metric",
+                     glint_metric(blame->metric)->name, "against", glint_answer_name(blame_answer(blame, 0)), "device",
+                     "name", device->name, "is_cpu", device->is_cpu, "rounds", (json_int_t)blame->rounds,
+                     "reference_rays", (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS),
+                     "players", players, "captures", captures, "mean", sum_json(blame, &blame->mean));
 }

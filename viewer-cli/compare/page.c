@@ -31,7 +31,8 @@ static json_t *time_json(const struct contest_time *time) {
 
 /* ---- Pictures ---- */
 
-static const char *const row_titles[CONTEST_ROWS] = {"Reflection", "Its error, 0 (dark) to 1 (bright)", "Picture"};
+static const char *const row_titles[CONTEST_ROWS] = {
+    "Reflection", "Its error, 0 (dark) to 1 (bright); grey: not compared", "Picture"};
 
 /* A capture's pictures by column, the truth's first, without their values. */
 static json_t *by_column(const struct contest_pictures *pictures) {

@@ -38,7 +38,7 @@ static bool draw(struct contest_pictures *p, size_t row, size_t column, const st
            keep(p, row, column, pixels, name, err);
 }
 
-/* The symmetric error of each pixel that the preset gives; black elsewhere. */
+/* The symmetric error of each pixel that the preset gives and the truth knows; neutral elsewhere. */
 static bool draw_error(struct contest_pictures *p, size_t column, const struct answer *a, const uint8_t *surfaces,
                        const char *label, struct glint_error *err) {
     const size_t count = (size_t)a->truth->width * a->truth->height;
@@ -46,7 +46,7 @@ static bool draw_error(struct contest_pictures *p, size_t column, const struct a
     uint8_t *mask = malloc(count + 1);
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE;
-    ok = ok && pixels_difference(&a->verdict.reflection, a->truth, mask, &error, err) &&
+    ok = ok && pixels_difference(&a->verdict.reflection, a->truth, a->truth_error, mask, &error, err) &&
          draw(p, ERROR, column, &error, "error where it gives a reflection", label, label, err);
     glint_pixels_finish(&error);
     free(mask);

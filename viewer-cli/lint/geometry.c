@@ -46,11 +46,8 @@ static struct lint_view view_of(const struct glint_camera *camera, const struct 
             stored[3 * i + k] = (reading->inverse_camera ? 1 : reading->view_sign[i]) * m[4 * i + k];
     invert(stored, reading->inverse_camera ? v.rotation : v.inverse);
     /* the eye: where the view is 0. The inverse of what is stored has it as its translation. */
-    for (int i = 0; i < 3; i++) {
-        v.position[i] = reading->inverse_camera ? translation[i] : 0;
-        for (int k = 0; k < 3 && !reading->inverse_camera; k++)
-            v.position[i] -= v.inverse[3 * i + k] * reading->view_sign[k] * translation[k];
-    }
+    if (reading->inverse_camera) memcpy(v.position, translation, sizeof translation);
+    else glint_camera_position(camera, v.position);
     return v;
 }
 

@@ -32,7 +32,7 @@ const glintStage = (function () {
     function digits(v) {
         if (v === undefined) return '\u2013';
         if (Number.isNaN(v)) return 'NaN';
-        if (!Number.isFinite(v)) return v > 0 ? '\u221e' : '\u2212\u221e';
+        if (!Number.isFinite(v)) return v > 0 ? '\u221e' : 'not compared';
         return String(+v.toPrecision(6)).replace('-', '\u2212');
     }
 

@@ -13,7 +13,7 @@
 static void camera_at(struct glint_camera *camera, const double place[3], double turn) {
     const double c = cos(turn), s = sin(turn), near = 0.125, far = 1024;
     const double rotation[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
-    *camera = (struct glint_camera){{0}, {0}};
+    *camera = (struct glint_camera){0};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
             camera->world_to_view[4 * i + k] = rotation[i][k];

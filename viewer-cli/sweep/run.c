@@ -229,8 +229,8 @@ static bool draw_changes(const struct work *work, const struct glint_pixels *ref
             char name[96], title[96];
             sweep_change_name(work->capture, from, to, name);
             snprintf(title, sizeof title, "what changes from %zu to %zu", from, to);
-            const bool ok = pixels_difference(&reflections[from], &reflections[to], glint_judge_surfaces(work->judge),
-                                              &change, err) &&
+            const bool ok = pixels_difference(&reflections[from], &reflections[to], NULL,
+                                              glint_judge_surfaces(work->judge), &change, err) &&
                             draw(sweep, name, &change, title, err);
             glint_pixels_finish(&change);
             if (!ok) return false;
@@ -251,10 +251,11 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
         char name[96];
         label(work, "picture", p + 1);
         sweep_picture_name("error", work->capture, p, name);
-        bool ok = pipeline && glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, err) &&
-                  (answer = glint_judge_answer(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
-                  pixels_difference(&verdict.reflection, answer, glint_judge_surfaces(work->judge), &error, err) &&
-                  draw(sweep, name, &error, "error", err);
+        bool ok =
+            pipeline && glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, err) &&
+            (answer = glint_judge_answer(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
+            pixels_difference(&verdict.reflection, answer, noise, glint_judge_surfaces(work->judge), &error, err) &&
+            draw(sweep, name, &error, "error", err);
         reflections[p] = verdict.reflection;
         verdict.reflection = (struct glint_pixels){0};
         glint_pixels_finish(&error);

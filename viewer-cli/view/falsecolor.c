@@ -83,6 +83,10 @@ static struct rgb distance_color(struct legend *l, double v) {
         l->has_invalid = true;
         return COLOR_INVALID;
     }
+    if (isinf(v) && v < 0) {
+        l->has_none = true;
+        return COLOR_NONE;
+    }
     if (isinf(v)) {
         l->has_infinite = true;
         return COLOR_SKY;

@@ -39,7 +39,8 @@ struct legend {
     enum kind kind;
     char title[400];
     double low, high;
-    bool logarithmic, has_infinite, has_invalid, has_zero; /* has_zero: 0 or less on a logarithmic scale */
+    bool logarithmic, has_infinite, has_invalid, has_none; /* has_none: texels without a value, -inf */
+    bool has_zero;                                         /* 0 or less on a logarithmic scale */
     double shares[257];                                    /* of each index, the last for all others; sums to 1 */
 };
 

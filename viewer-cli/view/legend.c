@@ -121,6 +121,7 @@ static void layout(struct flow *flow, const struct legend *l) {
         item(flow, (struct rgb){128, 128, 255}, "+Z");
     }
     if (l->has_zero) item(flow, colormap_category(0), "0 or less");
+    if (l->has_none) item(flow, COLOR_NONE, "not compared");
     if (l->has_infinite) item(flow, COLOR_SKY, "infinite (sky)");
     if (l->kind == KIND_INVALID) {
         item(flow, COLOR_INVALID, "NaN");

@@ -15,7 +15,7 @@ struct rgb {
 };
 static const struct rgb COLOR_BACKGROUND = {0x16, 0x18, 0x1d}, COLOR_TEXT = {0xe6, 0xe8, 0xeb},
                         COLOR_INVALID = {0xff, 0x00, 0xff}, COLOR_INFINITE = {0x00, 0xff, 0xff},
-                        COLOR_SKY = {0xb4, 0xc6, 0xdc};
+                        COLOR_SKY = {0xb4, 0xc6, 0xdc}, COLOR_NONE = {0x5a, 0x5d, 0x63};
 
 struct picture {
     uint32_t width, height;

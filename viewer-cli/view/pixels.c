@@ -18,14 +18,17 @@ bool pixels_read(struct glint_replay *replay, const struct glint_image *image, s
            glint_replay_read_image(replay, image, GLINT_F32, pixels->values, err);
 }
 
-bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const uint8_t *mask,
-                       struct glint_pixels *difference, struct glint_error *err) {
+bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const float *error,
+                       const uint8_t *mask, struct glint_pixels *difference, struct glint_error *err) {
     if (!allocate(difference, a->width, a->height, 1, err)) return false;
-    for (size_t i = 0; i < (size_t)a->width * a->height; i++)
-        for (uint32_t k = 0; k < 3 && mask[i]; k++) {
+    for (size_t i = 0; i < (size_t)a->width * a->height; i++) {
+        const bool compared = mask[i] && !(error && isinf(error[i]));
+        if (!compared) difference->values[i] = -INFINITY;
+        for (uint32_t k = 0; k < 3 && compared; k++) {
             const float x = a->values[i * a->components + k], y = b->values[i * b->components + k];
             difference->values[i] += fabsf(x - y) / (fabsf(x) + fabsf(y) + (float)GLINT_SYMMETRIC_EPSILON) / 3;
         }
+    }
     return true;
 }
 

@@ -8,9 +8,10 @@
 /* An image of the last run as floats. */
 bool pixels_read(struct glint_replay *replay, const struct glint_image *image, struct glint_pixels *pixels,
                  struct glint_error *err);
-/* How far two images of R G B are apart: |a - b| over their sum, 0 where `mask` is 0. */
-bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const uint8_t *mask,
-                       struct glint_pixels *difference, struct glint_error *err);
+/* How far two images of R G B are apart: |a - b| over their sum. Not compared, -inf, where `mask` is 0 or the relative
+   error of the second is infinite, as that of a truth without weight; NULL: it is known everywhere. */
+bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const float *error,
+                       const uint8_t *mask, struct glint_pixels *difference, struct glint_error *err);
 /* As what is shown, borrowing the values. */
 struct source pixels_source(const struct glint_pixels *pixels, const char *title);
 /* From 0 to 1. */

@@ -77,7 +77,13 @@ enum glint_clip_z { GLINT_CLIP_Z_ZERO_TO_ONE, GLINT_CLIP_Z_MINUS_ONE_TO_ONE };
 struct glint_camera {
     double world_to_view[16]; /* rotation (a mirroring one is allowed) and translation; no scale */
     double view_to_clip[16];  /* perspective, jitter included: rows (a 0 c 0) (0 b d 0) (0 0 A B) (0 0 ±1 0) */
+    /* Set by the reader where the stored rotation is less than double precise: how far R·Rᵀ is from the identity.
+       world_to_view is then the nearest rotation about the stored matrix's position: its transpose is its inverse. */
+    double rotation_error;
 };
+/* The world position that world_to_view takes to the view's origin, in units. It solves for it: with a rotation that is
+   orthonormal to a float's 1e-7 alone, -Rᵀ·t is off by 12 mm at 1,000 km. */
+void glint_camera_position(const struct glint_camera *camera, double position[3]);
 
 struct glint_fog {
     float color[3];      /* radiance far inside the fog */
@@ -117,6 +123,11 @@ struct glint_frame {
     uint32_t class_count;
 };
 
+/* Sentences on what a valid frame should be asked about: cameras whose stored rotation is so imprecise that it can be
+   seen at their distance from the origin. Returns how many. */
+enum { GLINT_NOTES = 2, GLINT_NOTE_LENGTH = 400 };
+size_t glint_frame_notes(const struct glint_frame *frame, char notes[GLINT_NOTES][GLINT_NOTE_LENGTH]);
+
 /* ---- What holds for one cube map ---- */
 
 enum glint_volume { GLINT_VOLUME_NONE, GLINT_VOLUME_BOX, GLINT_VOLUME_SPHERE, GLINT_VOLUME_HULL };
@@ -127,7 +138,9 @@ struct glint_cubemap {
     bool outdoor;
     double fade; /* weight while it is added or removed, (0, 1]; 0: 1 */
     uint32_t age_frames;
-    enum glint_volume inner; /* a volume known to be empty, positions relative to the centre, in units */
+    /* A volume of air around the centre, into which no surface reaches, furniture included: rays begin where they leave it.
+       Not the room's walls. Positions relative to the centre, in units. */
+    enum glint_volume inner;
     double box_min[3], box_max[3];
     double sphere_center[3], sphere_radius;
     double planes[GLINT_MAX_PLANES][4]; /* inside: n·p + d <= 0 */

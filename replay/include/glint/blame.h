@@ -17,6 +17,9 @@ typedef bool (*glint_coalition)(void *user, uint32_t coalition, double *values, 
 struct glint_game {
     size_t players, values;
     glint_coalition play; /* asked once for each coalition */
+    /* NULL, or called whenever the result that glint_shapley fills says more: none, all, first and last come before any share,
+       and drawn shares with their intervals after every two permutations. False ends the game. */
+    bool (*news)(void *user, struct glint_error *err);
     void *user;
 };
 struct glint_shapley_options {
@@ -33,12 +36,13 @@ struct glint_shapley {
     bool exact;
     uint32_t permutations; /* drawn; 0 when exact */
     uint32_t coalitions;   /* asked for */
-    double *share;         /* [player · values + value] */
+    double *share;         /* [player · values + value]; 0 as long as `exact` is false and `permutations` 0 */
     double *half;          /* likewise: half of the 95 % interval, by the spread of antithetic pairs; 0 when exact */
     double *none, *all;    /* [value]: of the empty coalition, of all players */
     double *first, *last;  /* [player · values + value]: what it changes when it joins alone; when it joins last */
 };
-/* Coalitions are asked for in an order in which the first players change most often. */
+/* Coalitions of none and of all players are asked for first, then those of one and of all but one, then the others in an order in
+   which the first players change most often. A failure leaves what was known when it came, or no `share`. */
 bool glint_shapley(const struct glint_game *game, const struct glint_shapley_options *options,
                    struct glint_shapley *shapley, struct glint_error *err);
 void glint_shapley_finish(struct glint_shapley *shapley);

@@ -27,6 +27,7 @@ struct glint_reference_noise {
 };
 struct glint_reference_state {
     uint32_t rays;                                           /* a pixel, of both halves */
+    uint32_t begun;                                          /* rays of the round under way, which are in no figure */
     double seconds;                                          /* spent on them, in all calls */
     struct glint_reference_noise noise[GLINT_SURFACE_COUNT]; /* [0]: all surfaces */
 };
@@ -37,6 +38,9 @@ struct glint_reference_options {
     bool anew;           /* removes what the folder holds, instead of going on or failing */
     bool all;            /* no pass is dropped for having nothing to do */
     uint64_t keep_bytes; /* as of glint_replay_options, for a replay that others use too */
+    /* Rays that are run in one piece, which an interruption loses; 0: one on a software device, else GLINT_REFERENCE_BATCH, of
+       large pictures fewer. Their means are rounded, so that it decides the last bits. */
+    uint32_t at_once;
 };
 /* `pipeline`, as glint_study_reference() makes it, is copied; its rays are not asked for. The replay, which has `capture`
    loaded, stays the caller's and must outlive the reference; other runs of it may come between calls here. A folder that
@@ -48,8 +52,9 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
 void glint_reference_destroy(struct glint_reference **reference);
 
 /* Traces until a pixel has `rays` rays, rounded up to whole rounds, or all surfaces' relative noise is at most `noise` (0:
-   never). The folder holds a complete reference of fewer rays all the while: it is renewed every few seconds, at the end
-   and when the call is interrupted. However often it was, the images have the same bits as of one call on the same device.
+   never). The folder holds a complete reference of fewer rays all the while, from the first round on, and beside it, in
+   unfinished.exr, the rays of the round under way: both are renewed every few seconds, at the end and when the call is
+   interrupted. There is no folder before there is something to go on from. However often it was, the images have the same bits as of one call on the same device.
    Fails when the reflection is NaN or infinite anywhere, or when nothing reflects. */
 bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, double noise, glint_progress progress,
                            void *user, struct glint_error *err);

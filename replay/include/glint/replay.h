@@ -56,6 +56,7 @@ const char *glint_preset(size_t i);
 bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 /* "pipeline.rays=N": PER_RAY slots run N times a frame, 1 to 1024, and what they accumulate becomes the mean.
    "pipeline.first_ray=N": their number starts there, 0 by default: other random numbers than those of the rays before.
+   "pipeline.parameter=value", of any other name: in every pass that has it, and in none where none has.
    "slot.parameter=value": a number, true, false or a choice's name; out of range is an error that names the range. */
 bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 /* "slot=file.comp": the slot's shader is compiled from this file instead. */
@@ -132,8 +133,9 @@ struct glint_replay_options {
        nothing changed. */
     const uint32_t (*probes)[2];
     size_t probe_count;
-    bool captured;        /* images that are read from the capture are among the run's, with no pass */
-    bool diagnostics;     /* end reasons, steps, fetches; changes no bit of the other images */
+    bool captured; /* images that are read from the capture are among the run's, with no pass */
+    /* End reasons, steps, fetches of all passes that run, whatever `outputs` names; changes no bit of the other images. */
+    bool diagnostics;
     bool float_precision; /* every half image as float */
     uint32_t repeat;      /* timed rounds after a warm-up; 0: one round, first use included */
     uint32_t warmup;      /* rounds before the timed ones; 0: 1 */

@@ -66,7 +66,8 @@ bool glint_search_better(const struct glint_search_figures *a, const struct glin
    Jeeves, "Direct search", 1961). When that gains no more, COBYLA (M. J. D.
    Powell, "A direct search optimization method that models the objective and constraint functions by linear
    interpolation", 1994; from NLopt) goes on over the numbers, and then the search starts again from the best point, thrown off it at
-   random. `result` holds what was found until an error, too; finish it in any case. */
+   random. With fewer tries than the first steps on every axis take, groups of axes are screened for what they change together, and
+   the first steps are those of the axes that weigh most. `result` holds what was found until an error, too; finish it in any case. */
 bool glint_search(const struct glint_search_axis *axes, size_t count, const struct glint_search_options *options,
                   glint_search_try try_point, void *user, struct glint_search_result *result, struct glint_error *err);
 

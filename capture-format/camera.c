@@ -1,0 +1,81 @@
+/* Where a camera stands, and rotations that engines kept in floats. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "attributes.h"
+
+/* A rotation off by e leaves e times the residual: rule `matrices` grants 1e-3, so six steps are past a double's digits. */
+void glint_camera_position(const struct glint_camera *camera, double position[3]) {
+    const double *m = camera->world_to_view;
+    memset(position, 0, 3 * sizeof *position);
+    for (int step = 0; step < 6; step++) {
+        double view[3];
+        for (int i = 0; i < 3; i++)
+            view[i] = m[4 * i] * position[0] + m[4 * i + 1] * position[1] + m[4 * i + 2] * position[2] + m[4 * i + 3];
+        for (int i = 0; i < 3; i++) position[i] -= m[i] * view[0] + m[4 + i] * view[1] + m[8 + i] * view[2];
+    }
+}
+
+/* R·Rᵀ, and its largest difference from the identity. */
+static double product_with_transpose(const double *m, double out[3][3]) {
+    double largest = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            out[i][j] = m[4 * i] * m[4 * j] + m[4 * i + 1] * m[4 * j + 1] + m[4 * i + 2] * m[4 * j + 2];
+            largest = fmax(largest, fabs(out[i][j] - (i == j)));
+        }
+    return largest;
+}
+
+/* R ← (3 I - R·Rᵀ)·R / 2 goes to the nearest rotation (the polar decomposition's), the error to its square each time. */
+static void towards_rotation(double *m, double product[3][3]) {
+    double rows[3][3] = {{0}};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) rows[i][j] += ((i == k ? 3 : 0) - product[i][k]) / 2 * m[4 * k + j];
+    for (int i = 0; i < 3; i++) memcpy(m + 4 * i, rows[i], sizeof rows[i]);
+}
+
+void glint_camera_make_rigid(struct glint_camera *camera) {
+    /* What a rotation computed in double is off by; at 1,000 km it moves nothing by more than a micrometre. */
+    static const double precise = 1e-12;
+    double product[3][3], position[3], *m = camera->world_to_view;
+    const double error = product_with_transpose(m, product);
+    if (error <= precise) return;
+    camera->rotation_error = error;
+    glint_camera_position(camera, position);
+    for (int step = 0; step < 3; step++) {
+        towards_rotation(m, product);
+        product_with_transpose(m, product);
+    }
+    for (int i = 0; i < 3; i++)
+        m[4 * i + 3] = -(m[4 * i] * position[0] + m[4 * i + 1] * position[1] + m[4 * i + 2] * position[2]);
+}
+
+/* By so much the camera is moved by an engine that transposes where it should invert, or the other way round. */
+static double doubt_m(const struct glint_camera *camera, double metres, double *away_m) {
+    double p[3];
+    glint_camera_position(camera, p);
+    *away_m = metres * hypot(hypot(p[0], p[1]), p[2]);
+    return camera->rotation_error * *away_m;
+}
+
+size_t glint_frame_notes(const struct glint_frame *frame, char notes[GLINT_NOTES][GLINT_NOTE_LENGTH]) {
+    static const double worth_a_word_m = 1e-4; /* what a 24-bit depth buffer resolves at some 20 m */
+    static const char *const names[] = {"glint.worldToView", "glint.previousWorldToView"};
+    const struct glint_camera *const cameras[] = {&frame->camera, frame->has_previous ? &frame->previous : NULL};
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    size_t count = 0;
+    for (int i = 0; i < 2; i++) {
+        double away_m, off_m = cameras[i] ? doubt_m(cameras[i], metres, &away_m) : 0;
+        if (!(off_m >= worth_a_word_m)) continue;
+        snprintf(
+            notes[count++], GLINT_NOTE_LENGTH,
+            "gbuffer: %s: expected a rotation in double precision, found one that is orthonormal to %.2g; %.4g km from "
+            "the origin that is %.2g mm. The camera stands where the matrix gives 0, which is its place if the "
+            "translation was made with the rotation as it is stored",
+            names[i], cameras[i]->rotation_error, away_m / 1000, 1000 * off_m);
+    }
+    return count;
+}
