@@ -17,7 +17,9 @@
     SCENE(rain_street, "cobbled lane in the rain: all of it wet and rough, no mirror")                                 \
     SCENE(still_life, "table by a window: neither things nor camera move")                                             \
     SCENE(lake, "rippling water between hills, with a jetty and a boathouse; a planar reflection map of it")           \
-    SCENE(hotel, "lobby with a gallery and the street before it at night; 22 cube maps on three floors and outdoors")
+    SCENE(hotel, "lobby with a gallery and the street before it at night; 22 cube maps on three floors and outdoors")  \
+    SCENE(plaza, "wet paving of every roughness after sunset: dark silhouettes before an HDR glow")                    \
+    SCENE(kitchen, "two dim rooms by day: window, door and second window in a mirror, glossy worktops, HDR sky")
 
 #define DECLARE(name, summary) void build_##name(struct scene *scene);
 SCENES(DECLARE)
