@@ -9,7 +9,7 @@ import tempfile
 
 from pages import PRESETS, Times, preset, run, sample, table
 
-SCENES = ("street", "room", "hotel", "lake", "glasshouse", "matte")
+SCENES = ("street", "plaza", "room", "kitchen", "hotel", "lake", "glasshouse", "matte")
 ORDER = ("mafia3", "mafia3_shipped", "kf2", "gtav", "mafia_de")
 SIZE, CUBE, TRUTH = "480x270", "128", "64"
 SURFACES = ("mirror-like", "glossy", "rough", "all")
