@@ -142,15 +142,57 @@ uint next_seer(vec3 origin, vec3 direction, float t, float allowed, uint best, i
     return NO_PLACE;
 }
 
+// The part of the ray that is as wide as a texel, seen from the centre.
+float texel_along(View view, vec3 direction, float t) {
+    vec3 from_center = at(view, direction, t);
+    float k = texel_angle(from_center, float(frame.counts.z)), distance_m = length(from_center);
+    return k * distance_m * distance_m / max(view.aside, k * distance_m);
+}
+
+// Along a ray the gap to a plane grows evenly, and at the corner of two planes it grows by something between what it grows by on
+// the one and on the other. Where it grows by more or less from one texel to the next lies an edge, over which the
+// distances of the texels on its two sides were interpolated.
+bool edge_at(View view, vec3 direction, float t, inout uint fetches) {
+    float texel_m = texel_along(view, direction, t);
+    vec4 gaps;
+    for (int i = 0; i < 4; ++i) gaps[i] = gap_at(view, direction, t + (float(i) - 1.5) * texel_m, fetches);
+    vec3 grows = gaps.yzw - gaps.xyz;
+    return grows.y < min(grows.x, grows.z) - tolerance || grows.y > max(grows.x, grows.z) + tolerance;
+}
+
 // A ray on its way: the cube map that it is followed in, whether that one sees it, and whether it has been in front of a
 // surface there, which it can now go behind.
 struct Walk {
     View view;
     float t;
     bool seen, front;
+    bool blocked; // it crossed a surface that the cube map sees, from behind
     uint best;
     int used; // place in the chain
+    // The cube map that last lost it behind an edge, where that was, and whether there was sky behind it.
+    uint last_place;
+    float last_t;
+    bool last_sky;
 };
+
+// Whether a ray that a cube map did not see comes into its sight past an edge. If not, it comes through the surface that the cube
+// map sees, from behind: a wall has stopped it before, and that cube map knows the wall's other side alone.
+bool passes_edge(View view, vec3 direction, float hidden, float seen, inout uint fetches) {
+    float gap = gap_at(view, direction, hidden, fetches);
+    if (gap <= tolerance) return true;
+    float gap_seen = gap_at(view, direction, seen, fetches);
+    for (int i = 0; i < refinements; ++i) {
+        float middle = 0.5 * (hidden + seen), gap_middle = gap_at(view, direction, middle, fetches);
+        if (gap_middle <= tolerance) {
+            seen = middle;
+            gap_seen = gap_middle;
+        } else {
+            hidden = middle;
+            gap = gap_middle;
+        }
+    }
+    return gap - gap_seen > tolerance || edge_at(view, direction, 0.5 * (hidden + seen), fetches);
+}
 
 // Takes the cube map that sees the ray at t_after; from t_before on if it sees it there in front of a surface, too.
 void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, float t_after, inout uint fetches) {
@@ -161,6 +203,7 @@ void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, f
     walk.t = t_after;
     walk.front = false;
     if (!walk.seen) return;
+    walk.blocked = maps == maps_all && !passes_edge(walk.view, direction, t_before, t_after, fetches);
     walk.front = gap_at(walk.view, direction, t_after, fetches) <= 0.0;
     if (gap_at(walk.view, direction, t_before, fetches) > 0.0) return;
     walk.t = t_before;
@@ -194,6 +237,26 @@ void end_at(inout Result result, float travelled_m, uint place, uint end) {
     result.end = end;
 }
 
+// Where a ray ends that no cube map sees any more. Nothing is known of its end; the likeliest is that what was last seen
+// behind the ray goes on behind the edge that hid it: the sky, or a surface, whose color is found where it was seen. A
+// ray that must have met a wall did not end in the sky, but near what hides that place.
+void end_unseen(inout Result result, Walk walk, vec3 direction, uint best) {
+    if (unseen == unseen_stop) { // as march does
+        end_at(result, INFINITE, best, END_shadow_region);
+        return;
+    }
+    if (walk.last_place == NO_PLACE) { // it was never seen
+        result.fetches++;
+        float seen_m = seen_distance(direction, best);
+        bool sky = !walk.blocked && !(seen_m < LARGEST);
+        end_at(result, walk.blocked ? walk.t : seen_m, sky ? place_of_sky(best) : best, END_shadow_region);
+        return;
+    }
+    if (walk.last_sky && walk.blocked) end_at(result, walk.t, walk.last_place, END_shadow_region);
+    else if (walk.last_sky && frame.counts.w > 0u) end_at(result, INFINITE, NO_PLACE, END_shadow_region);
+    else end_at(result, walk.last_t, walk.last_place, END_shadow_region);
+}
+
 const int FINEST_SKIP = 2; // a cell of which is wider than the texels that it leaves out
 const int PATIENCE = 4;    // steps until it is tried again
 const float UNSEEN = 4.0;  // steps of a ray that no cube map sees, each of which asks all of them, are longer: no fewer are right
@@ -204,6 +267,8 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
     Walk walk;
     walk.best = best;
     walk.used = -1;
+    walk.blocked = false;
+    walk.last_place = NO_PLACE;
     int level = 4, wait = 0;
     change_view(walk, origin, direction, start_m, start_m, result.fetches);
     while (result.steps < uint(steps) && walk.t < length_m && (walk.seen || unseen == unseen_pass)) {
@@ -229,13 +294,10 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
             wait = PATIENCE;
         }
         float next = next_t(walk.view, direction, walk.t, walk.seen ? texel_part : UNSEEN * texel_part);
-        if (!(next < LARGEST)) { // one texel is left: the sky, or a surface that the ray must be behind at twice its distance
+        if (!walk.seen) next = min(next, length_m);
+        else if (!(next < LARGEST)) { // one texel is left: the sky, or a surface that the ray must be behind at twice its distance
             float last_m = seen_distance(direction, walk.view.place);
             result.fetches++;
-            if (!walk.seen) {
-                probe_view(walk.view, direction, walk.t, 0.0, DECISION_unseen);
-                break;
-            }
             if (!(last_m < LARGEST)) {
                 probe_view(walk.view, direction, walk.t, 0.0, DECISION_sky);
                 end_at(result, INFINITE, place_of_sky(walk.view.place), END_sky);
@@ -245,7 +307,8 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
         }
         if (!walk.seen) {
             probe_view(walk.view, direction, next, next - walk.t, DECISION_unseen);
-            change_view(walk, origin, direction, next, next, result.fetches);
+            change_view(walk, origin, direction, walk.t, next, result.fetches);
+            if (walk.blocked) break;
             continue;
         }
         float gap = gap_at(walk.view, direction, next, result.fetches);
@@ -265,11 +328,16 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
                 return result;
             }
             probe_view(walk.view, direction, high, high - low, DECISION_unseen);
+            walk.last_place = walk.view.place;
+            walk.last_t = max(low - 1.5 * texel_along(walk.view, direction, low), 0.0); // no color of the edge is mixed in
+            walk.last_sky = !(seen_distance(at(walk.view, direction, walk.last_t), walk.view.place) < LARGEST);
+            result.fetches++;
             change_view(walk, origin, direction, low, high, result.fetches);
+            if (walk.blocked) break;
         }
     }
-    if (!walk.seen) {
-        end_at(result, INFINITE, best, END_shadow_region);
+    if (!walk.seen || walk.blocked) {
+        end_unseen(result, walk, direction, best);
         return result;
     }
     result.fetches++; // a ray that is left in front of the sky ends in it
