@@ -7,8 +7,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import programs  # noqa: E402
+
 
 def run(*command):
+    programs.find(command[0])
     done = subprocess.run(command, capture_output=True, text=True)
     text = done.stdout + done.stderr
     if done.returncode or re.search(r"error|non-conforming", text, re.I):
@@ -57,4 +61,7 @@ def main(example, expected):
             sys.exit("the example's parts are not what oiiotool lists")
 
 
-main(*sys.argv[1:])
+try:
+    main(*sys.argv[1:])
+except programs.Missing as missing:
+    sys.exit(str(missing))

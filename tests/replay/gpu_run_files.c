@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "fixture.h"
+#include "need.h"
 
 /* Composes with the engine's own reflection in the capture, which the replay then holds; to be closed. */
 static struct glint_capture *compose_engines(struct fixture *fixture,
@@ -114,6 +115,8 @@ static void foreign_tools_read_the_same_values(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     char folder[128], file[256], command[512];
+    static const char *const programs[] = {"exrheader", "exrinfo", "oiiotool"};
+    for (size_t i = 0; i < 3; i++) need_program(programs[i]);
     fixture_run(fixture, &(struct glint_replay_options){.diagnostics = true});
     fixture_write_run(fixture, "foreign", folder);
     snprintf(command, sizeof command, "exrheader %s/*.exr >/dev/null && exrinfo %s/*.exr >/dev/null", folder, folder);
