@@ -1,4 +1,4 @@
-""".ci/run beside a ./dev that only says what it was asked for. Speaks TAP."""
+""".ci/run beside a ./dev that only says what it was asked for, and the count that it ends with. Speaks TAP."""
 import os
 import shutil
 import subprocess
@@ -43,6 +43,20 @@ class Tests:
         assert run("echo pictures", "echo cannot build; exit 1") == (1, ["demo", "test"], "0 passed, 1 failed")
         assert run("echo pictures", "echo nothing counted") == (1, ["demo", "test"], "0 passed, 1 failed")
         assert run(":", ":", "no commands\n") == (1, [], "0 passed, 1 failed")
+
+
+    def test_a_program_that_gives_up_is_one_failure(self):
+        """Meson writes it as a case by its own name; and the line says why."""
+        with tempfile.TemporaryDirectory() as folder:
+            os.makedirs(os.path.join(folder, "build/meson-logs"))
+            for name, text in (("junit.xml", '<testsuites><testsuite><testcase name="s / a" classname="s"><error/><system-out>Bail out! no b</system-out>'
+                                '</testcase></testsuite></testsuites>'), ("json", '{"name": "s / a", "result": "ERROR", "returncode": 1}\n')):
+                with open(os.path.join(folder, "build/meson-logs/testlog." + name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            with open(os.path.join(folder, "build/style-ok"), "w", encoding="utf-8"):
+                pass
+            done = subprocess.run([sys.executable, os.path.join(HERE, "count_results.py"), "build"], cwd=folder, text=True, capture_output=True)
+        assert done.returncode == 1 and done.stdout == "failed: build: s s / a: no b\n1 passed, 1 failed\n", done.stdout
 
 
 sys.exit(tap.run(Tests()))
