@@ -3,6 +3,7 @@
 # committed tree comes, and .ci/run. Speaks TAP on stdout; what the commands say goes to stderr. ./dev fresh calls this.
 #
 # Needs root, debootstrap, git, and 10 GB in $TMPDIR (/var/tmp when unset). Mirrors, proxies and keys are those of this machine's apt.
+# GLINT_FRESH_KEEP=1 leaves the folder behind when something fails.
 set -eu
 release=bookworm
 tree=$(cd "$(dirname "$0")/.." && pwd)
@@ -78,6 +79,10 @@ clean_up() {
     status=$?
     trap - EXIT
     [ -z "${child-}" ] || kill -KILL "$child" 2>/dev/null || true
+    if [ $status != 0 ] && [ -n "${GLINT_FRESH_KEEP-}" ]; then
+        echo "# left to look at: $work/root"
+        exit $status
+    fi
     rm -rf --one-file-system "$work" || { sleep 2; rm -rf --one-file-system "$work"; } # what was killed may still have been writing
     exit $status
 }
