@@ -119,7 +119,9 @@ static void foreign_tools_read_the_same_values(void **state) {
     for (size_t i = 0; i < 3; i++) need_program(programs[i]);
     fixture_run(fixture, &(struct glint_replay_options){.diagnostics = true});
     fixture_write_run(fixture, "foreign", folder);
-    snprintf(command, sizeof command, "exrheader %s/*.exr >/dev/null && exrinfo %s/*.exr >/dev/null", folder, folder);
+    /* exrinfo 3.1.5 ends with a status that it never sets: its messages tell. */
+    snprintf(command, sizeof command,
+             "exrheader %s/*.exr >/dev/null && test -z \"$(exrinfo %s/*.exr 2>&1 >/dev/null)\"", folder, folder);
     assert_int_equal(system(command), 0);
     const char *const images[][3] = {{"depth_half", "02-downsample.exr", "Z"},
                                      {"reflection", "07-upscale.exr", "G"},
