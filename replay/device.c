@@ -28,7 +28,9 @@ static size_t choose(const struct glint_device_info *infos, size_t count, const 
         size_t used = strlen(why);
         snprintf(why + used, sizeof why - used, "; device %zu, %.120s, %.120s", i, infos[i].name, infos[i].reason);
     }
-    if (count == 0) glint_fail(err, GLINT_ERROR_UNSUPPORTED, "no Vulkan device found");
+    if (count == 0)
+        glint_fail(err, GLINT_ERROR_UNSUPPORTED,
+                   "no Vulkan device found (Debian: mesa-vulkan-drivers, which needs no GPU)");
     else if (why[0]) glint_fail(err, GLINT_ERROR_UNSUPPORTED, "no usable Vulkan device%s", why);
     else
         glint_fail(err, GLINT_ERROR_USAGE, "no device matches '%s' among %zu; `glint devices` lists them", select,

@@ -28,7 +28,7 @@ bool vk_fail(struct glint_error *err, const char *what, VkResult result) {
         word = "initialisation failed";
         break;
     case VK_ERROR_INCOMPATIBLE_DRIVER:
-        word = "no Vulkan driver";
+        word = "no Vulkan driver (Debian: mesa-vulkan-drivers, which needs no GPU)";
         break;
     case VK_ERROR_LAYER_NOT_PRESENT:
         word = "layer not installed";
@@ -83,7 +83,8 @@ bool instance_init(struct instance *instance, struct messages *messages, struct 
                           VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
     bool validate = messages != NULL;
     if (validate && !has_layer(validation_layer))
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "validation was asked for, but %s is not installed",
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
+                          "validation was asked for, but %s is not installed (Debian: vulkan-validationlayers)",
                           validation_layer);
     instance->debug_utils = has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const VkValidationFeatureEnableEXT enables[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};

@@ -2,6 +2,7 @@
 although none of its cases failed (it was killed, say) is a failure of its own."""
 import json
 import os
+import re
 import sys
 import xml.etree.ElementTree as xml
 
@@ -17,8 +18,10 @@ for folder in sys.argv[1:]:
         program = case.get("classname", "")
         if case.find("failure") is not None or case.find("error") is not None:
             failed += 1
-            blamed.add(program)
-            print(f"failed: {folder}: {program} {case.get('name')}")
+            # A program that gave up before its first case is a case by its own name.
+            blamed.update((program, case.get("name")))
+            why = re.search("^Bail out! *(.*)", case.findtext("system-out", ""), re.M)
+            print(f"failed: {folder}: {program} {case.get('name')}" + (f": {why[1]}" if why else ""))
         elif case.find("skipped") is not None:
             skipped += 1
             print(f"skipped: {folder}: {case.get('name')}")

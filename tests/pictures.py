@@ -1,7 +1,7 @@
 """The pictures of README.md that show the program itself: a run's images, what a terminal shows, run in tmux, a page and a pixel's
 drawing in headless Chromium.
 
-pictures.py GLINT CHROMIUM [FOLDER]: writes street.png, street-passes.png, terminal-view.png, terminal-diff.png, page-diff.jpg and
+pictures.py GLINT [FOLDER]: writes street.png, street-passes.png, terminal-view.png, terminal-diff.png, page-diff.jpg and
 probe.png, by default to docs/."""
 import html
 import json
@@ -109,10 +109,10 @@ def terminal(folder, path, columns, lines, *commands):
 
 
 def main():
-    glint, chromium = os.path.abspath(sys.argv[1]), sys.argv[2]
-    docs = os.path.abspath(sys.argv[3] if len(sys.argv) > 3 else os.path.join(HERE, "../docs"))
+    glint = os.path.abspath(sys.argv[1])
+    docs = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else os.path.join(HERE, "../docs"))
     path = os.path.dirname(glint)
-    with tempfile.TemporaryDirectory() as folder, Browser(chromium, 1240, 1010) as browser:
+    with tempfile.TemporaryDirectory() as folder, Browser(1240, 1010) as browser:
         def call(*words):
             subprocess.run([glint, *words], cwd=folder, check=True, capture_output=True)
 

@@ -35,11 +35,12 @@ bool fixture_write_capture(const char *path, const struct fixture_options *optio
 /* Cube maps alone, for captures that name the file; `first` numbers their colours. */
 bool fixture_write_cubemaps(const char *path, int first, struct glint_error *err);
 
-/* cmocka group fixtures: *state receives a struct fixture. Without a Vulkan device the tests skip. */
+/* cmocka group fixtures: *state receives a struct fixture. Without a Vulkan device the tests skip, unless
+   GLINT_REQUIRE_DEVICE=1; a device without the validation layer is a failure. */
 int fixture_setup_device(void **state);
 int fixture_setup_host(void **state);
 int fixture_teardown(void **state);
-/* Skips the calling test when there is no device, unless GLINT_REQUIRE_DEVICE=1. */
+/* Skips the calling test when there is no device. */
 struct fixture *fixture_need_device(void **state);
 
 /* Runs the fixture's pipeline, writes the last run to a folder beside the capture, finds a result: or fail the test. */

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "fixture.h"
+#include "need.h"
 
 /* Composes with the engine's own reflection in the capture, which the replay then holds; to be closed. */
 static struct glint_capture *compose_engines(struct fixture *fixture,
@@ -114,9 +115,13 @@ static void foreign_tools_read_the_same_values(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     char folder[128], file[256], command[512];
+    static const char *const programs[] = {"exrheader", "exrinfo", "oiiotool"};
+    for (size_t i = 0; i < 3; i++) need_program(programs[i]);
     fixture_run(fixture, &(struct glint_replay_options){.diagnostics = true});
     fixture_write_run(fixture, "foreign", folder);
-    snprintf(command, sizeof command, "exrheader %s/*.exr >/dev/null && exrinfo %s/*.exr >/dev/null", folder, folder);
+    /* exrinfo 3.1.5 ends with a status that it never sets: its messages tell. */
+    snprintf(command, sizeof command,
+             "exrheader %s/*.exr >/dev/null && test -z \"$(exrinfo %s/*.exr 2>&1 >/dev/null)\"", folder, folder);
     assert_int_equal(system(command), 0);
     const char *const images[][3] = {{"depth_half", "02-downsample.exr", "Z"},
                                      {"reflection", "07-upscale.exr", "G"},

@@ -6,11 +6,15 @@ import shutil
 import subprocess
 import tempfile
 
+import tap  # puts tests/ on the path
+import programs
+
 
 class Browser:
     """One page. `messages`: what it said on the console and which errors there were; `requests`: what it asked for."""
 
-    def __init__(self, program, width=1280, height=900):
+    def __init__(self, width=1280, height=900):
+        program = programs.find("chromium-headless-shell", "chromium")
         self.folder = tempfile.mkdtemp(prefix="glint-browser-")
         self.messages, self.requests, self.dialogs = [], [], []
         self.number = 0
@@ -153,3 +157,13 @@ class Browser:
         os.close(self.to)
         os.close(self.come)
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def run_tests(tests, name):
+    """Runs the tests of a class, which it makes with a folder and a browser. The exit status."""
+    try:
+        with tempfile.TemporaryDirectory(prefix=name) as folder, Browser() as browser:
+            return tap.run(tests(folder, browser))
+    except programs.Missing as missing:
+        print(f"Bail out! {missing}")
+        return 1

@@ -1,5 +1,6 @@
 /* Runs the built program as a user would. */
 #include "cli.h"
+#include "need.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -42,6 +43,7 @@ static struct outcome run_arguments(const char *const *argv) {
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, 1, out, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_addopen(&files, 2, err, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    need_program(argv[0]);
     assert_int_equal(posix_spawnp(&child, argv[0], &files, NULL, (char *const *)argv, environ), 0);
     posix_spawn_file_actions_destroy(&files);
     assert_int_equal(waitpid(child, &wait_status, 0), child);

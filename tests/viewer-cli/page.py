@@ -1,18 +1,16 @@
-"""Pages of glint report in headless Chromium: page.py GLINT CHROMIUM. Speaks TAP."""
+"""Pages of glint report in headless Chromium: page.py GLINT. Speaks TAP."""
 import json
 import os
 import re
 import struct
 import subprocess
 import sys
-import tempfile
 import xml.dom.minidom
 import zlib
 
-import tap
-from browser import Browser
+from browser import run_tests
 
-GLINT, CHROMIUM = sys.argv[1:]
+GLINT = sys.argv[1]
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>&quot;\"'`${alert(3)}"
 
 
@@ -316,12 +314,4 @@ class Tests:
         self.browser.quiet()
 
 
-def main():
-    if not CHROMIUM:
-        print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
-        return 1
-    with tempfile.TemporaryDirectory(prefix="glint-page-") as folder, Browser(CHROMIUM) as browser:
-        return tap.run(Tests(folder, browser))
-
-
-sys.exit(main())
+sys.exit(run_tests(Tests, "glint-page-"))

@@ -1,14 +1,12 @@
-"""glint report over runs, read back in headless Chromium: report.py GLINT CHROMIUM. Speaks TAP."""
+"""glint report over runs, read back in headless Chromium: report.py GLINT. Speaks TAP."""
 import json
 import os
 import subprocess
 import sys
-import tempfile
 
-import tap
-from browser import Browser
+from browser import run_tests
 
-GLINT, CHROMIUM = sys.argv[1:]
+GLINT = sys.argv[1]
 NAME = "<img src=x onerror=alert(1)>.exr"
 # A section's table as lists of texts, without its intervals and its heads' units.
 TABLE = """(title => [...[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent === title)
@@ -229,12 +227,4 @@ class Tests:
         assert not os.path.exists(self.path("x.html"))
 
 
-def main():
-    if not CHROMIUM:
-        print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
-        return 1
-    with tempfile.TemporaryDirectory(prefix="glint-report-") as folder, Browser(CHROMIUM) as browser:
-        return tap.run(Tests(folder, browser))
-
-
-sys.exit(main())
+sys.exit(run_tests(Tests, "glint-report-"))

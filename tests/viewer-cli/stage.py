@@ -1,4 +1,4 @@
-"""Pages of glint diff in headless Chromium: slider, flicker, heat map, values; side-by-side and animated PNG. stage.py GLINT CHROMIUM.
+"""Pages of glint diff in headless Chromium: slider, flicker, heat map, values; side-by-side and animated PNG. stage.py GLINT.
 Speaks TAP."""
 import json
 import os
@@ -6,13 +6,11 @@ import re
 import struct
 import subprocess
 import sys
-import tempfile
 import zlib
 
-import tap
-from browser import Browser
+from browser import run_tests
 
-GLINT, CHROMIUM = sys.argv[1:]
+GLINT = sys.argv[1]
 SIZE = (48, 27)
 STAGE = "[...document.querySelectorAll('.stage')].at(-1)"  # of the finished picture
 FRAME = STAGE + ".querySelector('.frame')"
@@ -204,12 +202,4 @@ class Tests:
         assert all(both[y][:width] == first[y] and both[y][width + 12 : 2 * width + 12] == second[y] for y in range(height))
 
 
-def main():
-    if not CHROMIUM:
-        print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
-        return 1
-    with tempfile.TemporaryDirectory(prefix="glint-stage-") as folder, Browser(CHROMIUM) as browser:
-        return tap.run(Tests(folder, browser))
-
-
-sys.exit(main())
+sys.exit(run_tests(Tests, "glint-stage-"))

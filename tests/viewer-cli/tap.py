@@ -1,5 +1,16 @@
 """Runs the methods test_… of an object, and says how it went in TAP."""
+import os
+import sys
 import traceback
+
+sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import programs  # noqa: E402
+
+
+def explained(error):
+    """The error's trace, and where to get a program from that is not there."""
+    missing = isinstance(error, FileNotFoundError) and error.filename in programs.PACKAGES
+    return traceback.format_exc()[:2000] + (f"{programs.Missing(error.filename)}\n" if missing else "")
 
 
 def run(tests):
@@ -12,7 +23,7 @@ def run(tests):
         try:
             getattr(tests, name)()
             print(f"ok {i} - {words}", flush=True)
-        except Exception:
+        except Exception as error:
             failed += 1
-            print(f"not ok {i} - {words}\n# " + traceback.format_exc()[:2000].replace("\n", "\n# "), flush=True)
+            print(f"not ok {i} - {words}\n# " + explained(error).replace("\n", "\n# "), flush=True)
     return failed > 0

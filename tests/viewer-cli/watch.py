@@ -1,4 +1,4 @@
-"""glint replay --watch: a shader and a preset are edited, the page follows: watch.py GLINT PASSES CHROMIUM. Speaks TAP."""
+"""glint replay --watch: a shader and a preset are edited, the page follows: watch.py GLINT PASSES. Speaks TAP."""
 import json
 import os
 import queue
@@ -6,14 +6,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 
-import tap
-from browser import Browser
+from browser import run_tests
 
-GLINT, PASSES, CHROMIUM = sys.argv[1:]
+GLINT, PASSES = sys.argv[1:]
 WAIT_S = 60  # for a replay of a tiny capture, while others use the machine
 
 
@@ -122,12 +120,4 @@ class Tests:
             assert run.returncode == 2 and "--watch" in run.stderr, run.stderr
 
 
-def main():
-    if not CHROMIUM:
-        print("Bail out! no Chromium: apt-get install chromium-headless-shell, or ./dev test, which does")
-        return 1
-    with tempfile.TemporaryDirectory(prefix="glint-watch-") as folder, Browser(CHROMIUM) as browser:
-        return tap.run(Tests(folder, browser))
-
-
-sys.exit(main())
+sys.exit(run_tests(Tests, "glint-watch-"))

@@ -1,0 +1,39 @@
+/* Looks for programs on the PATH. */
+#include "need.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka wants these before it */
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *const programs[][2] = {
+#define PROGRAM(name, package) {name, package},
+#include "programs.h"
+#undef PROGRAM
+};
+
+static bool found(const char *name) {
+    char path[4096];
+    const char *folders = getenv("PATH");
+    for (size_t length = 0; folders && *folders; folders += length + (folders[length] == ':')) {
+        length = strcspn(folders, ":");
+        snprintf(path, sizeof path, "%.*s/%s", (int)length, folders, name);
+        if (access(path, X_OK) == 0) return true;
+    }
+    return false;
+}
+
+void need_program(const char *name) {
+    if (strchr(name, '/') || found(name)) return;
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
+        if (strcmp(programs[i][0], name) == 0)
+            fail_msg("%s is not installed: apt-get install %s, or ./dev test, which does", name, programs[i][1]);
+    fail_msg("%s is not installed", name);
+}

@@ -1,0 +1,9 @@
+/* Programs that tests run beside glint, and the Debian package that each comes in. Read by need.c, by programs.py and by ./dev,
+   which installs the packages before it tests. What every Debian has (sh, awk, cmp) needs no row. */
+PROGRAM("chromium-headless-shell", "chromium-headless-shell")
+PROGRAM("exrheader", "openexr")
+PROGRAM("exrinfo", "openexr")
+PROGRAM("idiff", "openimageio-tools")
+PROGRAM("iinfo", "openimageio-tools")
+PROGRAM("mandoc", "mandoc")
+PROGRAM("oiiotool", "openimageio-tools")

@@ -1,0 +1,21 @@
+"""Programs that tests run are looked for when they run: Meson may have configured before they were installed."""
+import os
+import re
+import shutil
+
+with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "programs.h"), encoding="utf-8") as file:
+    PACKAGES = dict(re.findall(r'^PROGRAM\("(.*)", "(.*)"\)', file.read(), re.M))
+
+
+class Missing(Exception):
+    def __init__(self, name):
+        there = f": apt-get install {PACKAGES[name]}, or ./dev test, which does" if name in PACKAGES else ""
+        super().__init__(f"{name} is not installed{there}")
+
+
+def find(name, *others):
+    """The path of the program, or of one that does as well."""
+    for path in map(shutil.which, (name, *others)):
+        if path:
+            return path
+    raise Missing(name)
