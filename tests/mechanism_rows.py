@@ -25,6 +25,11 @@ def of_noise(what, kind, frame=16):
     return (what, f"noise {frame}", lambda a: surface(a["image"]["surfaces"], kind)["rmse"])
 
 
+def of_mean(what, kind):
+    """How far the mean is off, whichever way."""
+    return (what, "truth", lambda a: 100 * abs(surface(a["image"]["surfaces"], kind)["mean_error"]) / surface(a["image"]["surfaces"], kind)["truth_mean"])
+
+
 PICTURE = of_truth("error of the reflection", "all")
 SMOOTH = of_truth("error, mirror-like", "mirror-like")
 GLOSSY = of_truth("error, glossy", "glossy")
@@ -41,12 +46,15 @@ NOISE_1 = of_noise("noise of the first frame, rough", "rough", 1)
 NOISE = of_noise("noise of frame 16, rough", "rough")
 STRAY_ROUGH = of_noise("noise and lag of frame 16, rough", "rough")
 FLICKER = ("change from frame 15 to 16, mirror-like", "flicker", lambda a: surface(a["image"]["surfaces"], "mirror-like")["rmse"])
+GLOSSY_MEAN = of_mean("mean off by, glossy, %", "glossy")
+ROUGH_MEAN = of_mean("mean off by, rough, %", "rough")
 TIME = ("ms of all passes", "time", lambda ms: ms)
 
 MIRROR = ["set downsample.jitter=false"]
 MANY = ["set pipeline.rays=16"]
 LINEAR = ["use screen_trace=linear", "use hiz=none"]
 CUBES = MIRROR + ["set screen_trace.length_m=0"]
+PLUS = ["set downsample.pattern=plus"]
 HISTORY = ["use temporal=rough", "use temporal_sharp=clamped"]
 CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
 COCOON_ALONE = CUBES + ["set cubemap_trace.depth=captured", "set cubemap_trace.cocoon_start=surface"]
@@ -62,14 +70,18 @@ ROWS = [
     ("down-sampling", "half resolution", "room", MIRROR, "use downsample=none", SMOOTH, "error for time"),
     ("down-sampling", "half resolution", "full:street", [], "use downsample=none", TIME),
     ("down-sampling", "jitter by the NDF", "room", MANY, "set downsample.jitter=false", ROUGH, "noise for the lobe's shape"),
-    ("down-sampling", "plus order and wedge", "centred:room", HISTORY, "set downsample.pattern=white", NOISE_1),
-    ("down-sampling", "plus order and wedge", "centred:room", HISTORY, "set downsample.pattern=white", NOISE),
-    ("down-sampling", "plus order against blue noise", "centred:room", HISTORY, "set downsample.pattern=blue", NOISE_1),
-    ("down-sampling", "plus order against blue noise", "centred:room", HISTORY, "set downsample.pattern=blue", NOISE),
+    ("down-sampling", "plus order and wedge", "centred:room", HISTORY + PLUS, "set downsample.pattern=white", NOISE_1),
+    ("down-sampling", "plus order and wedge", "centred:room", HISTORY + PLUS, "set downsample.pattern=white", NOISE),
+    ("down-sampling", "blue noise against the plus order", "centred:room", HISTORY, "set downsample.pattern=plus", NOISE_1),
+    ("down-sampling", "blue noise against the plus order", "centred:room", HISTORY, "set downsample.pattern=plus", NOISE),
     ("down-sampling", "shuffled each frame", "centred:room", HISTORY, "set downsample.shuffle=false", NOISE),
     ("down-sampling", "another pixel each frame", "still:street", HISTORY, "set downsample.alternate=false", PICTURE),
     ("down-sampling", "another pixel each frame", "centred:room", HISTORY, "set downsample.alternate=false", SMOOTH_RMSE),
-    ("pre-filtering", "cone of what the cut leaves", "room", [], "set downsample.cone_factor=0", ROUGH),
+    ("pre-filtering", "a cone for each ray", "room", [], "set downsample.cone_factor=0", ROUGH),
+    ("pre-filtering", "a cone for each ray", "plaza", [], "set downsample.cone_factor=0", GLOSSY),
+    ("pre-filtering", "rays of all the lobe against its middle", "plaza", [], "set downsample.split=cut", GLOSSY_MEAN, "noise for the mean"),
+    ("pre-filtering", "rays of all the lobe against its middle", "plaza", [], "set downsample.split=cut", ROUGH_MEAN),
+    ("pre-filtering", "rays of all the lobe against its middle", "kitchen", [], "set downsample.split=cut", ROUGH_MEAN),
     ("pre-filtering", "29 taps", "room", [], "set cubemap_mips.reach=0", GLOSSY),
     ("pre-filtering", "29 taps", "room", [], "set cubemap_mips.reach=0", ROUGH),
     ("pre-filtering", "29 taps instead of 1009", "room", ["set cubemap_mips.reach=18"], "set cubemap_mips.reach=3", ROUGH),
@@ -86,8 +98,8 @@ ROWS = [
     ("screen trace", "pyramid against the linear march", "full:street", [], "use screen_trace=linear use hiz=none", TIME),
     ("screen trace", "on behind objects", "room", MIRROR, "set screen_trace.pass_behind=false", RAYS),
     ("screen trace", "objects as deep as the way behind them", "room", MIRROR, "set screen_trace.solid=0", RAYS),
-    ("screen trace", "fewer cells for rough surfaces", "street", [], "set screen_trace.cells_lq=96", ROUGH, "error for time"),
-    ("screen trace", "fewer cells for rough surfaces", "full:street", [], "set screen_trace.cells_lq=96", TIME),
+    ("screen trace", "256 cells", "street", [], "set screen_trace.cells=96 set screen_trace.cells_lq=32", PICTURE, "time for error"),
+    ("screen trace", "256 cells", "plaza", [], "set screen_trace.cells=96 set screen_trace.cells_lq=32", ROUGH),
     ("screen trace", "ends in the sky", "street", MIRROR, "set screen_trace.sky=false", PICTURE),
     ("screen trace (linear)", "growing steps", "room", LINEAR + MIRROR, "set screen_trace.growth=1", RAYS),
     ("screen trace", "thickness", "room", MIRROR, "set screen_trace.thickness_m=1e6", RAYS),
@@ -130,6 +142,9 @@ ROWS = [
      "the pass that makes the list"),
     ("classification", "lists of unfinished pixels", "full:room", ["use classify_unfinished=tiles"],
      "use classify_unfinished=none", TIME, "the pass that makes the list"),
+    ("resolve", "colours of the hit's own surface", "plaza", [], "set resolve.joint=false set resolve_sharp.joint=false set lit_mips.apart=false", GLOSSY_MEAN),
+    ("resolve", "colours of the hit's own surface", "plaza", [], "set resolve.joint=false set resolve_sharp.joint=false set lit_mips.apart=false", SMOOTH),
+    ("resolve", "colours of the hit's own surface", "kitchen", MIRROR, "set resolve.joint=false set resolve_sharp.joint=false set lit_mips.apart=false", SMOOTH_RMSE),
     ("resolve", "bilinear colour", "street", MIRROR, "set resolve.filter_color=false", ROUGH_RMSE),
     ("blur", "five-sample blur", "centred:room", HISTORY, "use blur=none", NOISE_1, "sharpness for noise"),
     ("blur", "five-sample blur", "centred:room", HISTORY, "use blur=none", NOISE),
@@ -164,7 +179,7 @@ PRICE = "its price; what it buys is in the other row"
 REASONS = {
     ("variance clamping", "error, mirror-like"): "in motion the divergence threshold refuses a mirror's history before the clamp could hold it: the "
     "rows are the same bits; a camera that stands has a history to hold",
-    ("plus order against blue noise", None): "both spread their numbers evenly over the five pixels that the blur joins; white numbers, which do "
+    ("blue noise against the plus order", None): "both spread their numbers evenly over the five pixels that the blur joins; white numbers, which do "
     "not, are worse than either, as their own row says",
     ("fade", None): "No cube map of this capture is being faded; gpu_cubemap_select tests the term.",
     ("inner volumes", "mirror rays that end elsewhere, %"): "What is skipped is empty.",

@@ -218,7 +218,7 @@ def shares(bench, docs):
     rows, runs = [], []
     for share in SHARES:
         against, noise, converged, run = compared(
-            bench, f"share-{round(100 * share)}", ["set downsample.ndf=blinn_phong", f"set downsample.share={share}"])
+            bench, f"share-{round(100 * share)}", ["set downsample.ndf=blinn_phong", "set downsample.split=cut", f"set downsample.share={share}"])
         for kind in ("glossy", "rough"):
             rows.append((f"{round(100 * share)}:{round(100 - 100 * share)}", kind,
                          number(surface(against["image"]["surfaces"], kind)["rmse"]), number(noise[kind]),
