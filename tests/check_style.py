@@ -8,6 +8,9 @@ import sys
 import tempfile
 
 LONGEST = 500
+# What filters them itself, and passes that go over every texel of a face in every plan.
+WHOLE_FACES = {"passes/shared/cube_filter.glsl", "passes/shared/cube_chain.glsl", "passes/cocoon/max.comp",
+               "passes/cubemap_convert/dual_paraboloid.comp"}
 
 
 def sources():
@@ -41,6 +44,10 @@ for f in files:
         faults.append(f"{f}: {len(lines)} lines, at most {LONGEST}")
     if lines and lines[0].strip() == "":
         faults.append(f"{f}: does not open with its responsibility")
+    # Where the texels that lie beside each other may differ from plan to plan, devices may filter cube maps in another way.
+    if f.startswith("passes/") and f not in WHOLE_FACES:
+        faults += [f"{f}:{n}: a filtered lookup of a cube map; expected cube_finest or cube_levels (shared/cube_filter.glsl)"
+                   for n, line in enumerate(lines, 1) if re.search(r"samplerCube\w*\([^()]*linear", line)]
     for n, line in enumerate(lines, 1):
         if line.rstrip() != line:
             faults.append(f"{f}:{n}: trailing space")

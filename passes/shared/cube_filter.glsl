@@ -41,24 +41,26 @@ CubeTaps cube_taps(vec3 direction, float size) {
     return taps;
 }
 
-#define CUBE_FILTER(texture_kind, sampler_kind, coordinate, at_tap)                                                      \
-    vec4 cube_level(texture_kind image, coordinate at, int level) {                                                      \
-        CubeTaps taps = cube_taps(at.xyz, float(max(textureSize(sampler_kind(image, nearest_clamp), 0).x >> level, 1))); \
-        precise vec4 sum = vec4(0.0);                                                                                    \
-        for (int i = 0; i < 4; ++i)                                                                                      \
-            sum += taps.weight[i] * textureLod(sampler_kind(image, nearest_clamp), at_tap, float(level));                \
-        return sum;                                                                                                      \
-    }                                                                                                                    \
-    vec4 cube_finest(texture_kind image, coordinate at) {                                                                \
-        return filter_by_hand ? cube_level(image, at, 0) : textureLod(sampler_kind(image, linear_clamp), at, 0.0);       \
-    }                                                                                                                    \
-    vec4 cube_levels(texture_kind image, coordinate at, float level) {                                                   \
-        if (!filter_by_hand) return textureLod(sampler_kind(image, linear_clamp), at, level);                            \
-        precise float within = clamp(level, 0.0, float(textureQueryLevels(sampler_kind(image, nearest_clamp)) - 1));     \
-        precise float part = within - floor(within);                                                                     \
-        precise vec4 finer = cube_level(image, at, int(within)), coarser = cube_level(image, at, int(ceil(within)));     \
-        precise vec4 color = finer + part * (coarser - finer);                                                           \
-        return color;                                                                                                    \
+#define CUBE_FILTER(texture_kind, sampler_kind, coordinate, at_tap)                                                         \
+    vec4 cube_level(texture_kind image, coordinate at, int level) {                                                         \
+        CubeTaps taps = cube_taps(at.xyz, float(max(textureSize(sampler_kind(image, nearest_clamp), 0).x >> level, 1)));    \
+        precise vec4 sum = vec4(0.0);                                                                                       \
+        for (int i = 0; i < 4; ++i)                                                                                         \
+            sum += taps.weight[i] * textureLod(sampler_kind(image, nearest_clamp), at_tap, float(level));                   \
+        return sum;                                                                                                         \
+    }                                                                                                                       \
+    vec4 cube_finest(texture_kind image, coordinate at) {                                                                   \
+        return filter_by_hand ? cube_level(image, at, 0) : textureLod(sampler_kind(image, linear_clamp), at, 0.0);          \
+    }                                                                                                                       \
+    vec4 cube_between(texture_kind image, coordinate at, float level) {                                                     \
+        precise float within = clamp(level, 0.0, float(textureQueryLevels(sampler_kind(image, nearest_clamp)) - 1));        \
+        precise float part = within - floor(within);                                                                        \
+        precise vec4 finer = cube_level(image, at, int(within)), coarser = cube_level(image, at, int(ceil(within)));        \
+        precise vec4 color = finer + part * (coarser - finer);                                                              \
+        return color;                                                                                                       \
+    }                                                                                                                       \
+    vec4 cube_levels(texture_kind image, coordinate at, float level) {                                                      \
+        return filter_by_hand ? cube_between(image, at, level) : textureLod(sampler_kind(image, linear_clamp), at, level);  \
     }
 CUBE_FILTER(textureCube, samplerCube, vec3, taps.direction[i])
 CUBE_FILTER(textureCubeArray, samplerCubeArray, vec4, vec4(taps.direction[i], at.w))

@@ -2,8 +2,8 @@
    quadruples: the workgroups that an indirect dispatch over it starts, with 2, 4 and 8 strips to each of them, and how many tiles
    they are for. A strip is 16x2 pixels, eight tiles side by side. The order is that of the picture's regions, column of strips by
    column within one: what a workgroup works on lies together.
-   Another list may follow, of tiles that are whole strips. Their rows are eight texels, whatever the image's resolution: llvmpipe works
-   on as many at once, and its lookups near the corners of cube maps round by what else is among them. */
+   Another list may follow, of tiles that are whole strips. Their rows are eight texels, whatever the image's resolution: as many as
+   llvmpipe works on at once. */
 #ifndef GLINT_TILE_LIST
 #define GLINT_TILE_LIST
 #define TILE_WIDE 2     /* pixels of the picture */
