@@ -112,5 +112,8 @@ outside() {
     child=
 }
 
-[ "$(id -u)" = 0 ] || { command -v sudo >/dev/null || bail "needs root, and there is no sudo"; exec sudo "$0"; }
+if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || bail "needs root, and there is no sudo"
+    exec sudo env ${TMPDIR:+TMPDIR="$TMPDIR"} ${GLINT_FRESH_KEEP:+GLINT_FRESH_KEEP=1} ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} "$0"
+fi
 if [ "${1-}" = inside ]; then inside "$2"; else outside; fi
