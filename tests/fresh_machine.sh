@@ -64,6 +64,7 @@ inside() {
     echo "ok 1 - a new Debian ($release)"
     { env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb \
         ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} ${no_proxy:+no_proxy="$no_proxy"} \
+        ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} \
         chroot "$root" /root/glint/.ci/run 2>&1 </dev/null && : >"$work/passed"; } | tee "$work/said" >&2
     last=$(tail -n 1 "$work/said")
     if [ -e "$work/passed" ]; then
@@ -111,5 +112,8 @@ outside() {
     child=
 }
 
-[ "$(id -u)" = 0 ] || { command -v sudo >/dev/null || bail "needs root, and there is no sudo"; exec sudo "$0"; }
+if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || bail "needs root, and there is no sudo"
+    exec sudo env ${TMPDIR:+TMPDIR="$TMPDIR"} ${GLINT_FRESH_KEEP:+GLINT_FRESH_KEEP=1} ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} "$0"
+fi
 if [ "${1-}" = inside ]; then inside "$2"; else outside; fi
