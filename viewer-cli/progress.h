@@ -14,9 +14,13 @@ struct progress {
 };
 
 /* For commands that may take long, with `lines` set where it was given. */
-#define PROGRESS_OPTION \
-    {"progress", KEY_PROGRESS, NULL, 0, "Say on stderr every ten seconds how far it is and how long it will take, though that is no terminal; " \
-        "signal USR1 asks any command of long work once", 0}
+#define PROGRESS_OPTION                                                                                                \
+    {                                                                                                                  \
+        "progress", KEY_PROGRESS, NULL, 0,                                                                             \
+            "Say on stderr every ten seconds how far it is and how long it will take, though that is no terminal; "    \
+            "signal USR1 asks any command of long work once",                                                          \
+            0                                                                                                          \
+    }
 
 /* From here the first Ctrl-C only sets a flag; a second one ends the program as usual. SIGUSR1 is answered with a line. */
 void progress_begin(struct progress *progress);

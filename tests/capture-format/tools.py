@@ -16,7 +16,8 @@ def run(*command):
     done = subprocess.run(command, capture_output=True, text=True)
     text = done.stdout + done.stderr
     status = 0 if command[0] == "exrinfo" else done.returncode  # exrinfo 3.1.5 never sets its status: its messages tell
-    if status or re.search(r"error|non-conforming", text, re.I):
+    # A channel may be named "error".
+    if status or re.search(r"EXR_ERR|ERROR|\berror:|non-conforming|unable to", text):
         sys.exit(f"{' '.join(command)}: {status}\n{text}")
     return done.stdout
 

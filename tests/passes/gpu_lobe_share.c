@@ -16,7 +16,7 @@ enum { KINDS = 7, BLOCK = 64, SIZE = KINDS * BLOCK, STEPS = 9, NODES = 20, FINE 
 static const double pi = 3.14159265358979323846, threshold = 0.1;
 static const float roughnesses[KINDS] = {0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f};
 static const double cosines[KINDS] = {0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1}; /* of the viewer */
-static const double elevations[STEPS] = {1, 3, 6, 10, 20, 30, 45, 60, 80};  /* degrees */
+static const double elevations[STEPS] = {1, 3, 6, 10, 20, 30, 45, 60, 80}; /* degrees */
 
 /* Roughness from left to right, the viewer's angle from top to bottom. */
 static void grid(const struct plain *plain, float *values) {
@@ -38,7 +38,8 @@ static void whole_lobe(bool ggx, double roughness, double cosine, double above[S
         const double u = (i + 0.5) / FINE, tangent2 = a2 * u / (1 - u);
         const double z = ggx ? 1 / sqrt(1 + tangent2) : pow(1 - u, 1 / (2 / a2 - 1)), radius = sqrt(1 - z * z);
         for (int k = 0; k < TURNS; ++k) {
-            const double along = view[0] * radius * cos(pi * (k + 0.5) / TURNS) + view[1] * z, up = 2 * along * z - view[1];
+            const double along = view[0] * radius * cos(pi * (k + 0.5) / TURNS) + view[1] * z,
+                         up = 2 * along * z - view[1];
             const double weight = ggx ? along / z : 1;
             if (!(up > 0 && along > 0)) continue;
             total += weight;
@@ -112,9 +113,11 @@ static void rays_and_cones_have_the_light_of_the_lobe(void **state) {
             int kind = 0, cut_kind = 0;
             const double worst = worst_of(gpu, ggx, "solid_angle", share, &kind);
             const double cut = worst_of(gpu, ggx, "cut", share, &cut_kind);
-            print_message("# %s, share %.2f: within %.1f %% of the step (roughness %.2f, N·V %.2f); the slides' cut: %.1f %% (%.2f, %.2f)\n",
-                          ggx ? "GGX" : "Blinn-Phong", share, 100 * worst, (double)roughnesses[kind % KINDS], cosines[kind / KINDS],
-                          100 * cut, (double)roughnesses[cut_kind % KINDS], cosines[cut_kind / KINDS]);
+            print_message("# %s, share %.2f: within %.1f %% of the step (roughness %.2f, N·V %.2f); the slides' cut: "
+                          "%.1f %% (%.2f, %.2f)\n",
+                          ggx ? "GGX" : "Blinn-Phong", share, 100 * worst, (double)roughnesses[kind % KINDS],
+                          cosines[kind / KINDS], 100 * cut, (double)roughnesses[cut_kind % KINDS],
+                          cosines[cut_kind / KINDS]);
             assert_true(worst < (share == 1 ? 0.02 : 0.05));
             /* The light that the cut lobe misses is what the other is there for. */
             if (share < 1) assert_true(cut > 2 * worst);

@@ -195,8 +195,7 @@ static void a_plan_is_compared_in_what_both_have(void **state) {
     free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("all"), "--all"));
     free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("shorter"), "--all",
                   "--set=cubemap_trace.steps_hq=5"));
-    free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("dimmer"), "--all",
-                  "--set=compose.fresnel=false"));
+    free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("dimmer"), "--all", "--set=compose.fresnel=false"));
     free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("cut"), "--all",
                   "--passes=downsample,hiz,screen_trace"));
     for (int turned = 0; turned < 2; turned++) {

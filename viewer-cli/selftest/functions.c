@@ -100,12 +100,17 @@ static const char head[] = "#version 460\n"
                            "#include \"shared/push_begin.glsl\"\n"
                            "#include \"brdf.pass.h\"\n"
                            "};\n";
-static const char *const shared[] = {"constants",  "stable",     "random", "bayer", "blue_noise", "brdf",     "camera",
-                                     "cone",       "cubemap",    "edges",  "facet", "fog",        "sampling", "levels",
-                                     "cube_chain", "paraboloid", "plus",   "reuse", "steps"};
+static const char *const shared[] = {"constants",  "stable",     "random", "bayer",       "blue_noise",
+                                     "brdf",       "camera",     "cone",   "cube_filter", "cubemap",
+                                     "edges",      "facet",      "fog",    "sampling",    "levels",
+                                     "cube_chain", "paraboloid", "plus",   "reuse",       "steps"};
 static const char helpers[] = "mat2x3 frame_of(vec3 n) { vec3 t, b; tangent_frame(n, t, b); return mat2x3(t, b); }\n"
                               "vec4 words(uvec4 v) { uvec2 w = v.xz ^ v.yw; return vec4(w.x >> 16u, w.x & 0xFFFFu, "
                               "w.y >> 16u, w.y & 0xFFFFu); }\n";
+static const char helpers_of_cubes[] =
+    "vec4 on_face(vec3 d) { CubeTaps taps = cube_taps(d, 8.0); vec4 sum = vec4(0.0);\n"
+    "    for (int i = 0; i < 4; ++i) sum += taps.weight[i] * vec4(taps.direction[i], 1.0);\n"
+    "    return sum; }\n";
 static const char tail[] =
     "    return y;\n" /* one for all: a device may nest what follows a return, and some count how deep */
     "}\n"
@@ -125,6 +130,7 @@ static bool write_shader(const bool *chosen, size_t rows, const char *path, stru
     for (size_t i = 0; i < sizeof shared / sizeof *shared; i++)
         fprintf(file, "#include \"shared/%s.glsl\"\n", shared[i]);
     fputs(helpers, file);
+    fputs(helpers_of_cubes, file);
     fprintf(file, "const int ROWS = %zu;\nvec4 evaluate(int number, vec4 a, vec4 b) {\n    vec4 y = vec4(0.0);\n",
             rows);
     for (size_t i = 0; i < tabled(); i++)

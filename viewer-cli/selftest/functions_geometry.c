@@ -245,11 +245,25 @@ static void expect_orthonormal(const double *d, double *y) {
 #define LENGTH {LOG, 1e-32, 4e37, 0} /* whose inverse is a normal number too */
 #define DIVISION "a division, 2.5 ULP (Vulkan) of up to 1, and a rounding"
 
+/* Within a face the texels around a direction have the place that it goes through as their mean, by their weights: faces of 8
+   texels, half a texel a unit. */
+static void expect_taps(const double *x, double *y) {
+    for (int k = 0; k < 3; k++) y[k] = 8 * x[k];
+    y[3] = 1;
+}
+static void on_a_face(float *x) {
+    const int axis = (int)x[2] % 3;
+    const float place[3] = {x[0], x[1], x[2] < 3 ? 1.0f : -1.0f};
+    for (int k = 0; k < 3; k++) x[(k + axis) % 3] = place[k];
+}
+
 static const struct function list[] = {
     {"face of a direction", "face and place on it, on axes, edges and corners, for tiny and huge vectors", "face_from_direction(a.xyz), 0.0", "x y z", {CUBE, LENGTH}, direction,
      face_of, 3, ABSOLUTE, 2.1e-7, DIVISION},
     {"direction of a face", "and back to the direction", "direction_from_face(face_from_direction(a.xyz)), 0.0", "x y z", {CUBE, LENGTH}, direction,
      expect_round_trip, 3, ABSOLUTE, 4.8e-7, DIVISION ", twice as wide"},
+    {"texels around a direction", "a place on any face is their mean, as they are weighted", "/* cube_taps(direction, size), centre_on_cube(place, major, size) */ on_face(a.xyz)", "x y face", {{LINEAR, -0.85, 0.85, ZERO}, {LINEAR, -0.85, 0.85, ZERO}, {WHOLE, 0, 5, 0}}, on_a_face,
+     expect_taps, 4, ABSOLUTE, 8e-6, "a division, 2.5 ULP (Vulkan), of a place that spans 16, and the texels' weights of its parts"},
     {"texel of a direction", "a texel's centre leads back to it, faces of 1 to 2048", "face_texel(direction_from_face(vec3((a.xy + 0.5) / a.w, a.z)), 3u, int(a.w)), 0", "x y face size",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 5, 0}, {WHOLE, 0, 4, 0}}, texel_of_size, expect_texel, 3, ABSOLUTE, 0, "a centre is half a texel from the next"},
     {"centre of a texel", "its direction and its cube map, faces of 1 to 2048", "texel_direction(ivec2(a.xy), int(a.w), int(a.z))", "x y layer size",

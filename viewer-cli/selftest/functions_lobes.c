@@ -48,6 +48,20 @@ static void expect_kept(const double *x, double *y) {
     const double t2 = pow(cut_tangent(x[0], x[1]), 2);
     y[0] = x[1] >= 1 ? 1 : t2 <= 0 ? 0 : t2 / (x[0] * x[0] + t2);
 }
+static void expect_ggx_angle(const double *x, double *y) {
+    y[0] = atan(cut_tangent(x[0], 1));
+}
+/* 1/π of the inverse of a ray's density D(h) G1(v)/(4 cos v), the half-vector at an angle from the normal, the viewer beside it. */
+static void expect_ggx_ray(const double *x, double *y) {
+    const double a2 = x[2] * x[2], s = x[0], c = sqrt(1 - s * s), v = x[1];
+    const double density = a2 / (pi * pow(s * s + a2 * c * c, 2)), masked = 2 * v / (v + sqrt(a2 + (1 - a2) * v * v));
+    y[0] = x[2] <= 0 ? 0 : 4 * v / (pi * density * masked);
+}
+/* The same of (n + 1)/2π cosⁿ/(4 h·v). */
+static void expect_phong_ray(const double *x, double *y) {
+    const double n = power(x[2]), c = sqrt(1 - x[0] * x[0]), along = x[0] * sqrt(1 - x[1] * x[1]) + c * x[1];
+    y[0] = 8 * along / ((n + 1) * pow(c, n));
+}
 /* The paper's listing in double. That its density is the right one, tests of the distribution say. */
 static void expect_visible(const double *x, double *y) {
     if (x[3] <= 0) {
@@ -194,6 +208,13 @@ static void expect_agreement(const double *x, double *y) {
     else if (away == 0) y[0] = 1;
     else y[0] = x[6] <= 0 || away >= 1 ? 0 : exp(power(x[6]) * log1p(-away));
 }
+static void expect_ggx_agreement(const double *x, double *y) {
+    const double d[3] = {x[0] - x[3], x[1] - x[4], x[2] - x[5]}, a2 = pow(x[6], 4);
+    const double away = fmin((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / 2, 1), sine2 = away * (2 - away);
+    if (!(fabs(x[6] - x[7]) <= (double)0.1f)) y[0] = 0;
+    else if (away == 0) y[0] = 1;
+    else y[0] = x[6] <= 0 || away >= 1 ? 0 : pow(a2 / (sine2 + a2 * (1 - sine2)), 2);
+}
 static void near_roughness(float *x) {
     two_normals(x);
     x[7] = fminf(x[6] + 0.3f * x[7], 1);
@@ -233,6 +254,11 @@ static const struct function list[] = {
      expect_phong_cone, 1, ULP, 60, EXP " in either spread; their difference keeps a third and more, and a root halves it"},
     {"cone of a cut GGX lobe", "the same of GGX: what the cut leaves of nine tenths of what reflects upwards", "ggx_cone(a.x, a.y, 0.1, a.z) * ggx_cone(a.x, a.y, 0.1, a.z)", "alpha share cosine", {{LOG, 1e-3, 0.7, ZERO}, {LINEAR, 0.05, 0.9, 0}, {LINEAR, 0.01, 1, 0}}, NULL,
      expect_ggx_cone, 1, ABSOLUTE, 1.5e-5, "the angle's square, for it is the root of a difference that goes to 0: of two spreads, 40 ULP of up to 0.4 each, times 4.6"},
+    {"angle of a GGX lobe", "where its density is a tenth, from a mirror to alpha 0.7", "ggx_lobe_angle(a.x, 0.1)", "alpha", {{LOG, 1e-12, 0.5, ZERO}}, NULL, expect_ggx_angle, 1, ULP, 20, "roots and a division, 2.5 ULP each (Vulkan), and arc"},
+    {"solid angle of a GGX ray", "the inverse of its density, near the lobe's peak to far from it, views along the normal to grazing", "ggx_ray_tangent2(vec3(a.x, 0.0, sqrt(1.0 - a.x * a.x)), vec3(sqrt(1.0 - a.y * a.y), 0.0, a.y), a.z)", "sine cosine alpha",
+     {{LINEAR, 0.01, 0.93, 0}, {LINEAR, 0.05, 1, 0}, {LINEAR, 0.05, 0.9, 0}}, NULL, expect_ggx_ray, 1, ULP, 40, "roots and divisions, 2.5 ULP each (Vulkan), squared"},
+    {"solid angle of a Blinn-Phong ray", "the same of powers of 0.5 to 300", "blinn_phong_ray_tangent2(vec3(a.x, 0.0, sqrt(1.0 - a.x * a.x)), vec3(sqrt(1.0 - a.y * a.y), 0.0, a.y), a.z)", "sine cosine roughness",
+     {{LINEAR, 0.01, 0.48, 0}, {LINEAR, 0.05, 1, 0}, {LINEAR, 0.3, 0.95, 0}}, NULL, expect_phong_ray, 1, ULP, 400, "cosⁿ to 10^-14, e^32: 16 ULP of the logarithm (Vulkan) times 32 at worst"},
     {"tangent frames", "orthonormal and right-handed, at the poles and next to them", "/* tangent_frame(n, t, b) */ dot(frame_of(a.xyz)[0], frame_of(a.xyz)[0]), dot(frame_of(a.xyz)[1], frame_of(a.xyz)[1]), dot(frame_of(a.xyz)[0], frame_of(a.xyz)[1]), "
      "dot(cross(frame_of(a.xyz)[0], frame_of(a.xyz)[1]), a.xyz)", "x y z", {{LOG, 1e-12, 1, ZERO | NEGATIVE}, {LOG, 1e-12, 1, ZERO | NEGATIVE}, {LINEAR, -1, 1, ZERO}}, normal, expect_frame, 4, ABSOLUTE, 2e-6, "a normal is unit to 2e-7, and 1/(1 + z) at most doubles it"},
 
@@ -245,6 +271,8 @@ static const struct function list[] = {
 
     {"agreement of lobes", "any roughness, equal normals to opposite ones", "lobe_agreement(vec4(a.xyz, b.z), vec4(a.w, b.x, b.y, b.w), 0.1)", "x y z x2 y2 z2 roughness roughness2",
      {{LOG, 1e-4, 1, ZERO}, {LINEAR, 0, 0.99, 0}, {LOG, 1e-6, 3.1415926, ZERO | NEGATIVE}, {LINEAR, 0, 6.28, 0}}, near_roughness, expect_agreement, 1, ABSOLUTE, 6e-6, "the exponent's 16 ULP (Vulkan's logarithm) times x e^-x"},
+    {"agreement of GGX lobes", "any roughness, equal normals to opposite ones", "ggx_agreement(vec4(a.xyz, b.z), vec4(a.w, b.x, b.y, b.w), 0.1)", "x y z x2 y2 z2 roughness roughness2",
+     {{LOG, 1e-4, 1, ZERO}, {LINEAR, 0, 0.99, 0}, {LOG, 1e-6, 3.1415926, ZERO | NEGATIVE}, {LINEAR, 0, 6.28, 0}}, near_roughness, expect_ggx_agreement, 1, ABSOLUTE, 6e-6, "divisions and products, 2.5 ULP each (Vulkan), of numbers that are no differences"},
     {"fade", "0 at one end, 1 at the other, a step where both are one", "fade(a.x, a.y, a.z)", "x from to", {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}}, NULL, expect_fade, 1, ABSOLUTE, 2.5e-7, "a division, 2.5 ULP (Vulkan)"},
     {"in a plane", "NaN and infinity are in none", "in_plane(vec3(0.0, a.x, 0.0), vec3(0.0, 1.0, 0.0), a.y, 0.0625)", "offset depth nan", {{LOG, 1e-3, 1e6, ZERO | ENDLESS | NEGATIVE}, {LOG, 1e-3, 1e6, 0}, {WHOLE, 0, 1, 0}}, nan_offset, expect_in_plane, 1, ABSOLUTE, 0, "a sixteenth is exact"},
 };

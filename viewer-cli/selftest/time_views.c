@@ -48,7 +48,7 @@ static void reflection_seen(const struct frame *frame, int n, size_t pixel, stru
     seen_at(frame, s.place, past);
 }
 
-/* A quarter of the lobe, which reaches twice the angle where cosⁿ is a tenth, over what the view turned. */
+/* A quarter of the lobe, which reaches twice the angle where GGX's density is a tenth, over what the view turned. */
 static void limit(const struct frame *frame, size_t pixel, struct past *past) {
     const struct sight s = sight_of(frame, pixel);
     double view[3], apart[3];
@@ -56,9 +56,10 @@ static void limit(const struct frame *frame, size_t pixel, struct past *past) {
     const double *m = frame->info.previous.world_to_view, length = length_of(view);
     for (int k = 0; k < 3; k++)
         apart[k] = (m[k] * view[0] + m[4 + k] * view[1] + m[8 + k] * view[2]) / length - s.towards[k];
-    const double turned = length_of(apart) - 1e-6, power = 2 / pow((double)frame->roughness[pixel], 4) - 2;
+    const double turned = length_of(apart) - 1e-6, a2 = pow((double)frame->roughness[pixel], 4);
+    const double angle = asin(sqrt((1 / sqrt(0.1) - 1) / (1 / a2 - 1)));
     if (!(turned > 0)) return;
-    past->longest = fmin(past->longest, 0.25 * 2 * acos(pow(0.1, 1 / power)) / turned);
+    past->longest = fmin(past->longest, 0.25 * 2 * angle / turned);
     if (past->longest < 1) past->count = 0;
 }
 static void surface_turned(const struct frame *frame, int n, size_t pixel, struct past *past) {
@@ -157,4 +158,4 @@ static const struct shot list[] = {
 
 const struct shot_list time_views = {
     list, sizeof list / sizeof *list,
-    "reproject(uv, position, full_pixel, travelled_m), history_limit(longest, roughness, turned)"};
+    "reproject(uv, position, full_pixel, travelled_m), history_limit(longest, roughness, turned, ggx)"};
