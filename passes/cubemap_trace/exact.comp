@@ -154,9 +154,10 @@ float texel_along(View view, vec3 direction, float t) {
 // distances of the texels on its two sides were interpolated.
 bool edge_at(View view, vec3 direction, float t, inout uint fetches) {
     float texel_m = texel_along(view, direction, t);
-    vec4 gaps;
-    for (int i = 0; i < 4; ++i) gaps[i] = gap_at(view, direction, t + (float(i) - 1.5) * texel_m, fetches);
-    vec3 grows = gaps.yzw - gaps.xyz;
+    float first = gap_at(view, direction, t - 1.5 * texel_m, fetches);
+    float second = gap_at(view, direction, t - 0.5 * texel_m, fetches);
+    float third = gap_at(view, direction, t + 0.5 * texel_m, fetches);
+    vec3 grows = vec3(second, third, gap_at(view, direction, t + 1.5 * texel_m, fetches)) - vec3(first, second, third);
     return grows.y < min(grows.x, grows.z) - tolerance || grows.y > max(grows.x, grows.z) + tolerance;
 }
 
@@ -305,36 +306,37 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
             }
             next = max(2.0 * (last_m + walk.view.aside) - walk.view.from_foot, 2.0 * walk.t);
         }
-        if (!walk.seen) {
-            probe_view(walk.view, direction, next, next - walk.t, DECISION_unseen);
-            change_view(walk, origin, direction, walk.t, next, result.fetches);
-            if (walk.blocked) break;
-            continue;
-        }
-        float gap = gap_at(walk.view, direction, next, result.fetches);
-        if (gap <= 0.0) {
-            probe_view(walk.view, direction, next, next - walk.t, DECISION_front);
-            walk.t = next;
-            walk.front = true;
-            take_finer_view(walk, origin, direction, result.fetches);
-        } else if (!walk.front && gap <= tolerance) { // still on the surface where it started
-            probe_view(walk.view, direction, next, next - walk.t, DECISION_resting);
-            walk.t = next;
-        } else { // from there it may go straight behind another one, as beside a corner
-            float low = walk.t, high = next;
+        float low = walk.t, high = next;
+        if (walk.seen) {
+            float gap = gap_at(walk.view, direction, next, result.fetches);
+            if (gap <= 0.0) {
+                probe_view(walk.view, direction, next, next - walk.t, DECISION_front);
+                walk.t = next;
+                walk.front = true;
+                take_finer_view(walk, origin, direction, result.fetches);
+                continue;
+            }
+            if (!walk.front && gap <= tolerance) { // still on the surface where it started
+                probe_view(walk.view, direction, next, next - walk.t, DECISION_resting);
+                walk.t = next;
+                continue;
+            }
+            // from there it may go straight behind another one, as beside a corner
             if (closes_in(walk.view, direction, walk.front ? 0.0 : tolerance, low, high, result.fetches)) {
                 end_at(result, 0.5 * (low + high), walk.view.place, END_hit);
                 probe_view(walk.view, direction, result.travelled_m, high - low, DECISION_hit);
                 return result;
             }
-            probe_view(walk.view, direction, high, high - low, DECISION_unseen);
             walk.last_place = walk.view.place;
             walk.last_t = max(low - 1.5 * texel_along(walk.view, direction, low), 0.0); // no color of the edge is mixed in
             walk.last_sky = !(seen_distance(at(walk.view, direction, walk.last_t), walk.view.place) < LARGEST);
             result.fetches++;
-            change_view(walk, origin, direction, low, high, result.fetches);
-            if (walk.blocked) break;
         }
+        probe_view(walk.view, direction, high, high - low, DECISION_unseen);
+        // The only place in the loop: a CPU's driver goes through every loop that it holds each time, and ends a shader after
+        // so many rounds of all of them.
+        change_view(walk, origin, direction, low, high, result.fetches);
+        if (walk.blocked) break;
     }
     if (!walk.seen || walk.blocked) {
         end_unseen(result, walk, direction, best);
