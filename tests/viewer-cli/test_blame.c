@@ -125,12 +125,11 @@ static void a_killed_blame_goes_on(void **state) {
     (void)state;
     char command[1024];
     static const char arguments[] = "--rays=16 --player-rays=2 --use=upscale=best_match --repeat=0";
-    snprintf(
-        command, sizeof command,
-        "cd %s && exec \"$GLINT\" blame room.exr -o killed -p %s %s & pid=$!; i=0; "
-        "until [ \"$(cat %s/killed/log.jsonl 2>/dev/null | wc -l)\" -ge 5 ]; do i=$((i+1)); [ $i -lt 600 ] || exit "
-        "9; sleep 0.05; done; kill -9 $pid; wait $pid",
-        in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
+    snprintf(command, sizeof command,
+             "cd %s && exec \"$GLINT\" blame room.exr -o killed -p %s %s & pid=$!; "
+             "until [ \"$(cat %s/killed/log.jsonl 2>/dev/null | wc -l)\" -ge 5 ]; do kill -0 $pid || exit 9; sleep "
+             "0.05; done; kill -9 $pid; wait $pid",
+             in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
     struct outcome killed = run_program("sh", "-c", command, NULL);
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
