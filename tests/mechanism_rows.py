@@ -98,8 +98,8 @@ ROWS = [
     ("screen trace", "pyramid against the linear march", "full:street", [], "use screen_trace=linear use hiz=none", TIME),
     ("screen trace", "on behind objects", "room", MIRROR, "set screen_trace.pass_behind=false", RAYS),
     ("screen trace", "objects as deep as the way behind them", "room", MIRROR, "set screen_trace.solid=0", RAYS),
-    ("screen trace", "256 cells", "street", [], "set screen_trace.cells=96 set screen_trace.cells_lq=32", PICTURE, "time for error"),
-    ("screen trace", "256 cells", "plaza", [], "set screen_trace.cells=96 set screen_trace.cells_lq=32", ROUGH),
+    ("screen trace", "128 cells, 48 for rough surfaces", "street", [], "set screen_trace.cells=96 set screen_trace.cells_lq=32", PICTURE, "time for error"),
+    ("screen trace", "128 cells, 48 for rough surfaces", "plaza", [], "set screen_trace.cells=96 set screen_trace.cells_lq=32", ROUGH),
     ("screen trace", "ends in the sky", "street", MIRROR, "set screen_trace.sky=false", PICTURE),
     ("screen trace (linear)", "growing steps", "room", LINEAR + MIRROR, "set screen_trace.growth=1", RAYS),
     ("screen trace", "thickness", "room", MIRROR, "set screen_trace.thickness_m=1e6", RAYS),
@@ -177,6 +177,10 @@ ROWS = [
 # Why a row does not move, or moves the wrong way: (mechanism, what is looked at or None for all).
 PRICE = "its price; what it buys is in the other row"
 REASONS = {
+    ("128 cells, 48 for rough surfaces", None): "what fewer cells leave unfinished the cube maps find about as well here; plaza's rough surfaces do not",
+    ("ends in the sky", "error of the reflection"): "the sky's cube map shows what the picture shows of it, and no cube map of street hides it",
+    ("colours of the hit's own surface", None): "in this preset a screen hit whose depth does not agree is refused before (`check_depth`); what is "
+    "left are edges of a texel, which are as often wrong without the neighbours' colours as with them",
     ("variance clamping", "error, mirror-like"): "in motion the divergence threshold refuses a mirror's history before the clamp could hold it: the "
     "rows are the same bits; a camera that stands has a history to hold",
     ("blue noise against the plus order", None): "both spread their numbers evenly over the five pixels that the blur joins; white numbers, which do "
