@@ -179,7 +179,7 @@ PRICE = "its price; what it buys is in the other row"
 REASONS = {
     ("128 cells, 48 for rough surfaces", None): "what fewer cells leave unfinished the cube maps find about as well here; plaza's rough surfaces do not",
     ("ends in the sky", "error of the reflection"): "the sky's cube map shows what the picture shows of it, and no cube map of street hides it",
-    ("colours of the hit's own surface", None): "in this preset a screen hit whose depth does not agree is refused before (`check_depth`); what is "
+    ("colours of the hit's own surface", None): "of mirrors a screen hit whose depth does not agree is refused before (`resolve_sharp.check_depth`); what is "
     "left are edges of a texel, which are as often wrong without the neighbours' colours as with them",
     ("variance clamping", "error, mirror-like"): "in motion the divergence threshold refuses a mirror's history before the clamp could hold it: the "
     "rows are the same bits; a camera that stands has a history to hold",
