@@ -21,6 +21,8 @@
     enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c) };
 #define CHOICE4(parameter, initial, a, b, c, d, source, text) \
     enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c), PLACE(parameter, d) };
+#define CHOICE5(parameter, initial, a, b, c, d, e, source, text) \
+    enum { PLACE(parameter, a), PLACE(parameter, b), PLACE(parameter, c), PLACE(parameter, d), PLACE(parameter, e) };
 #define DISPATCH(image)
 #define DISPATCH_LEVELS(image, first, last, order)
 #define DISPATCH_LEVELS_BY(image, width, first, last, order)

@@ -13,6 +13,7 @@
 #undef CHOICE2
 #undef CHOICE3
 #undef CHOICE4
+#undef CHOICE5
 #undef DISPATCH
 #undef DISPATCH_LEVELS
 #undef DISPATCH_LEVELS_BY
@@ -78,6 +79,7 @@
 #define CHOICE2(parameter, first, a, b, from, text) ROW_CHOICE(parameter, first, 1, from, text, #a, #b)
 #define CHOICE3(parameter, first, a, b, c, from, text) ROW_CHOICE(parameter, first, 2, from, text, #a, #b, #c)
 #define CHOICE4(parameter, first, a, b, c, d, from, text) ROW_CHOICE(parameter, first, 3, from, text, #a, #b, #c, #d)
+#define CHOICE5(parameter, first, a, b, c, d, e, from, text) ROW_CHOICE(parameter, first, 4, from, text, #a, #b, #c, #d, #e)
 #define DISPATCH(image) {.kind = GLINT_ROW_DISPATCH, .id = __LINE__, .name = #image},
 #define DISPATCH_LEVELS(image_, first_, last_, order_)                                                       \
     {.kind = GLINT_ROW_DISPATCH_LEVELS, .id = __LINE__, .name = #image_, .first = first_, .last = last_,      \

@@ -58,7 +58,7 @@ PLUS = ["set downsample.pattern=plus"]
 HISTORY = ["use temporal=rough", "use temporal_sharp=clamped"]
 CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
 COCOON_ALONE = CUBES + ["set cubemap_trace.depth=captured", "set cubemap_trace.cocoon_start=surface"]
-LQ_AS_HQ = "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
+LQ_AS_HQ = "set cubemap_trace.steps_lq=32 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
 
 # (step, mechanism, scene, what both have, what turns it off, what is looked at[, what is traded for it])
 ROWS = [
@@ -72,8 +72,11 @@ ROWS = [
     ("down-sampling", "jitter by the NDF", "room", MANY, "set downsample.jitter=false", ROUGH, "noise for the lobe's shape"),
     ("down-sampling", "plus order and wedge", "centred:room", HISTORY + PLUS, "set downsample.pattern=white", NOISE_1),
     ("down-sampling", "plus order and wedge", "centred:room", HISTORY + PLUS, "set downsample.pattern=white", NOISE),
-    ("down-sampling", "blue noise against the plus order", "centred:room", HISTORY, "set downsample.pattern=plus", NOISE_1),
-    ("down-sampling", "blue noise against the plus order", "centred:room", HISTORY, "set downsample.pattern=plus", NOISE),
+    ("down-sampling", "strata of both numbers against the plus order", "centred:room", HISTORY, "set downsample.pattern=plus", NOISE_1),
+    ("down-sampling", "strata of both numbers against the plus order", "centred:room", HISTORY, "set downsample.pattern=plus", NOISE),
+    ("down-sampling", "strata of both numbers against the plus order", "street", [], "set downsample.pattern=plus", ROUGH_RMSE),
+    ("down-sampling", "strata of both numbers against blue noise", "centred:room", HISTORY, "set downsample.pattern=blue", NOISE_1),
+    ("down-sampling", "strata of both numbers against blue noise", "centred:room", HISTORY, "set downsample.pattern=blue", NOISE),
     ("down-sampling", "shuffled each frame", "centred:room", HISTORY, "set downsample.shuffle=false", NOISE),
     ("down-sampling", "another pixel each frame", "still:street", HISTORY, "set downsample.alternate=false", PICTURE),
     ("down-sampling", "another pixel each frame", "centred:room", HISTORY, "set downsample.alternate=false", SMOOTH_RMSE),
@@ -183,8 +186,6 @@ REASONS = {
     "left are edges of a texel, which are as often wrong without the neighbours' colours as with them",
     ("variance clamping", "error, mirror-like"): "in motion the divergence threshold refuses a mirror's history before the clamp could hold it: the "
     "rows are the same bits; a camera that stands has a history to hold",
-    ("blue noise against the plus order", None): "both spread their numbers evenly over the five pixels that the blur joins; white numbers, which do "
-    "not, are worse than either, as their own row says",
     ("fade", None): "No cube map of this capture is being faded; gpu_cubemap_select tests the term.",
     ("inner volumes", "mirror rays that end elsewhere, %"): "What is skipped is empty.",
     ("inner volumes", "ms of all passes"): "few rays start in one or come into one; to ask costs a GPU more than it saves, so that the preset goes without",

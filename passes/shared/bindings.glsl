@@ -78,6 +78,9 @@ layout(constant_id = 998) const bool tile_works = true;      // false: over the 
 #define CHOICE4(name, initial, a, b, c, d, source, help) \
     const int name##_##a = 0; const int name##_##b = 1; const int name##_##c = 2; const int name##_##d = 3; \
     layout(constant_id = __LINE__) const int name = name##_##initial;
+#define CHOICE5(name, initial, a, b, c, d, e, source, help) \
+    const int name##_##a = 0; const int name##_##b = 1; const int name##_##c = 2; const int name##_##d = 3; const int name##_##e = 4; \
+    layout(constant_id = __LINE__) const int name = name##_##initial;
 #define PUSH(type, name, initial, lowest, highest, unit, source, help)
 #define DISPATCH(image)
 #define DISPATCH_LEVELS(image, first, last, order)

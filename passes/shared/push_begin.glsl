@@ -10,6 +10,7 @@
 #undef CHOICE2
 #undef CHOICE3
 #undef CHOICE4
+#undef CHOICE5
 #undef PUSH
 #undef FACT
 #undef BLOCKS
@@ -23,6 +24,7 @@
 #define CHOICE2(name, initial, a, b, source, help)
 #define CHOICE3(name, initial, a, b, c, source, help)
 #define CHOICE4(name, initial, a, b, c, d, source, help)
+#define CHOICE5(name, initial, a, b, c, d, e, source, help)
 #define FACT(fact)
 #define BLOCKS(across)
 #define PUSH(type, name, initial, lowest, highest, unit, source, help) type name;

@@ -136,6 +136,12 @@ static void expect_plus(const double *x, double *y) {
     y[0] = fmod(x[0] + 2 * x[1] + x[2], 5);
 }
 
+static void expect_strata(const double *x, double *y) {
+    const double major = fmod(x[0] + 2 * x[1] + x[2], 5), minor = fmod(x[0] + floor(x[2] / 5), 5);
+    y[0] = (fmod(2 * major + minor, 5) + x[3]) / 5;
+    y[1] = (major + x[4]) / 5;
+}
+
 /* clang-format off */
 #define WORD {WHOLE, 0, 65535, 0}, {WHOLE, 0, 65535, 0}
 #define AB "uint(a.x) << 16u | uint(a.y)"
@@ -161,6 +167,8 @@ static const struct function list[] = {
     {"ordered dither", "Bayer's matrix as its recursion makes it", "bayer4(ivec2(a.xy)), 0.0, 0.0, 0.0", "x y", {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}}, NULL, expect_bayer, 1, ABSOLUTE, 0, "sixteenths"},
     {"plus pattern", "classes of pixels, large frame numbers too", "float(plus_class(uvec2(a.xy), uint(a.z)))", "x y shift",
      {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, {WHOLE, 0, 16777215, 0}}, NULL, expect_plus, 1, ABSOLUTE, 0, "integers"},
+    {"strata of pluses", "a cell of 5 x 5 for each of 25 pixels", "plus_strata(uvec2(a.xy), uint(a.z), vec2(a.w, b.x)), 0.0, 0.0", "x y shift u v",
+     {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, {WHOLE, 0, 16777215, 0}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}}, NULL, expect_strata, 2, ABSOLUTE, 2.4e-7, "two roundings of numbers below 5"},
 };
 /* clang-format on */
 
