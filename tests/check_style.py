@@ -9,8 +9,8 @@ import tempfile
 
 LONGEST = 500
 # What filters them itself, and passes that go over every texel of a face in every plan.
-WHOLE_FACES = {"passes/shared/cube_filter.glsl", "passes/shared/cube_chain.glsl", "passes/cocoon/max.comp",
-               "passes/cubemap_convert/dual_paraboloid.comp"}
+WHOLE_FACES = {"passes/shared/cube_filter.glsl", "passes/shared/cube_chain.glsl", "passes/prepare/cocoon/max.comp",
+               "passes/prepare/cubemap_convert/dual_paraboloid.comp"}
 
 
 def sources():

@@ -197,7 +197,7 @@ OUTCOME = ("verdict", "by", "failed", "seconds", "untried")
 
 
 def slot_of(file):
-    return file if file.startswith("shared/") else file.split("/")[0]
+    return file if file.startswith("shared/") else file.split("/")[-2]
 
 
 def likeliest(programs, file, told):
@@ -205,7 +205,7 @@ def likeliest(programs, file, told):
     far, that a second of theirs notices."""
     def is_own(program):
         words = {"shared": "functions", "temporal": "time", "temporal_sharp": "time", "screen_trace": "geometry", "cubemap_trace": "geometry"}
-        slot = file.split("/")[0]
+        slot = "shared" if file.startswith("shared/") else file.split("/")[-2]
         return slot in program.name or words.get(slot, slot) in program.name
 
     def chance(program):

@@ -179,7 +179,7 @@ class Tree:
 
     def __init__(self, root):
         self.root = pathlib.Path(root)
-        paths = sorted(p for kind in ("*/*.comp", "*/*.glsl", "*/*.c") for p in self.root.glob(kind))
+        paths = sorted(p for kind in ("*.comp", "*.glsl", "*.c") for p in self.root.rglob(kind))
         self.sources = {p.relative_to(root).as_posix(): Source(p.relative_to(root).as_posix(), p.read_text()) for p in paths}
         self.mutable = [f for f in self.sources if f not in LEFT_OUT]
         self.closures = {f: self.closure(f) for f in self.sources if not f.endswith(".glsl")}
@@ -196,6 +196,10 @@ class Tree:
                 beside = (pathlib.PurePosixPath(name).parent / other).as_posix()
                 left.append(beside if beside in self.sources else other)
         return found
+
+    def shader(self, slot, variant):
+        """The file of a pass, whatever effect it belongs to; None when there is no such pass."""
+        return next((f for f in self.closures if f.split("/")[-2:] in ([slot, f"{variant}.comp"], [slot, f"{variant}.c"])), None)
 
     def passes_with(self, file):
         """Passes that have the file in them."""
@@ -269,11 +273,10 @@ def mechanism_places(tree):
         slots = preset("mafia3")["slots"]
         slots.update(w.split("=") for s in both for w in re.findall(r"use (\S+=\S+)", s))
         for slot in re.findall(r"use (\w+)=", off):
-            shader = f"{slot}/{slots.get(slot)}.comp"
-            places[name_of(row)].append(({f for f in tree.closures.get(shader, ()) if f.startswith(slot + "/")}, None))
+            shader = tree.shader(slot, slots.get(slot))
+            places[name_of(row)].append(({f for f in tree.closures.get(shader, ()) if f.split("/")[-2] == slot}, None))
         for slot, parameter in re.findall(r"set (\w+)\.(\w+)=", off):
-            shader = next(f for f in tree.closures if f.rsplit(".", 1)[0] == f"{slot}/{slots[slot]}")
-            places[name_of(row)].append((tree.closures[shader], {parameter}))
+            places[name_of(row)].append((tree.closures[tree.shader(slot, slots[slot])], {parameter}))
     for mechanism, where in places.items():
         if not any(is_in(tree, m, where) for files, _ in where for f in files for m in tree.sources[f].mutants()):
             places[mechanism] = [(files, words.union(*(made_from(tree.sources[f], w) for f in files for w in words))) for files, words in where]

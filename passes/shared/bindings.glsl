@@ -47,7 +47,7 @@
 // `normals`. WITHIN(texels), behind a DISPATCH: faces that no way comes that near to may be left out then.
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
-layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (probe/tell.glsl)
+layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/tell.glsl)
 layout(constant_id = 3) const bool halves = true; // images declared as halves are that, and not floats instead
 layout(constant_id = 4) const uint dispatch_phase = 0u;
 const uint ALL_TILES = 0xFFFFFFFFu; // no list of tiles: all of the image

@@ -235,6 +235,7 @@ static void passes_describe_what_replay_accepts(void **state) {
     json_t *json = parse_json(text);
     for (size_t i = 0; i < SLOTS; i++) named(json_object_get(json, "passes"), "slot", slots[i]);
     const json_t *trace = named(json_object_get(json, "passes"), "slot", "screen_trace");
+    assert_string_equal(json_string_value(json_object_get(trace, "effect")), "reflection");
     const json_t *thickness = named(json_object_get(trace, "parameters"), "name", "screen_trace.thickness");
     assert_true(json_is_true(json_object_get(thickness, "assumed")));
     const json_t *steps = named(json_object_get(trace, "parameters"), "name", "screen_trace.cells");
@@ -249,7 +250,15 @@ static void passes_describe_what_replay_accepts(void **state) {
     free(text);
     free(one);
     char *markdown = glint_ok("passes", "--markdown"), *devices = glint_ok("devices", "--json");
-    assert_contains(markdown, "\n## `resolve`\n");
+    assert_contains(markdown, "\n## Effect `reflection`\n");
+    assert_contains(markdown, "\n### `resolve`\n");
+    char *effect = glint_ok("passes", "prepare"), *list = glint_ok("passes");
+    assert_contains(effect, "downsample/pick: ");
+    assert_null(strstr(effect, "resolve/hit: "));
+    assert_contains(list, "\nprepare     downsample ");
+    assert_contains(list, "\nreflection  resolve ");
+    free(effect);
+    free(list);
     json = parse_json(devices);
     const json_t *first = json_array_get(json_object_get(json, "devices"), 0);
     assert_true(json_is_true(json_object_get(first, "usable")));

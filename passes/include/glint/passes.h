@@ -1,4 +1,4 @@
-/* What the passes declare, as the host sees it. Built from passes/SLOT/VARIANT.pass.h; nothing is written here twice. */
+/* What the passes declare, as the host sees it. Built from passes/EFFECT/SLOT/VARIANT.pass.h; nothing is written here twice. */
 #ifndef GLINT_PASSES_H
 #define GLINT_PASSES_H
 
@@ -131,6 +131,8 @@ struct glint_host_context;
 typedef bool (*glint_host_pass)(struct glint_host_context *context, struct glint_error *err);
 
 struct glint_pass {
+    const char *effect; /* the family of slots that it belongs to, "reflection": the first folder of its path */
+    const char *folder; /* where its files lie under passes/, "reflection/blur" */
     const char *slot, *variant;
     const char *title, *source;
     const struct glint_row *rows; /* slot.h's rows first or wherever it includes them */
