@@ -184,7 +184,7 @@ def try_host(row, folder, build):
     """What runs on the host is linked into its test anew."""
     program = f"{folder}/{HOST_TEST}"
     archives = sorted(str(p) for p in (build / "passes").glob("*.a")) + sorted(str(p) for p in (build / "capture-format").glob("*.so"))
-    subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I",
+    subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I", build / "passes/include", "-I",
                     ROOT / "capture-format/include", "-o", program, ROOT / f"tests/passes/{HOST_TEST}.c", write_mutant(row, folder), *archives,
                     f"-Wl,-rpath,{build / 'capture-format'}", "-lcmocka", "-lm"], check=True)
     return Program(HOST_TEST, [program]).run(folder, AT_LEAST_S)

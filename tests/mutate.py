@@ -7,6 +7,7 @@ import random
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 import mechanism_rows
@@ -14,8 +15,8 @@ from pages import preset
 
 SEED = 7
 SHARE, FEWEST, MOST = 0.015, 1, 2  # mutants of a file, as a part of what could be made of it
-# Not functions: what declarations become, and lists of rows.
-LEFT_OUT = ("shared/bindings.glsl", "shared/push_begin.glsl", "shared/end_reasons.glsl")
+# Not functions: constants that the host sets, and lists of rows.
+LEFT_OUT = ("shared/interface.glsl", "shared/end_reasons.glsl")
 
 TOKEN = re.compile(r"""(?P<skip>\s+|//[^\n]*|/\*.*?\*/|\#(?:\\\n|[^\n])*)|(?P<text>"(?:\\.|[^"\\])*")|(?P<word>[A-Za-z_]\w*)
     |(?P<number>0[xX][0-9a-fA-F]+[uU]?|(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?[uUfF]?)
@@ -184,6 +185,11 @@ class Tree:
         self.mutable = [f for f in self.sources if f not in LEFT_OUT]
         self.closures = {f: self.closure(f) for f in self.sources if not f.endswith(".glsl")}
         self.codes = {}
+        self.generated = tempfile.TemporaryDirectory()  # what the build makes of passes/row_kinds.py
+        made = [pathlib.Path(self.generated.name) / f for f in ("shared/bindings.glsl", "shared/push_begin.glsl", "glint/row_kinds.h")]
+        for path in made:
+            path.parent.mkdir(exist_ok=True)
+        subprocess.run([sys.executable, self.root / "table.py", "rows", *made], check=True)
 
     def closure(self, file):
         found, left = set(), [file]
@@ -218,7 +224,7 @@ class Tree:
         """A shader's code without what it does not call, None when it does not compile."""
         with tempfile.TemporaryDirectory() as out:
             spirv, plain = f"{out}/a.spv", f"{out}/b.spv"
-            done = subprocess.run(["glslangValidator", "--quiet", "--target-env", "vulkan1.3", f"-I{folder}", "-o", spirv, f"{folder}/{name}.comp"],
+            done = subprocess.run(["glslangValidator", "--quiet", "--target-env", "vulkan1.3", f"-I{folder}", f"-I{self.generated.name}", "-o", spirv, f"{folder}/{name}.comp"],
                                   capture_output=True)
             if done.returncode:
                 return None
@@ -231,7 +237,7 @@ class Tree:
         path.write_text(self.changed(mutant))
         try:
             if mutant.file.endswith(".c"):
-                done = subprocess.run(["cc", "-std=c11", "-fsyntax-only", f"-I{folder}/include", f"-I{self.root}/../capture-format/include",
+                done = subprocess.run(["cc", "-std=c11", "-fsyntax-only", f"-I{folder}/include", f"-I{self.generated.name}", f"-I{self.root}/../capture-format/include",
                                        path], capture_output=True)
                 return "does not compile" if done.returncode else "alive"
             for name in self.passes_with(mutant.file):

@@ -38,7 +38,7 @@ MUTANTS = [
     ("fog", "length_m <= 0.0", "length_m < -1.0", ["even fog"]),
     ("fog", "return -expm1(-optical_depth)", "return 1.0 - exp(-optical_depth)", ["fog factor"]),
     ("random", "v >> 16u", "v >> 15u", ["random numbers", "hash"]),
-    ("bindings", "frame.counts.y + frame", "frame.counts.x + frame", ["number of a frame"]),
+    ("interface", "frame.counts.y + frame", "frame.counts.x + frame", ["number of a frame"]),
     ("blue_noise", "0x05526C56u", "0x05526C57u", ["Owen's scrambling", "Owen's scrambling is one"]),
     ("blue_noise", "i + word[i] % (4u - i)", "i + word[i] % 2u * uint(i < 3u)", ["shuffled digits"]),
     ("blue_noise", "0x50B0u + ray / RAYS_SPREAD", "0x50B0u", ["points of rays"]),
