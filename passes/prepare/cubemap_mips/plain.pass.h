@@ -1,5 +1,5 @@
 /* Chains without a pre-filter: each level is the box mean of the finer one. */
-PASS("Box filter", "000, Pre-filtering cube-maps (regular MIP chain)")
+PASS("Box filter", "Mafia III talk, Pre-filtering cube-maps (regular MIP chain)")
 #include "slot.h"
 #line 202
 SELF(texture2DArray, finer_faces, cubemap_color_mips)

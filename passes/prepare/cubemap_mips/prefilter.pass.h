@@ -1,5 +1,5 @@
 /* Chains whose colour levels are filtered with the lobe of the cone for which each stands. */
-PASS("Pre-filtered for cones", "000, Pre-filtering cube-maps")
+PASS("Pre-filtered for cones", "Mafia III talk, Pre-filtering cube-maps")
 #include "slot.h"
 #line 202
 WRITE(image2DArray, cubemap_color_box, RGBA16F, "radiance", CUBEMAPS_MIPS, "R G B A", 0, "the chain before the pre-filter")

@@ -1,6 +1,6 @@
 /* pick, and the same of its blocks at half and a quarter of its resolution, with the edges between texels: what sharing at three
    resolutions goes by. A texel of a level is a pixel of the picture, never a mixture. */
-PASS("Three levels with edges", "001, Downscaled Depth and Normals")
+PASS("Three levels with edges", "Mafia DE article, Downscaled Depth and Normals")
 #include "slot.h"
 #include "jitter.h"
 #include "pick_rows.h"
@@ -15,7 +15,7 @@ SELF(texture2D, normals, normal_levels)
 SELF(texture2D, vertex_normals, vertex_normal_levels)
 DISPATCH_LEVELS(depth_levels, 1, 2, down)
 DISPATCH_LEVELS(edge_levels, 0, 2, down)
-SPEC(bool,  vertex_planes,  true, 0, 1, "1", "001, GBuffer Pass", "surfaces are planes by vertex normals, where the capture has them; off: by the shading normals")
+SPEC(bool,  vertex_planes,  true, 0, 1, "1", "Mafia DE article, GBuffer Pass", "surfaces are planes by vertex normals, where the capture has them; off: by the shading normals")
 PUSH(float, edge_plane,     0.05, 0.0, 10.0, "1", "glint", "neighbours farther than this part of the depth from each other's planes are two surfaces; 10: no such test")
-PUSH(float, edge_normal,    1.0,  0.0, 4.0,  "1", "chosen by error", "and those whose shading normals differ by more, as 1 - cosine; 4: no such test")
-PUSH(float, edge_roughness, 0.2,  0.0, 1.0,  "1", "chosen by error", "and those whose roughness differs by more; 1: no such test")
+PUSH(float, edge_normal,    1.0,  0.0, 4.0,  "1", "chosen by the measured error", "and those whose shading normals differ by more, as 1 - cosine; 4: no such test")
+PUSH(float, edge_roughness, 0.2,  0.0, 1.0,  "1", "chosen by the measured error", "and those whose roughness differs by more; 1: no such test")

@@ -1,5 +1,5 @@
 /* The G-buffer as it is: rays for every pixel. The pipeline's half resolution becomes the full one. */
-PASS("Full resolution", "000, G-buffer down-sampling (what it saves)")
+PASS("Full resolution", "Mafia III talk, G-buffer down-sampling (what it saves)")
 RESOLUTION(full)
 #include "slot.h"
 #include "jitter.h"

@@ -1,5 +1,5 @@
 /* One pixel of each 2x2 block, never a mixture. */
-PASS("Edge-aware pick", "000, G-buffer down-sampling and jittering")
+PASS("Edge-aware pick", "Mafia III talk, G-buffer down-sampling and jittering")
 #include "slot.h"
 #include "jitter.h"
 #include "pick_rows.h"

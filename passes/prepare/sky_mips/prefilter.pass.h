@@ -1,5 +1,5 @@
 /* The sky filtered as cubemap_mips/prefilter filters cube maps. */
-PASS("Pre-filtered for cones", "000, Pre-filtering cube-maps")
+PASS("Pre-filtered for cones", "Mafia III talk, Pre-filtering cube-maps")
 #include "slot.h"
 #line 202
 WRITE(image2DArray, sky_box, RGBA16F, "radiance", SKY_MIPS, "R G B A", 0, "the chain before the pre-filter")

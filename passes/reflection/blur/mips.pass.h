@@ -1,6 +1,6 @@
 /* What Mafia III shipped with: a chain of the whole picture, as wide as the cone is where the ray ended. It is blind to
    depth and normal, and leaks. */
-PASS("Colour chain by distance", "000, Mafia III approach")
+PASS("Colour chain by distance", "Mafia III talk, Mafia III approach")
 #include "slot.h"
 #line 202
 READ(texture2D, travelled)
@@ -11,4 +11,4 @@ DISPATCH_LEVELS(reflection_mips, 0, -1, down)
 DISPATCH(reflection_blurred)
 DISPATCH_TILES(shown)
 SPEC(bool,  filter_color, true, 0,    1,   "1", "glint", "between levels and texels; off: the nearest of both")
-PUSH(float, widest,       0.25, 0.0,  1.0, "1", "000, Mafia III approach", "largest kernel, as a part of the picture's width; 0: no blur")
+PUSH(float, widest,       0.25, 0.0,  1.0, "1", "Mafia III talk, Mafia III approach", "largest kernel, as a part of the picture's width; 0: no blur")

@@ -1,6 +1,6 @@
 /* The reflection at three resolutions. The coarsest is blurred along and across; each finer level then takes as much of the
    coarser one as its lobe is wider than its texels. All of it stays on its side of edges. */
-PASS("Three resolutions", "001, Global Illumination: Reflections Mip 3 Blur H to Mip 1 Upscale Blur")
+PASS("Three resolutions", "Mafia DE article, Global Illumination: Reflections Mip 3 Blur H to Mip 1 Upscale Blur")
 #include "slot.h"
 #line 202
 READ(texture2D, travelled)
@@ -17,7 +17,7 @@ DISPATCH_LEVELS(reflection_levels, 2, 2, down)
 DISPATCH_LEVELS(reflection_levels, 1, 1, up)
 DISPATCH(reflection_blurred)
 DISPATCH_TILES(shown)
-SPEC(int,   radius,  3,   0,   16,  "texels", "001, Global Illumination; chosen by measuring", "radius of the blur of the coarsest level; 0: none")
-SPEC(bool,  edges,   true, 0,  1,   "1", "001, Downscaled Depth and Normals", "stop at edges; off: levels are blind to them")
+SPEC(int,   radius,  3,   0,   16,  "texels", "Mafia DE article, Global Illumination; chosen by measuring", "radius of the blur of the coarsest level; 0: none")
+SPEC(bool,  edges,   true, 0,  1,   "1", "Mafia DE article, Downscaled Depth and Normals", "stop at edges; off: levels are blind to them")
 PUSH(float, roughness_part, 0.1, 0.0, 1.0, "1", "glint", "what is beyond edges counts by its lobe, and nothing when its roughness differs by more")
-PUSH(float, width,   0.5, 0.0, 8.0, "1", "chosen by error", "part of the lobe's width over which a pixel takes its neighbours' samples; 0: no blur")
+PUSH(float, width,   0.5, 0.0, 8.0, "1", "chosen by the measured error", "part of the lobe's width over which a pixel takes its neighbours' samples; 0: no blur")

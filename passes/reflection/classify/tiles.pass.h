@@ -1,5 +1,5 @@
 /* A list ordered by class, compacted by prefix sums over blocks. */
-PASS("Compacted list", "000, Step-by-step recap (stencil mask based on roughness)")
+PASS("Compacted list", "Mafia III talk, Step-by-step recap (stencil mask based on roughness)")
 #include "slot.h"
 #line 202
 SELF(utextureBuffer, marked, screen_list)

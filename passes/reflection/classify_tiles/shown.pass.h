@@ -1,5 +1,5 @@
 /* A tile shows reflections when one of its pixels does. */
-PASS("Compacted list of tiles", "000, Step-by-step recap (stencil mask based on roughness)")
+PASS("Compacted list of tiles", "Mafia III talk, Step-by-step recap (stencil mask based on roughness)")
 #include "slot.h"
 #include "shared/shown_rows.h"
 WORKGROUP(16, 16)

@@ -1,5 +1,5 @@
 /* A list ordered by class, compacted by prefix sums over blocks. */
-PASS("Compacted list", "000, Step-by-step recap (stencil mask for SSR finished pixels)")
+PASS("Compacted list", "Mafia III talk, Step-by-step recap (stencil mask for SSR finished pixels)")
 #include "slot.h"
 #line 202
 SELF(utextureBuffer, marked, cubemap_list)

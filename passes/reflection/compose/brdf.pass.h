@@ -1,5 +1,5 @@
 /* Reflection weighted by the environment BRDF, over the diffuse picture. */
-PASS("Environment BRDF", "000, Combined BRDF; split sum of Karis 2013")
+PASS("Environment BRDF", "Mafia III talk, Combined BRDF; Karis 2013 (split sum)")
 #include "slot.h"
 WORKGROUP(8, 16)
 SPEC(bool,  fresnel,   true, 0, 1, "1", "glint", "weigh by the environment BRDF; off: by the reflectance at normal incidence alone")

@@ -1,5 +1,5 @@
 /* No march: the paraboloids are looked up in the ray's direction. */
-PASS("Lookup in dual paraboloids", "004, Cubemap to Dual-Paraboloid Map")
+PASS("Lookup in dual paraboloids", "GTA V article, Cubemap to Dual-Paraboloid Map")
 #include "slot.h"
 #line 202
 OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)

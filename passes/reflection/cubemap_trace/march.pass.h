@@ -1,5 +1,5 @@
 /* The slides' march through distance cube maps. */
-PASS("March along the chain", "000, Cube-map tracing pseudo-code")
+PASS("March along the chain", "Mafia III talk, Cube-map tracing pseudo-code")
 #include "slot.h"
 #include "march_rows.h"
 #line 302

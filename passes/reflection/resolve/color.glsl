@@ -1,4 +1,4 @@
-// Colour at the end of a ray (000, Color resolve shaders), as wide as the cone that the ray stands for. Next include of a
+// Colour at the end of a ray (Mafia III talk, Color resolve shaders), as wide as the cone that the ray stands for. Next include of a
 // pass with the rows of sources.h, which calls load_active_centers().
 #include "shared/active.glsl"
 #include "shared/camera.glsl"

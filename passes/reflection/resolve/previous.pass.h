@@ -1,6 +1,6 @@
 /* What a hit on screen shows is looked up in the previous frame, where the hit's motion leads; where that point was hidden or
    outside of the picture, in the cube maps. */
-PASS("Colour of the previous frame", "001, Global Illumination; Stochastic Sampling")
+PASS("Colour of the previous frame", "Mafia DE article, Global Illumination; Stochastic Sampling")
 #include "slot.h"
 OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
 #include "ends.h"

@@ -1,5 +1,5 @@
 /* Every texel that a ray crosses, one after the other: nothing is stepped over. */
-PASS("Walk over every texel", "002 names it; McGuire and Mara, JCGT 3(4), 2014")
+PASS("Walk over every texel", "KF2 article (it names it); McGuire and Mara 2014")
 #include "slot.h"
 #include "cell_rows.h"
 #line 302

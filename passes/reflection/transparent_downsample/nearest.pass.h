@@ -1,4 +1,4 @@
 /* The nearest of a block's pixels, and a ray from its lobe. */
-PASS("Nearest of the block", "001, Transparency and Glows; Stochastic Sampling")
+PASS("Nearest of the block", "Mafia DE article, Transparency and Glows; Stochastic Sampling")
 #include "slot.h"
 #include "prepare/downsample/jitter.h"

@@ -1,5 +1,5 @@
 /* The four nearest texels, blind to depth and normal. */
-PASS("Bilinear", "000, Upscale (what it improves on)")
+PASS("Bilinear", "Mafia III talk, Upscale (what it improves on)")
 #include "slot.h"
 DISPATCH(reflection)
 DISPATCH_TILES(shown)
