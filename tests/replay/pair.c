@@ -29,7 +29,7 @@ void pair_use(struct pair *pair, const char *preset) {
     pair->pipeline = glint_pipeline_create(preset, &err);
     pair_check(pair->pipeline != NULL, &err);
     if (strcmp(preset, "reference") != 0) /* a list of tiles, however little it leaves out */
-        pair_check(glint_pipeline_set(pair->pipeline, "classify_tiles.most=1", &err), &err);
+        pair_check(glint_pipeline_set(pair->pipeline, "classify_tiles.max_coverage=1", &err), &err);
     if (glint_pipeline_rays(pair->pipeline) > 1)
         pair_check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
 }

@@ -243,7 +243,7 @@ static void passes_describe_what_replay_accepts(void **state) {
     assert_true(number(steps, "lowest") <= number(steps, "default"));
     named(json_object_get(trace, "reads"), "name", "depth_half");
     named(json_object_get(trace, "writes"), "name", "screen_travelled");
-    assert_contains(one, "as in --set screen_trace.most_rough=1");
+    assert_contains(one, "as in --set screen_trace.max_roughness=1");
     assert_contains(one, "samples along the ray");
     assert_contains(one, "why the ray ended");
     json_decref(json);

@@ -12,7 +12,7 @@ WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block
 DISPATCH(depth_half)
 DISPATCH_TILES(shown)
 #include "shared/tile_rows.h"
-PUSH(float, least_weight, 0.0, 0.0, 1.0, "1", "glint", "surfaces that send less than this share of a reflection to the viewer trace no ray of their own; 0: all do")
+PUSH(float, min_weight, 0.0, 0.0, 1.0, "1", "glint", "surfaces that send less than this share of a reflection to the viewer trace no ray of their own; 0: all do")
 NEEDS(reflections)
 PER_RAY
 #include "shared/shown_rows.h"

@@ -12,14 +12,14 @@ uint useful_in_block(ivec2 block, vec4 inverse_depth) {
     return useful;
 }
 
-// Whether compose gives a surface more than least_weight of its reflection, rising as steeply as any material does.
+// Whether compose gives a surface more than min_weight of its reflection, rising as steeply as any material does.
 bool is_worth(ivec2 pixel, uint chosen, vec3 normal, float roughness, vec3 to_viewer) {
-    if (!(least_weight > 0.0) || frame.work.y != 0u) return true;
+    if (!(min_weight > 0.0) || frame.work.y != 0u) return true;
     ivec2 at = min(ivec2(picked_position(pixel, chosen, frame.size)), ivec2(frame.size.xy) - 1);
     vec4 base = texelFetch(albedo_full, at, 0);
     vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, at, 0).x);
     vec3 weight = environment_reflectance(f0, roughness, clamp(dot(normal, to_viewer), 0.0, 1.0));
-    return max(weight.r, max(weight.g, weight.b)) >= least_weight;
+    return max(weight.r, max(weight.g, weight.b)) >= min_weight;
 }
 
 // chosen: which pixel of the block it is, 4 for its centre; shown: whether the picture shows its reflection.

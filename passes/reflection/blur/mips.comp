@@ -31,7 +31,7 @@ float radius_px(ivec2 pixel, float depth_m) {
     float part = travelled_m < LARGEST ? travelled_m / (travelled_m + away_m) : 1.0;
     float width = float(frame.size.z);
     float radius = cone_tangent(texelFetch(cone_half, pixel, 0).x) * part * abs(frame.uv_from_view.x) * width;
-    return min(radius, 0.5 * widest * width);
+    return min(radius, 0.5 * max_width * width);
 }
 
 void probe_tap(ivec2 texel, int level, float weight) {

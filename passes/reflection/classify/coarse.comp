@@ -15,13 +15,13 @@ const int TILE = 4; // pixels; an invocation lists one
 bool worth(ivec2 pixel) {
     float depth_m = texelFetch(depth_half, pixel, 0).x;
     vec4 normal = texelFetch(normal_jittered, pixel, 0);
-    if (!reflects(depth_m, normal.xyz) || normal.w > most_rough) return false;
+    if (!reflects(depth_m, normal.xyz) || normal.w > max_roughness) return false;
     uint chosen = texelFetch(pick, pixel, 0).x;
     vec2 at = picked_position(pixel, chosen, frame.size);
     ivec2 full = min(ivec2(at), ivec2(frame.size.xy) - 1);
     vec4 base = texelFetch(albedo_full, full, 0);
     vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, full, 0).x);
-    if (max(f0.r, max(f0.g, f0.b)) <= least) return false;
+    if (max(f0.r, max(f0.g, f0.b)) <= min_reflectance) return false;
     if (!by_view) return true;
     vec3 position = mat3(frame.world_from_view) *
                     view_position(at / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);

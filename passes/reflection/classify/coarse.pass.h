@@ -9,5 +9,5 @@ WRITE(uimage2D, screen_rejected, R8UI, "1", HALF, "rejected", 0, "1 in tiles of 
 DISPATCH(screen_list)
 SPEC(bool,  by_view,      true, 0, 1, "1", "KF2 article, Final Thoughts; Viewer Facing Reflections", "reject what runs towards the viewer")
 PUSH(float, viewer_to,    0.5,  -1.0, 1.0, "1", "KF2 article, Viewer Facing Reflections", "cosine between ray and view vector from which on nothing is left of a reflection")
-PUSH(float, least,        0.0,  0.0, 1.0, "1", "glint", "reject surfaces whose reflectance at normal incidence is no more")
-PUSH(float, most_rough,   1.0,  0.0, 1.0, "1", "glint", "reject surfaces that are rougher")
+PUSH(float, min_reflectance, 0.0,  0.0, 1.0, "1", "glint", "reject surfaces whose reflectance at normal incidence is no more")
+PUSH(float, max_roughness,   1.0,  0.0, 1.0, "1", "glint", "reject surfaces that are rougher")

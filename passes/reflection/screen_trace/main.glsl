@@ -19,7 +19,7 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
     vec4 surface = texelFetch(normal_jittered, pixel, 0);
     normal = surface.xyz;
     if (has_screen_rejected && texelFetch(screen_rejected, pixel, 0).x != 0u) return false;
-    return surface.w <= most_rough && reflects(depth_m, normal);
+    return surface.w <= max_roughness && reflects(depth_m, normal);
 }
 
 void main() {

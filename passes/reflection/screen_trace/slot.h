@@ -16,5 +16,5 @@ DISPATCH_TILES(shown)
 OPTIONAL_READ(utexture2D, screen_rejected, R8UI, HALF, 0)
 NEEDS(reflecting)
 PER_RAY
-PUSH(float, most_rough, 1.0, 0.0, 1.0, "1", "glint", "rougher surfaces are not traced on screen, only in the cube maps; 1: all are")
+PUSH(float, max_roughness, 1.0, 0.0, 1.0, "1", "glint", "rougher surfaces are not traced on screen, only in the cube maps; 1: all are")
 #include "shared/tile_rows.h"

@@ -39,7 +39,7 @@ void main() {
     Surface center = surface_at(pixel);
     probe_texel(pixel);
     float age = 0.0;
-    if (!(center.normal.w < least_roughness)) { // a smoother surface keeps what it has, as if this pass were not there
+    if (!(center.normal.w < min_roughness)) { // a smoother surface keeps what it has, as if this pass were not there
         age = finite(color) ? 1.0 : 0.0;
         if (age == 0.0) color = vec4(0.0);
         if (tile_works && center.shown && reflects(center.depth_m, center.normal.xyz)) {
