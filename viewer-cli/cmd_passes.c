@@ -71,7 +71,7 @@ static void print_inputs(const struct glint_pass *pass, bool markdown) {
     struct table *table = table_create(titles);
     for (size_t i = 0; i < pass->row_count; i++) {
         if (pass->rows[i].kind != GLINT_ROW_READ) continue;
-        const char *slot = "nowhere yet";
+        const char *slot = "no pass";
         const struct glint_row *image = image_find(pass->rows[i].name, &slot);
         table_cell(table, "%s", pass->rows[i].name);
         table_cell(table, "%s", slot);
@@ -105,7 +105,7 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
 static void add_parameter(struct table *table, const struct glint_pass *pass, const struct glint_row *row,
                           bool markdown) {
     char *names = row->choices ? join_names("", row->choices) : NULL;
-    const char *assumed = glint_pass_assumes(pass, row) ? " (assumed: the data do not say it)" : "";
+    const char *assumed = glint_pass_assumes(pass, row) ? " (assumed: captures do not contain it)" : "";
     if (markdown) table_cell(table, "%s.%s", pass->slot, row->name);
     else table_cell(table, "%s", row->name);
     if (markdown) table_cell(table, "%s", row_type(row));

@@ -1,17 +1,17 @@
-/* Faces of the active cube maps that the ways of mirror rays cross, as the centres see them. */
-PASS("Faces that rays come to", "glint")
+/* Finds the faces of the active cube maps that mirror rays cross, seen from the centres. */
+PASS("Faces reached by rays", "glint")
 WORKGROUP(16, 16)
 #line 102
-SLOT("What a frame holds, for the plan")
+SLOT("Statistics of a frame, for the plan")
 BLOCKS(2)
 READ(texture2D, depth_full)
 READ(texture2D, normal_full)
 READ(texture2D, albedo_full)
 READ(texture2D, specular_full)
 READ(texture2D, active_center)
-WRITE(uimageBuffer, tile_faces, R32UI, "1", LIST, "faces", 0xFFFFFFFFu, "reached_faces of each workgroup's pixels")
+WRITE(uimageBuffer, tile_faces, R32UI, "1", LIST, "faces", 0xFFFFFFFFu, "reached_faces for the pixels of each workgroup")
 SELF(utextureBuffer, partial, tile_faces)
-WRITE(uimage2D, reached_faces, R32UI, "1", FIGURES, "faces", 0, "eight words: three of the faces that are crossed, bit 6 * place + face; from the fifth on three of those and the faces nearby")
+WRITE(uimage2D, reached_faces, R32UI, "1", FIGURES, "faces", 0, "eight words: words 0 to 2 are the faces that rays cross, bit 6 * place + face; words 4 to 6 are those faces and the ones nearby")
 DISPATCH(depth_full)
 DISPATCH(reached_faces)
-REFERENCE_NONE("it makes no image of the picture")
+REFERENCE_NONE("it contributes nothing to the picture")

@@ -1,4 +1,4 @@
-/* Chains without a pre-filter: each level is the box mean of the finer one. */
+/* Chains without a pre-filter: each level is the box filter of the finer one. */
 PASS("Box filter", "Mafia III talk, Pre-filtering cube-maps (regular MIP chain)")
 #include "slot.h"
 #line 202

@@ -1,8 +1,8 @@
-/* Chains whose colour levels are filtered with the lobe of the cone for which each stands. */
+/* Chains whose colour levels are filtered with the lobe of the cone that each represents. */
 PASS("Pre-filtered for cones", "Mafia III talk, Pre-filtering cube-maps")
 #include "slot.h"
 #line 202
-WRITE(image2DArray, cubemap_color_box, RGBA16F, "radiance", CUBEMAPS_MIPS, "R G B A", 0, "the chain before the pre-filter")
+WRITE(image2DArray, cubemap_color_box, RGBA16F, "radiance", CUBEMAPS_MIPS, "R G B A", 0, "the box-filtered chain that is the input of the pre-filter")
 SELF(textureCubeArray, finer_color, cubemap_color_box)
 SELF(texture2DArray, finer_faces, cubemap_color_box)
 SELF(texture2DArray, finer_distance, cubemap_distance_mips)

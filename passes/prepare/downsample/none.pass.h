@@ -1,5 +1,5 @@
-/* The G-buffer as it is: rays for every pixel. The pipeline's half resolution becomes the full one. */
-PASS("Full resolution", "Mafia III talk, G-buffer down-sampling (what it saves)")
+/* The G-buffer as it is: one ray or more per pixel. The pipeline's half resolution becomes full resolution. */
+PASS("Full resolution", "Mafia III talk, G-buffer down-sampling (its absence)")
 RESOLUTION(full)
 #include "slot.h"
 #include "jitter.h"

@@ -1,4 +1,4 @@
-/* One pixel of each 2x2 block, never a mixture. */
+/* Picks one pixel of each 2x2 block, never an average. */
 PASS("Edge-aware pick", "Mafia III talk, G-buffer down-sampling and jittering")
 #include "slot.h"
 #include "jitter.h"

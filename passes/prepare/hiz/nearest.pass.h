@@ -1,5 +1,5 @@
-/* A parent covers all its children: sizes are rounded down, and the last cell of a row takes what is left over. */
-PASS("Nearest and farthest depth", "KF2 article, HZB Optimization, which has the nearest alone")
+/* A cell covers all of its children: sizes are rounded down, and the last cell of a row also covers the remaining texels. */
+PASS("Nearest and farthest depth", "KF2 article, HZB Optimization (nearest depth only)")
 #include "slot.h"
 #line 202
 SELF(texture2D, finer, hiz)

@@ -1,4 +1,4 @@
-/* A list ordered by class, compacted by prefix sums over blocks. */
+/* Builds one list ordered by class, compacted with prefix sums over blocks. */
 PASS("Compacted list", "Mafia III talk, Step-by-step recap (stencil mask based on roughness)")
 #include "slot.h"
 #line 202

@@ -1,4 +1,4 @@
-/* A tile shows transparent surfaces when one of its pixels does. */
+/* A tile shows transparent surfaces if one of its pixels does. */
 PASS("Compacted list of tiles", "glint")
 #include "slot.h"
 WORKGROUP(16, 16)

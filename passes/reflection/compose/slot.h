@@ -13,7 +13,7 @@ READ(texture2D, fresnel_full)
 FACT(fresnel)
 NEEDS(reflecting)
 INSTEAD(composed, lit)
-WRITE(image2D, composed, RGBA16F, "radiance", FULL, "R G B A", 0, "lit plus the last reflection image times the environment BRDF; a: 1")
+WRITE(image2D, composed, RGBA16F, "radiance", FULL, "R G B A", 0, "lit plus the last reflection image times the environment BRDF; a is 1")
 DISPATCH(composed)
 DISPATCH_TILES(shown)
 #include "shared/tile_rows.h"

@@ -7,11 +7,11 @@ READ(utexture2D, pick)
 READ(texture2D, screen_travelled)
 READ(utexture2D, screen_finished)
 READ(texture2D, active_center)
-WRITE(uimage2D, cubemap_best, R8UI, "place", HALF, "place", 255, "place among the active cube maps; 255: none, or the ray is finished")
+WRITE(uimage2D, cubemap_best, R8UI, "place", HALF, "place", 255, "place among the active cube maps; 255: none, or the ray has ended already")
 DISPATCH(cubemap_best)
 DISPATCH_TILES(shown)
 NEEDS(reflecting)
 NEEDS(cubemaps)
 PER_RAY
 #include "shared/tile_rows.h"
-REFERENCE_WITH(cubemap_trace, "the reference asks every cube map, so that none has to be chosen well")
+REFERENCE_WITH(cubemap_trace, "the reference traces every cube map, so that the selection does not matter")

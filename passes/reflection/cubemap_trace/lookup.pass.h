@@ -1,4 +1,4 @@
-/* No march: the cube map is looked up in the ray's direction, as if all it shows were infinitely far. */
+/* No march: the cube map is sampled in the ray's direction, as if everything in it were infinitely far away. */
 PASS("Lookup by direction", "Mafia III talk, Existing solutions")
 #include "slot.h"
 #line 202

@@ -1,4 +1,4 @@
-/* The slides' march through distance cube maps. */
+/* The march through distance cube maps of the Mafia III talk. */
 PASS("March along the chain", "Mafia III talk, Cube-map tracing pseudo-code")
 #include "slot.h"
 #include "march_rows.h"
@@ -7,4 +7,4 @@ OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
 DISPATCH_LIST(cubemap_list)
 ALONG_RAYS(cocoon_distance, normal_jittered)
 ALONG_RAYS(cocoon, normal_jittered)
-PUSH(float, max_roughness, 1.0, 0.0, 1.0, "1", "glint", "rougher surfaces are not marched but looked up in their direction; 1: all are")
+PUSH(float, max_roughness, 1.0, 0.0, 1.0, "1", "glint", "surfaces rougher than this are not marched but sampled by direction; 1: all are marched")

@@ -1,4 +1,4 @@
-/* Where the rays of opaque surfaces ended; of every pass that resolves them. */
+/* Where the rays of opaque surfaces ended. */
 #line 252
 READ(utexture2D, screen_finished)
 READ(texture2D, travelled)

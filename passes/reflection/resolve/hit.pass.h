@@ -1,4 +1,4 @@
-/* One colour at the end of each ray: the diffuse picture for screen hits, the cube maps for the others. */
+/* One colour at the end of each ray: from the diffuse picture for screen hits, else from the cube maps. */
 PASS("Colour at the hit", "Mafia III talk, Color resolve shaders")
 #include "slot.h"
 OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)

@@ -1,5 +1,5 @@
-/* What a hit on screen shows is looked up in the previous frame, where the hit's motion leads; where that point was hidden or
-   outside of the picture, in the cube maps. */
+/* Screen hits sample the previous frame, reprojected by the hit's motion; where that point was occluded or outside the
+   picture, they sample the cube maps. */
 PASS("Colour of the previous frame", "Mafia DE article, Global Illumination; Stochastic Sampling")
 #include "slot.h"
 OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
@@ -7,5 +7,5 @@ OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
 #include "sources.h"
 #include "before_rows.h"
 #line 352
-DIAGNOSTIC(uimage2D, previous_source, R8UI, "1", HALF, "source", 0, "where a hit on screen found its colour: 1: in the previous frame, 2: its point was outside of the picture or behind the camera, 3: it was hidden; 0: no hit on screen")
+DIAGNOSTIC(uimage2D, previous_source, R8UI, "1", HALF, "source", 0, "source of a screen hit's colour: 1: the previous frame; 2: none there, the point was outside the picture or behind the camera; 3: none there, it was occluded; 0: no screen hit")
 ALONG_RAYS(cubemap_color, normal_jittered)

@@ -1,4 +1,4 @@
-/* The nearest of a block's pixels, and a ray from its lobe. */
+/* Picks the nearest surface of a block, and draws a ray from its lobe. */
 PASS("Nearest of the block", "Mafia DE article, Transparency and Glows; Stochastic Sampling")
 #include "slot.h"
 #include "prepare/downsample/jitter.h"

@@ -1,4 +1,4 @@
-/* As resolve/previous: a hit on screen is looked up in the previous frame, or in the cube map nearest to it. */
+/* As resolve/previous: screen hits sample the previous frame, or the cube map nearest to the hit. */
 PASS("Colour of the previous frame", "Mafia DE article, Transparency and Glows; Global Illumination")
 #include "slot.h"
 #include "reflection/resolve/sources.h"

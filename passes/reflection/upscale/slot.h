@@ -9,7 +9,7 @@ READ(texture2D, normal_half)
 READ(utexture2D, pick)
 READ(texture2D, depth_full)
 READ(texture2D, normal_full)
-WRITE(image2D, reflection, RGBA16F, "radiance", FULL, "R G B A", 0, "the last half-resolution reflection at full resolution")
+WRITE(image2D, reflection, RGBA16F, "radiance", FULL, "R G B A", 0, "the final half-resolution reflection at full resolution")
 NEEDS(reflecting)
 #include "shared/tile_rows.h"
 #include "shared/shown_rows.h"

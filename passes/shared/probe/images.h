@@ -1,4 +1,4 @@
-/* Images that are looked at for a probed pixel, read by C and GLSL. The place in the list is the value. */
+/* Images that the records of a probed pixel name, read by C and GLSL. The place in the list is the value. */
 PROBE_IMAGE(cubemap_distance)
 PROBE_IMAGE(cubemap_distance_mips)
 PROBE_IMAGE(cocoon_distance)
@@ -23,4 +23,4 @@ PROBE_IMAGE(composed)
 PROBE_IMAGE(composed_water)
 PROBE_IMAGE(water_color)
 PROBE_IMAGE(transparent_color)
-PROBE_IMAGE(mixture) /* no image: what was mixed in the steps before */
+PROBE_IMAGE(mixture) /* no image: the result of the samples before */
