@@ -13,7 +13,8 @@ enum { DEPTH_MAX = 16, TEXT_MAX = 1 << 22, PATH_SIZE = 1024 };
 struct flatten {
     char *text;
     size_t size, capacity;
-    const char *slot, *folder;
+    const char *pass_folder; /* the pass's own under passes/, "reflection/blur" */
+    const char *folder;
     bool versioned; /* #version, which must come first, has been seen */
     bool foreign;   /* something came from the folder */
 };
@@ -125,8 +126,8 @@ static bool flatten_include(struct flatten *out, const char *file, size_t line, 
         return flatten_disk(out, path, depth + 1, err);
     if (!on_disk && beside(path, file, name) && is_pass_file(out, path))
         return flatten_pass_file(out, path, depth + 1, err);
-    if (on_disk && snprintf(in_slot, sizeof in_slot, "%s/", out->slot) < PATH_SIZE && beside(path, in_slot, name) &&
-        is_pass_file(out, path))
+    if (on_disk && snprintf(in_slot, sizeof in_slot, "%s/", out->pass_folder) < PATH_SIZE &&
+        beside(path, in_slot, name) && is_pass_file(out, path))
         return flatten_pass_file(out, path, depth + 1, err);
     if (is_pass_file(out, name)) return flatten_pass_file(out, name, depth + 1, err);
     return glint_fail(err, GLINT_ERROR_USAGE, "%s:%zu: include \"%s\" not found beside the file nor among the passes",
@@ -167,16 +168,17 @@ static char *finished(struct flatten *out, bool ok, const char *path, struct gli
     return NULL;
 }
 
-char *shader_flatten(const char *path, const char *slot, const char *folder, struct glint_error *err) {
-    struct flatten out = {.slot = slot, .folder = folder};
+char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err) {
+    struct flatten out = {.pass_folder = pass->folder ? pass->folder : "", .folder = folder};
     return finished(&out, flatten_disk(&out, path, 0, err), path, err);
 }
 
 char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, struct glint_error *err) {
-    struct flatten out = {.slot = pass->slot, .folder = folder};
+    struct flatten out = {.pass_folder = pass->folder, .folder = folder};
     char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s.comp", pass->slot, pass->variant);
-    if (!folder || !is_pass_file(&out, path)) return NULL;
+    if (!folder || !pass->folder) return NULL;
+    snprintf(path, sizeof path, "%s/%s.comp", pass->folder, pass->variant);
+    if (!is_pass_file(&out, path)) return NULL;
     const bool ok = flatten_pass_file(&out, path, 0, err);
     if (!ok || out.foreign) return finished(&out, ok, path, err);
     free(out.text);

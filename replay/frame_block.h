@@ -6,7 +6,7 @@
 
 #include "glint/capture.h"
 
-/* std140, as passes/shared/bindings.glsl declares it: column-major matrices. */
+/* std140, as passes/shared/interface.glsl declares it: column-major matrices. */
 typedef struct {
     float column[4][4];
 } mat4;

@@ -1,4 +1,4 @@
-/* Probed pixels: where the shaders write their steps (passes/probe/tell.glsl), and how they are read again. */
+/* Probed pixels: where the shaders write their steps (passes/shared/probe/tell.glsl), and how they are read again. */
 #include "glint/probe.h"
 
 #include <math.h>
@@ -14,14 +14,14 @@ enum { HEADER_WORDS = 3, RECORD_WORDS = 16, FIRST_VALUE = 4, MOST_RECORDS = 1 <<
 static const struct glint_probe_row rows[] = {
 #define PROBE(kind, title) {#kind, NULL, title},
 #define VALUE(value, unit_, meaning) {#value, unit_, meaning},
-#include "probe/steps.h"
+#include "shared/probe/steps.h"
     {NULL, NULL, NULL}};
 #undef PROBE
 #undef VALUE
 static const uint32_t lines[] = {
 #define PROBE(kind, title) __LINE__,
 #define VALUE(value, unit_, meaning) __LINE__,
-#include "probe/steps.h"
+#include "shared/probe/steps.h"
 };
 
 static const struct glint_probe_row *kind_of(uint32_t line) {
@@ -49,7 +49,7 @@ bool glint_probe_is(const struct glint_probe_record *record, const char *kind) {
 static const struct glint_probe_word decisions[] =
     {
 #define DECISION(name, text) {#name, text},
-#include "probe/decisions.h"
+#include "shared/probe/decisions.h"
         {NULL, NULL}},
                                      ends[] =
                                          {
@@ -59,7 +59,7 @@ static const struct glint_probe_word decisions[] =
                                      images[] =
                                          {
 #define PROBE_IMAGE(name) {#name, #name},
-#include "probe/images.h"
+#include "shared/probe/images.h"
                                              {NULL, NULL}},
                                      faces[] = {{"+X", "+X"}, {"-X", "-X"}, {"+Y", "+Y"}, {"-Y", "-Y"},
                                                 {"+Z", "+Z"}, {"-Z", "-Z"}, {NULL, NULL}};

@@ -41,7 +41,7 @@ static const uint32_t *next_op(const struct spirv *spirv, const uint32_t *op) {
 }
 
 static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
-    if (set == 1) return binding <= 3; /* passes/shared/bindings.glsl */
+    if (set == 1) return binding <= 3; /* passes/shared/interface.glsl */
     for (size_t r = 0; set == 0 && r < pass->row_count; r++)
         if (row_is_image(&pass->rows[r]) && pass->rows[r].id == binding) return true;
     return false;
@@ -65,7 +65,7 @@ bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pa
     return ok;
 }
 
-/* The variable of set 1 with this binding (passes/shared/bindings.glsl); 0: none. */
+/* The variable of set 1 with this binding (passes/shared/interface.glsl); 0: none. */
 static uint32_t find_common(const struct spirv *spirv, uint32_t binding) {
     uint32_t found = 0;
     for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op)) {

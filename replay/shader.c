@@ -106,7 +106,7 @@ bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipel
                 struct glint_error *err) {
     const struct glint_pass *pass = entry->pass;
     struct glint_error own = {0};
-    char *code = entry->shader ? shader_flatten(entry->shader, pass->slot, shaders->folder, &own)
+    char *code = entry->shader ? shader_flatten(entry->shader, pass, shaders->folder, &own)
                                : shader_flatten_pass(pass, shaders->folder, &own);
     *spirv = (struct spirv){.words = pass->spirv, .bytes = pass->spirv_bytes, .tiles = true};
     if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);

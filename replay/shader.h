@@ -40,7 +40,7 @@ void spirv_find_uses(struct spirv *spirv);
 /* flatten.c: a shader's text with every include in place, and #line directives that keep files and lines as the author
    sees them. The caller frees it. What is not beside the user's file comes from `folder` (or NULL), else from what is
    built in. */
-char *shader_flatten(const char *path, const char *slot, const char *folder, struct glint_error *err);
+char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err);
 /* The same of a pass; NULL without an error when nothing of it comes from the folder. */
 char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, struct glint_error *err);
 

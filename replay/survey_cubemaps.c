@@ -74,7 +74,7 @@ static uint8_t six_bits(const uint32_t *words, uint32_t place) {
 
 static bool follow_rays(struct glint_replay *replay, const struct pipeline_pass *maker, uint32_t count,
                         const struct glint_replay_options *options, struct glint_error *err) {
-    static const char *const outputs[] = {"ray_ways", NULL};
+    static const char *const outputs[] = {"reached_faces", NULL};
     struct pipeline_pass passes[] = {*maker, {.pass = glint_pass_find("survey", "reach")}};
     struct glint_survey *survey = &replay->survey;
     uint32_t *words = survey_run(replay, passes, 2, outputs, options, &replay->followed_time, err);

@@ -9,8 +9,8 @@ import tempfile
 
 LONGEST = 500
 # What filters them itself, and passes that go over every texel of a face in every plan.
-WHOLE_FACES = {"passes/shared/cube_filter.glsl", "passes/shared/cube_chain.glsl", "passes/cocoon/max.comp",
-               "passes/cubemap_convert/dual_paraboloid.comp"}
+WHOLE_FACES = {"passes/shared/cube_filter.glsl", "passes/shared/cube_chain.glsl", "passes/prepare/cocoon/max.comp",
+               "passes/prepare/cubemap_convert/dual_paraboloid.comp"}
 
 
 def sources():
@@ -51,8 +51,11 @@ for f in files:
     for n, line in enumerate(lines, 1):
         if line.rstrip() != line:
             faults.append(f"{f}:{n}: trailing space")
-includes = [a for d in ("capture-format", "passes", "replay", "samples") for a in ("-I", f"{d}/include")]
-for h in (f for f in files if "/include/glint/" in f):
+generated = tempfile.TemporaryDirectory()
+os.mkdir(os.path.join(generated.name, "glint"))
+subprocess.run([sys.executable, "passes/table.py", "rows", os.path.join(generated.name, "glint/row_kinds.h")], check=True)
+includes = [a for d in ("capture-format", "passes", "replay", "samples") for a in ("-I", f"{d}/include")] + ["-I", generated.name]
+for h in (f for f in files if "/include/glint/" in f and f.endswith(".h")):
     for command in (["gcc", "-std=c11"], ["g++", "-std=c++17", "-x", "c++"]):
         with tempfile.NamedTemporaryFile("w", suffix=".c") as unit:
             unit.write(f'#include "{os.path.abspath(h)}"\n')

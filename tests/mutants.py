@@ -184,7 +184,7 @@ def try_host(row, folder, build):
     """What runs on the host is linked into its test anew."""
     program = f"{folder}/{HOST_TEST}"
     archives = sorted(str(p) for p in (build / "passes").glob("*.a")) + sorted(str(p) for p in (build / "capture-format").glob("*.so"))
-    subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I",
+    subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I", build / "passes/include", "-I",
                     ROOT / "capture-format/include", "-o", program, ROOT / f"tests/passes/{HOST_TEST}.c", write_mutant(row, folder), *archives,
                     f"-Wl,-rpath,{build / 'capture-format'}", "-lcmocka", "-lm"], check=True)
     return Program(HOST_TEST, [program]).run(folder, AT_LEAST_S)
@@ -197,7 +197,7 @@ OUTCOME = ("verdict", "by", "failed", "seconds", "untried")
 
 
 def slot_of(file):
-    return file if file.startswith("shared/") else file.split("/")[0]
+    return file if file.startswith("shared/") else file.split("/")[-2]
 
 
 def likeliest(programs, file, told):
@@ -205,7 +205,7 @@ def likeliest(programs, file, told):
     far, that a second of theirs notices."""
     def is_own(program):
         words = {"shared": "functions", "temporal": "time", "temporal_sharp": "time", "screen_trace": "geometry", "cubemap_trace": "geometry"}
-        slot = file.split("/")[0]
+        slot = "shared" if file.startswith("shared/") else file.split("/")[-2]
         return slot in program.name or words.get(slot, slot) in program.name
 
     def chance(program):

@@ -83,7 +83,7 @@ def of_record(record):
              f"{late} were noticed by taking {mutant_rows.SLOWER} times as long as unchanged sources and half a minute at least. In all "
              f"{sum(m.get('seconds', 0) for m in mutants) / 60:.0f} minutes of processor time, after {sum(c['seconds'] for c in record['control'].values()) / 60:.0f} "
              f"for unchanged sources; sources {record['sources']}.\n",
-             table(["slot", "mutants", "noticed", ""], grouped(mutants, lambda m: {p.split("/")[0] for p in m["passes"]} if not m["file"].startswith("shared/")
+             table(["slot", "mutants", "noticed", ""], grouped(mutants, lambda m: {p.split("/")[-2] for p in m["passes"]} if not m["file"].startswith("shared/")
                                                               else {"shared"})),
              table(["what was changed", "mutants", "noticed", ""], grouped(mutants, lambda m: [m["operator"]])),
              table(["noticed first by", "mutants"], [[f"`{name}`", str(n)] for name, n in

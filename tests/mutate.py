@@ -7,6 +7,7 @@ import random
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 import mechanism_rows
@@ -14,8 +15,8 @@ from pages import preset
 
 SEED = 7
 SHARE, FEWEST, MOST = 0.015, 1, 2  # mutants of a file, as a part of what could be made of it
-# Not functions: what declarations become, and lists of rows.
-LEFT_OUT = ("shared/bindings.glsl", "shared/push_begin.glsl", "shared/end_reasons.glsl")
+# Not functions: constants that the host sets, and lists of rows.
+LEFT_OUT = ("shared/interface.glsl", "shared/end_reasons.glsl")
 
 TOKEN = re.compile(r"""(?P<skip>\s+|//[^\n]*|/\*.*?\*/|\#(?:\\\n|[^\n])*)|(?P<text>"(?:\\.|[^"\\])*")|(?P<word>[A-Za-z_]\w*)
     |(?P<number>0[xX][0-9a-fA-F]+[uU]?|(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?[uUfF]?)
@@ -179,11 +180,16 @@ class Tree:
 
     def __init__(self, root):
         self.root = pathlib.Path(root)
-        paths = sorted(p for kind in ("*/*.comp", "*/*.glsl", "*/*.c") for p in self.root.glob(kind))
+        paths = sorted(p for kind in ("*.comp", "*.glsl", "*.c") for p in self.root.rglob(kind))
         self.sources = {p.relative_to(root).as_posix(): Source(p.relative_to(root).as_posix(), p.read_text()) for p in paths}
         self.mutable = [f for f in self.sources if f not in LEFT_OUT]
         self.closures = {f: self.closure(f) for f in self.sources if not f.endswith(".glsl")}
         self.codes = {}
+        self.generated = tempfile.TemporaryDirectory()  # what the build makes of passes/row_kinds.py
+        made = [pathlib.Path(self.generated.name) / f for f in ("shared/bindings.glsl", "shared/push_begin.glsl", "glint/row_kinds.h")]
+        for path in made:
+            path.parent.mkdir(exist_ok=True)
+        subprocess.run([sys.executable, self.root / "table.py", "rows", *made], check=True)
 
     def closure(self, file):
         found, left = set(), [file]
@@ -196,6 +202,10 @@ class Tree:
                 beside = (pathlib.PurePosixPath(name).parent / other).as_posix()
                 left.append(beside if beside in self.sources else other)
         return found
+
+    def shader(self, slot, variant):
+        """The file of a pass, whatever effect it belongs to; None when there is no such pass."""
+        return next((f for f in self.closures if f.split("/")[-2:] in ([slot, f"{variant}.comp"], [slot, f"{variant}.c"])), None)
 
     def passes_with(self, file):
         """Passes that have the file in them."""
@@ -214,7 +224,7 @@ class Tree:
         """A shader's code without what it does not call, None when it does not compile."""
         with tempfile.TemporaryDirectory() as out:
             spirv, plain = f"{out}/a.spv", f"{out}/b.spv"
-            done = subprocess.run(["glslangValidator", "--quiet", "--target-env", "vulkan1.3", f"-I{folder}", "-o", spirv, f"{folder}/{name}.comp"],
+            done = subprocess.run(["glslangValidator", "--quiet", "--target-env", "vulkan1.3", f"-I{folder}", f"-I{self.generated.name}", "-o", spirv, f"{folder}/{name}.comp"],
                                   capture_output=True)
             if done.returncode:
                 return None
@@ -227,7 +237,7 @@ class Tree:
         path.write_text(self.changed(mutant))
         try:
             if mutant.file.endswith(".c"):
-                done = subprocess.run(["cc", "-std=c11", "-fsyntax-only", f"-I{folder}/include", f"-I{self.root}/../capture-format/include",
+                done = subprocess.run(["cc", "-std=c11", "-fsyntax-only", f"-I{folder}/include", f"-I{self.generated.name}", f"-I{self.root}/../capture-format/include",
                                        path], capture_output=True)
                 return "does not compile" if done.returncode else "alive"
             for name in self.passes_with(mutant.file):
@@ -269,11 +279,10 @@ def mechanism_places(tree):
         slots = preset("mafia3")["slots"]
         slots.update(w.split("=") for s in both for w in re.findall(r"use (\S+=\S+)", s))
         for slot in re.findall(r"use (\w+)=", off):
-            shader = f"{slot}/{slots.get(slot)}.comp"
-            places[name_of(row)].append(({f for f in tree.closures.get(shader, ()) if f.startswith(slot + "/")}, None))
+            shader = tree.shader(slot, slots.get(slot))
+            places[name_of(row)].append(({f for f in tree.closures.get(shader, ()) if f.split("/")[-2] == slot}, None))
         for slot, parameter in re.findall(r"set (\w+)\.(\w+)=", off):
-            shader = next(f for f in tree.closures if f.rsplit(".", 1)[0] == f"{slot}/{slots[slot]}")
-            places[name_of(row)].append((tree.closures[shader], {parameter}))
+            places[name_of(row)].append((tree.closures[tree.shader(slot, slots[slot])], {parameter}))
     for mechanism, where in places.items():
         if not any(is_in(tree, m, where) for files, _ in where for f in files for m in tree.sources[f].mutants()):
             places[mechanism] = [(files, words.union(*(made_from(tree.sources[f], w) for f in files for w in words))) for files, words in where]

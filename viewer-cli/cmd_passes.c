@@ -18,7 +18,8 @@ static const struct argp_option options[] = {
     {0},
 };
 static const struct example examples[] = {
-    {"glint passes", "list all slots and variants"},
+    {"glint passes", "list all slots and variants, effect by effect"},
+    {"glint passes reflection", "every pass of an effect"},
     {"glint passes screen_trace", "images and parameters of every variant of a slot"},
     {"glint passes cubemap_trace/march", "one variant"},
     {"glint passes --markdown > passes.md", "the whole handbook"},
@@ -37,16 +38,17 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
         a->markdown = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->what) argp_error(state, "one slot at a time: %s and %s", a->what, arg);
+        if (a->what) argp_error(state, "one effect, slot or variant at a time: %s and %s", a->what, arg);
         a->what = arg;
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
 }
 
-/* "screen_trace" takes every variant, "screen_trace/linear" one, NULL all. */
+/* "reflection" takes every pass of the effect, "screen_trace" every variant of the slot, "screen_trace/linear" one pass,
+   NULL all. */
 static bool selected(const struct glint_pass *pass, const char *what) {
-    if (!what) return true;
+    if (!what || !strcmp(pass->effect, what)) return true;
     size_t slot = strcspn(what, "/");
     if (strlen(pass->slot) != slot || memcmp(pass->slot, what, slot) != 0) return false;
     return !what[slot] || !strcmp(pass->variant, what + slot + 1);
@@ -69,7 +71,7 @@ static void print_inputs(const struct glint_pass *pass, bool markdown) {
     struct table *table = table_create(titles);
     for (size_t i = 0; i < pass->row_count; i++) {
         if (pass->rows[i].kind != GLINT_ROW_READ) continue;
-        const char *slot = "nowhere yet";
+        const char *slot = "no pass";
         const struct glint_row *image = image_find(pass->rows[i].name, &slot);
         table_cell(table, "%s", pass->rows[i].name);
         table_cell(table, "%s", slot);
@@ -103,7 +105,7 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
 static void add_parameter(struct table *table, const struct glint_pass *pass, const struct glint_row *row,
                           bool markdown) {
     char *names = row->choices ? join_names("", row->choices) : NULL;
-    const char *assumed = glint_pass_assumes(pass, row) ? " (assumed: the data do not say it)" : "";
+    const char *assumed = glint_pass_assumes(pass, row) ? " (assumed: captures do not contain it)" : "";
     if (markdown) table_cell(table, "%s.%s", pass->slot, row->name);
     else table_cell(table, "%s", row->name);
     if (markdown) table_cell(table, "%s", row_type(row));
@@ -163,8 +165,8 @@ static void print_reference(const struct glint_pass *pass) {
 
 static void print_pass(const struct glint_pass *pass, const char *previous_slot, bool markdown) {
     if (!previous_slot || strcmp(previous_slot, pass->slot) != 0)
-        printf(markdown ? "## `%s`\n\n%s.\n\n" : "%s: %s\n\n", pass->slot, slot_title(pass));
-    printf(markdown ? "### `%s/%s`\n\n%s. Source: %s.\n\n" : "%s/%s: %s (source: %s)\n\n", pass->slot, pass->variant,
+        printf(markdown ? "### `%s`\n\n%s.\n\n" : "%s: %s\n\n", pass->slot, slot_title(pass));
+    printf(markdown ? "#### `%s/%s`\n\n%s. Source: %s.\n\n" : "%s/%s: %s (source: %s)\n\n", pass->slot, pass->variant,
            pass->title, pass->source);
     bool any = false;
     for (size_t i = 0; i < pass->row_count; i++) {
@@ -239,27 +241,54 @@ static json_t *pass_json(const struct glint_pass *pass) {
         else if (row_is_parameter(row)) json_array_append_new(parameters, parameter_json(pass, row));
         else if (row->kind == GLINT_ROW_NEEDS) json_array_append_new(needs, json_string(row->name));
     }
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "slot", pass->slot, "variant",
-                     pass->variant, "slot_title", slot_title(pass), "title", pass->title, "source", pass->source,
-                     "host", pass->host != NULL, "needs", needs, "reads", reads, "writes", writes, "parameters",
-                     parameters, "reference", reference_json(pass));
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "effect", pass->effect, "slot",
+                     pass->slot, "variant", pass->variant, "slot_title", slot_title(pass), "title", pass->title,
+                     "source", pass->source, "host", pass->host != NULL, "needs", needs, "reads", reads, "writes",
+                     writes, "parameters", parameters, "reference", reference_json(pass));
+}
+
+/* The effect whose name follows `name` in the alphabet, NULL after the last one; NULL asks for the first. */
+static const char *next_effect(const struct glint_pass *passes, size_t count, const char *name) {
+    const char *next = NULL;
+    for (size_t i = 0; i < count; i++)
+        if ((!name || strcmp(passes[i].effect, name) > 0) && (!next || strcmp(passes[i].effect, next) < 0))
+            next = passes[i].effect;
+    return next;
 }
 
 static void print_list(const struct glint_pass *passes, size_t count) {
-    static const char *const titles[] = {"<slot", "<variant", "<what it does", "<source", NULL};
+    static const char *const titles[] = {"<effect", "<slot", "<variant", "<what it does", "<source", NULL};
     struct table *table = table_create(titles);
-    for (size_t i = 0; i < count; i++) {
-        table_cell(table, "%s", passes[i].slot);
-        table_cell(table, "%s", passes[i].variant);
-        table_cell(table, "%s", passes[i].title);
-        table_cell(table, "%s", passes[i].source);
-    }
+    for (const char *effect = NULL; (effect = next_effect(passes, count, effect));)
+        for (size_t i = 0; i < count; i++) {
+            if (strcmp(passes[i].effect, effect) != 0) continue;
+            table_cell(table, "%s", effect);
+            table_cell(table, "%s", passes[i].slot);
+            table_cell(table, "%s", passes[i].variant);
+            table_cell(table, "%s", passes[i].title);
+            table_cell(table, "%s", passes[i].source);
+        }
     table_print(table, stdout);
     table_destroy(&table);
 }
 
+static void print_handbook(const struct glint_pass *passes, size_t count, const char *what, bool markdown) {
+    for (const char *effect = NULL; (effect = next_effect(passes, count, effect));) {
+        const char *slot = NULL;
+        for (size_t i = 0; i < count; i++) {
+            if (strcmp(passes[i].effect, effect) != 0 || !selected(&passes[i], what)) continue;
+            if (!slot && markdown) printf("## Effect `%s`\n\n", effect);
+            print_pass(&passes[i], slot, markdown);
+            slot = passes[i].slot;
+        }
+    }
+}
+
 static bool known(const char *what, struct glint_error *err) {
-    size_t slot = strcspn(what, "/");
+    size_t slot = strcspn(what, "/"), count = 0;
+    const struct glint_pass *passes = glint_passes(&count);
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(passes[i].effect, what)) return true;
     if (!check_slot(what, slot, err)) return false;
     if (!what[slot]) return true;
     char assignment[160];
@@ -285,22 +314,17 @@ static enum status run(int argc, char **argv) {
         return STATUS_DONE;
     }
     if (a.markdown && !a.what) puts("# Passes\n\nMade by `glint passes --markdown` from the declarations.\n");
-    const char *slot = NULL;
-    for (size_t i = 0; i < count; i++) {
-        if (!selected(&passes[i], a.what)) continue;
-        print_pass(&passes[i], slot, a.markdown);
-        slot = passes[i].slot;
-    }
+    print_handbook(passes, count, a.what, a.markdown);
     return STATUS_DONE;
 }
 
 const struct command cmd_passes = {
     .name = "passes",
-    .arguments = "[SLOT[/VARIANT]]",
+    .arguments = "[EFFECT|SLOT[/VARIANT]]",
     .summary = "the handbook of passes",
-    .description =
-        "Lists the passes. With a slot or a variant: which images it reads and writes, with unit and meaning, "
-        "and every parameter with default, range, unit and source, as replay --set takes it.",
+    .description = "Lists the passes. With an effect, a slot or a variant: which images it reads and writes, with unit "
+                   "and meaning, "
+                   "and every parameter with default, range, unit and source, as replay --set takes it.",
     .options = options,
     .parse = parse,
     .examples = examples,

@@ -43,7 +43,7 @@ vec2 environment_brdf(float roughness, float cosine) {
     return vec2(kept - grazing, grazing);
 }
 
-// fresnel: what a material makes of the rise towards grazing angles (004, Specular map: fresnel intensity); 0: none.
+// fresnel: what a material makes of the rise towards grazing angles (GTA V article, Specular map: fresnel intensity); 0: none.
 vec3 environment_reflectance(vec3 f0, float roughness, float cosine, float fresnel) {
     vec2 scale = environment_brdf(roughness, cosine);
     vec3 grazing = vec3(reflectance_at_grazing(f0));

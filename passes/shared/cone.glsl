@@ -1,4 +1,4 @@
-// Cones around rays, and the level of a pre-filtered chain that stands for one (000, Pre-filtering cube-maps). A level
+// Cones around rays, and the level of a pre-filtered chain that stands for one (Mafia III talk, Pre-filtering cube-maps). A level
 // stands for the cone whose base has a radius of texel_scale of its texels. Angles are between axis and rim.
 #ifndef GLINT_CONE
 #define GLINT_CONE

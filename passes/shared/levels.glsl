@@ -24,7 +24,7 @@ Footprint footprint(int texel, int size, int finer) {
     return f;
 }
 
-// 000, MIP pre-filtering: taps on the points of a lattice that are no farther than `reach`; 3 makes the slides' 29. The
+// Mafia III talk, MIP pre-filtering: taps on the points of a lattice that are no farther than `reach`; 3 makes the slides' 29. The
 // cone's rim, texel_scale texels away, lies half a step beyond the last.
 bool is_tap(ivec2 point, int reach) { return point.x * point.x + point.y * point.y <= reach * reach; }
 

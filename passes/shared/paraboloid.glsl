@@ -1,7 +1,7 @@
 // Dual paraboloids (W. Heidrich, H.-P. Seidel, View-Independent Environment Maps, 1998). A paraboloid mirror about the z axis
 // shows the direction d at the place d.xy / (1 + d.z): the pole in the middle, the equator at radius 1, and what lies beyond
 // it outside of the disc, where the other hemisphere has it at 1 / radius. A piece of the plane spans 4 / (1 + r²)² of its
-// area as solid angle: a texel at the pole four times that of one at the rim, against what 004 says of its details.
+// area as solid angle: a texel at the pole four times that of one at the rim, against what the GTA V article says of its details.
 #ifndef GLINT_PARABOLOID
 #define GLINT_PARABOLOID
 #include "shared/constants.glsl"

@@ -1,4 +1,4 @@
-// The "+" pattern (000, Modified NDF): five classes of pixels, so that every pixel and its four neighbours hold one of each.
+// The "+" pattern (Mafia III talk, Modified NDF): five classes of pixels, so that every pixel and its four neighbours hold one of each.
 // x + 2y mod 5 does it: the neighbours add 1, -1, 2 and -2. A pixel's class repeats at the centres of the four pluses
 // around its own, which together with it cover 25 pixels once.
 #ifndef GLINT_PLUS

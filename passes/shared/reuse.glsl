@@ -4,7 +4,7 @@
 #include "shared/constants.glsl"
 #include "shared/stable.glsl"
 
-// How far the lobes of two surfaces agree (000, Neighbor sample reuse): the lobe's value cosⁿ at the other one's unjittered
+// How far the lobes of two surfaces agree (Mafia III talk, Neighbor sample reuse): the lobe's value cosⁿ at the other one's unjittered
 // normal, 1 for equal normals and 0 where roughness differs by more than `difference`. Both: unit normal, w: roughness.
 // n = 2/r⁴ - 2; 1 - cos is half the squared difference of the normals, which does not cancel.
 float lobe_agreement(vec4 surface, vec4 other, float difference) {

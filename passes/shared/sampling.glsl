@@ -5,7 +5,7 @@
 #include "shared/constants.glsl"
 #include "shared/stable.glsl"
 
-// Blinn-Phong power n = 2/r⁴ - 2 of a roughness (000, Combining importance sampling with pre-filtering: 0.5 is 30). As
+// Blinn-Phong power n = 2/r⁴ - 2 of a roughness (Mafia III talk, Combining importance sampling with pre-filtering: 0.5 is 30). As
 // 2 (1 - r⁴)/r⁴ with 1 - r⁴ in factors, which do not cancel near 1.
 float power_from_roughness(float roughness) {
     float r2 = roughness * roughness;
@@ -20,7 +20,7 @@ float lobe_angle(float roughness, float threshold) {
     return angle_from_versine(-expm1(log(threshold) * r4 / (2.0 - 2.0 * r4)));
 }
 
-// Half-vector with density ∝ cosⁿ per solid angle, cut at share · lobe_angle (000, Modified NDF):
+// Half-vector with density ∝ cosⁿ per solid angle, cut at share · lobe_angle (Mafia III talk, Modified NDF):
 // θ = acos(rnd^(1/(n+1))) with rnd scaled into [minRnd, 1), minRnd = cos(share · angle)^(n+1). share = 1 cuts nothing.
 // Deviation: what is computed is 1 - minRnd, 1 - rnd and 1 - cos θ, so that θ is right for any power.
 vec3 sample_blinn_phong(vec2 u, float roughness, float share, float threshold) {

@@ -1,4 +1,4 @@
-/* What says whether a pixel's reflection is shown at all. Next include of a pass that does not read these otherwise. */
+/* What decides whether a pixel's reflection is visible at all, for passes that do not read these images otherwise. */
 #line 52
 READ(texture2D, albedo_full)
 READ(texture2D, specular_full)

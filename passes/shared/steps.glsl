@@ -3,7 +3,7 @@
 #define GLINT_STEPS
 #include "shared/stable.glsl"
 
-// First of `count` steps with ratio k that sum to `total` (000, ComputeInitialStep): total (k - 1)/(k^count - 1).
+// First of `count` steps with ratio k that sum to `total` (Mafia III talk, ComputeInitialStep): total (k - 1)/(k^count - 1).
 precise float geometric_first_step(float total, float ratio, int count) {
     float x = log1p(ratio - 1.0);
     if (x == 0.0) return total / float(count);

@@ -1,3 +1,3 @@
-/* The tiles that a pass with rows DISPATCH_TILES is run over; without them, over the whole image. */
+/* The tiles that a pass with a row DISPATCH_TILES covers; without a list it covers the whole image. */
 #line 42
 OPTIONAL_READ(utextureBuffer, tile_list, R32UI, TILES, 0xFFFFFFFFu)

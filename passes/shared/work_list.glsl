@@ -1,4 +1,4 @@
-// Which pixel an invocation works on: by its place in the picture, or from a list of pixels (see bindings.glsl).
+// Which pixel an invocation works on: by its place in the picture, or from a list of pixels (see DISPATCH_LIST in row_kinds.py).
 #ifndef GLINT_WORK_LIST
 #define GLINT_WORK_LIST
 const uint NO_ITEM = 0xFFFFFFFFu; // fills up a class to whole workgroups

@@ -14,7 +14,7 @@
 #define LEAST(name, meaning) COUNT(name, 1, meaning)
 #define MOST(name, meaning) COUNT(name, 1, meaning)
 #line 0
-#include "survey/figures.h"
+#include "figures.h"
 #undef COUNT
 #undef LEAST
 #undef MOST
@@ -28,7 +28,7 @@ uint kind_of(int figure) {
 #define COUNT(name, bins, meaning)
 #define LEAST(name, meaning) if (figure == at_##name) return LOWEST;
 #define MOST(name, meaning) if (figure == at_##name) return HIGHEST;
-#include "survey/figures.h"
+#include "figures.h"
     return COUNTED;
 }
 

@@ -79,7 +79,7 @@ void join_tiles(uvec2 tiles) {
         own |= texelFetch(partial, LIST_ITEMS + int(8u * tile + word)).x;
     if (own != 0u) atomicOr(faces[word], own);
     barrier();
-    if (gl_LocalInvocationIndex == 0u) imageStore(ray_ways, ivec2(word, 0), uvec4(faces[word]));
+    if (gl_LocalInvocationIndex == 0u) imageStore(reached_faces, ivec2(word, 0), uvec4(faces[word]));
 }
 
 void main() {
@@ -90,7 +90,7 @@ void main() {
     if (dispatch_phase == 0u) {
         follow_block(BLOCK * ivec2(gl_GlobalInvocationID.xy));
         barrier();
-        if (lane < 8u) imageStore(tile_ways, LIST_ITEMS + int(8u * workgroup_index() + lane), uvec4(faces[lane]));
+        if (lane < 8u) imageStore(tile_faces, LIST_ITEMS + int(8u * workgroup_index() + lane), uvec4(faces[lane]));
     } else {
         uvec2 tile = uint(BLOCK) * gl_WorkGroupSize.xy;
         join_tiles((frame.size.xy + tile - 1u) / tile);

@@ -94,7 +94,7 @@ static void a_cone_chooses_between_boxes(void **state) {
         gpu->float_precision = true;
         gpu_set(gpu, "downsample.share=0");
         gpu_use(gpu, "blur=mips");
-        gpu_set(gpu, w ? "blur.widest=0.05" : "blur.widest=0.25");
+        gpu_set(gpu, w ? "blur.max_width=0.05" : "blur.max_width=0.25");
         gpu_shader(gpu, "resolve", "stand_in.comp");
         gpu_set(gpu, "resolve.texel_scale=2");
         gpu_run(gpu);

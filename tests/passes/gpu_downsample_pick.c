@@ -240,7 +240,7 @@ static void odd_borders_are_worth_what_their_pixels_are(void **state) {
     gpu_load(gpu, "odd");
     gpu_reset(gpu);
     gpu_use(gpu, "downsample=bilinear");
-    gpu_set(gpu, "downsample.least_weight=0.5");
+    gpu_set(gpu, "downsample.min_weight=0.5");
     gpu_run(gpu);
     uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
     assert_true(width == 4 && height == 3);

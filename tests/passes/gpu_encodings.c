@@ -1,4 +1,4 @@
-/* A G-buffer as 004 has it, reversed logarithmic depth and glossiness, is marched as the canonical one is: depth reaches the
+/* A G-buffer as the GTA V article has it, reversed logarithmic depth and glossiness, is marched as the canonical one is: depth reaches the
    passes linear, in metres, and down-sampled, and what they step in is its inverse. */
 #include <math.h>
 #include <setjmp.h>

@@ -267,7 +267,7 @@ static void a_users_shader_replaces_the_pass(void **state) {
     snprintf(assignment, sizeof assignment, "resolve=%s", path);
     fixture_run(fixture, &(struct glint_replay_options){.no_cache = true});
     snapshot_take(&built_in, fixture->replay);
-    write_text(path, glint_pass_text("resolve/hit.comp"));
+    write_text(path, glint_pass_text("reflection/resolve/hit.comp"));
     struct glint_pipeline *pipeline = glint_pipeline_create(GLINT_TEST_PRESET, &err);
     assert_true(glint_pipeline_shader(pipeline, assignment, &err));
     const struct glint_replay_options options = {.no_cache = true};

@@ -29,7 +29,7 @@ void pair_use(struct pair *pair, const char *preset) {
     pair->pipeline = glint_pipeline_create(preset, &err);
     pair_check(pair->pipeline != NULL, &err);
     if (strcmp(preset, "reference") != 0) /* a list of tiles, however little it leaves out */
-        pair_check(glint_pipeline_set(pair->pipeline, "classify_tiles.most=1", &err), &err);
+        pair_check(glint_pipeline_set(pair->pipeline, "classify_tiles.max_coverage=1", &err), &err);
     if (glint_pipeline_rays(pair->pipeline) > 1)
         pair_check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
 }
@@ -49,13 +49,15 @@ static bool write_wrong(const struct pair *pair, const char *path, const char *t
 }
 
 void pair_spoil(struct pair *pair, const char *slot, const char *variant, const char *right, const char *wrong) {
-    static const char maker[] = "classify_tiles/maker.glsl";
+    static const char maker[] = "reflection/classify_tiles/maker.glsl";
     struct glint_error err = {0};
     char path[300], assignment[400];
-    snprintf(path, sizeof path, "%s/classify_tiles", pair->fixture->folder);
+    snprintf(path, sizeof path, "%s/reflection", pair->fixture->folder);
     (void)mkdir(path, 0777); /* it may be there */
+    snprintf(path, sizeof path, "%s/reflection/classify_tiles", pair->fixture->folder);
+    (void)mkdir(path, 0777);
     bool found = write_wrong(pair, maker, glint_pass_text(maker), right, wrong);
-    snprintf(path, sizeof path, "%s/%s.comp", slot, variant);
+    snprintf(path, sizeof path, "%s/%s.comp", glint_pass_find(slot, variant)->folder, variant);
     found |= write_wrong(pair, "wrong.comp", glint_pass_text(path), right, wrong);
     assert_true(found);
     snprintf(assignment, sizeof assignment, "%s=%s/wrong.comp", slot, pair->fixture->folder);

@@ -62,7 +62,7 @@ static void every_pass_compiles_to_what_is_built_in(void **state) {
     const struct glint_pass *passes = glint_passes(&count);
     for (size_t i = 0; i < count; i++) {
         char name[128];
-        snprintf(name, sizeof name, "%s/%s.comp", passes[i].slot, passes[i].variant);
+        snprintf(name, sizeof name, "%s/%s.comp", passes[i].folder, passes[i].variant);
         if (!passes[i].spirv) continue;
         assert_non_null(glint_pass_text(name));
         char *path = write_text(state, "copy.comp", glint_pass_text(name));
@@ -201,11 +201,11 @@ static bool find(struct spirv *spirv, struct shaders *from, const char *variant,
     return spirv_find(spirv, from, &pass, err);
 }
 
-static void file_in(const char *folder, const char *slot, const char *name, const char *text) {
+static void file_in(const char *folder, const char *below, const char *name, const char *text) {
     char path[400];
-    snprintf(path, sizeof path, "%s/%s", folder, slot);
+    snprintf(path, sizeof path, "%s/%s", folder, below);
     mkdir(path, 0700);
-    snprintf(path, sizeof path, "%s/%s/%s", folder, slot, name);
+    snprintf(path, sizeof path, "%s/%s/%s", folder, below, name);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fputs(text, file);
@@ -221,13 +221,18 @@ static void files_of_a_folder_stand_in_for_those_built_in(void **state) {
     char folder[200];
     snprintf(folder, sizeof folder, "%s/passes", fixture->folder);
     mkdir(folder, 0700);
+    char effect[250];
+    snprintf(effect, sizeof effect, "%s/reflection", folder);
+    mkdir(effect, 0700);
     if (!shaders_init(&from, folder, &err)) fail_msg("%s", err.message);
-    file_in(folder, "resolve", "hit.comp", START "void main() { imageStore(reflection_half, ivec2(0), vec4(1)); }\n");
+    file_in(folder, "reflection/resolve", "hit.comp",
+            START "void main() { imageStore(reflection_half, ivec2(0), vec4(1)); }\n");
     assert_true(find(&hit, &from, "hit", &err) && find(&previous, &from, "previous", &err));
     assert_non_null(hit.from);
     assert_null(previous.from);
     assert_ptr_equal(previous.words, glint_pass_find("resolve", "previous")->spirv);
-    file_in(folder, "resolve", "hit.comp", START "void main() { imageStore(reflection_half, ivec2(0), vec4(2)); }\n");
+    file_in(folder, "reflection/resolve", "hit.comp",
+            START "void main() { imageStore(reflection_half, ivec2(0), vec4(2)); }\n");
     assert_true(find(&changed, &from, "hit", &err));
     assert_int_not_equal(changed.hash, hit.hash);
     file_in(folder, "shared", "camera.glsl", "\n#error seen\n");

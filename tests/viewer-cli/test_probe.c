@@ -115,7 +115,7 @@ static void a_drawing_has_every_step(void **state) {
     assert_int_equal(count(svg, "<title>"), drawn);
     assert_contains(svg, "pixel 40,45");
     assert_contains(svg, "depth in m, even in 1/z");
-    assert_contains(svg, "in front, goes on");
+    assert_contains(svg, "in front: continues");
     assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
     assert_non_null(json_object_get(json, "reference"));
     json_decref(json);
@@ -128,12 +128,12 @@ static void mixtures_are_told_and_drawn(void **state) {
     (void)state;
     make_capture();
     char *text = glint_ok("probe", CAPTURE, "40,45", "--preset=kf2", "--alone", "-o", in_folder("kf2.svg"));
-    assert_contains(text, "mixes in a place of the picture");
-    assert_contains(text, "how far the reflection is to be trusted");
+    assert_contains(text, "adds a sample of the picture");
+    assert_contains(text, "attenuates the reflection");
     assert_contains(text, "image reflection, share 0.");
     char *svg = read_text(in_folder("kf2.svg"));
     assert_contains(svg, "resolve/blurred: mixes in");
-    assert_contains(svg, "compose/contribution: lays a colour over another");
+    assert_contains(svg, "compose/contribution: blends a colour over another");
     assert_contains(svg, "above: reflection, ");
     assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
     free(svg);

@@ -175,7 +175,7 @@ static int kind_of_tile(const struct kind *kind, uint32_t wide, uint32_t column,
     return has[1] ? has[0] : has[0] ? 2 : 3;
 }
 
-static const char *const with_classes[] = {"classify_tiles=shown", "temporal.least_roughness=0.105", NULL};
+static const char *const with_classes[] = {"classify_tiles=shown", "temporal.min_roughness=0.105", NULL};
 static const char *const whole_texels[] = {"classify_tiles=shown", "downsample.jitter=false", NULL};
 static const char *const half_texels[] = {"classify_tiles=shown", "downsample=pick", "downsample.jitter=false", NULL};
 

@@ -1,4 +1,4 @@
-/* Cases of cubemap_trace/texels.glsl: what the texels of a cube map show between them. */
+/* Cases of reflection/cubemap_trace/texels.glsl: what the texels of a cube map show between them. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -28,7 +28,7 @@ static bool check(struct frames *frames, const struct image_case *which, struct 
     struct painted *c = calloc(1, sizeof *c);
     float *found = NULL;
     char *shader = image_shader("exact",
-                                "#include \"cubemap_trace/texels.glsl\"\n#include \"shared/random.glsl\"\n"
+                                "#include \"reflection/cubemap_trace/texels.glsl\"\n#include \"shared/random.glsl\"\n"
                                 "void main() {\n"
                                 "    ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
                                 "    if (any(greaterThanEqual(at, imageSize(travelled)))) return;\n"

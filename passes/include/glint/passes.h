@@ -1,58 +1,15 @@
-/* What the passes declare, as the host sees it. Built from passes/SLOT/VARIANT.pass.h; nothing is written here twice. */
+/* What the passes declare, as the host sees it. Built from passes/EFFECT/SLOT/VARIANT.pass.h; nothing is written here twice. */
 #ifndef GLINT_PASSES_H
 #define GLINT_PASSES_H
 
 #include <stdint.h>
 
 #include "glint/capture.h"
+#include "glint/row_kinds.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-enum glint_row_kind {
-    GLINT_ROW_PASS,         /* title, source */
-    GLINT_ROW_SLOT,         /* title of the slot */
-    GLINT_ROW_READ,         /* an image that another pass or the capture makes */
-    GLINT_ROW_WRITE,        /* an image that this pass makes */
-    GLINT_ROW_DIAGNOSTIC,   /* an image made only when diagnostics are on; a 1 × 1 stand-in is bound otherwise */
-    GLINT_ROW_CAPTURE,      /* an image that comes from the capture (passes/capture_images.h) */
-    GLINT_ROW_SPEC,         /* a specialization constant */
-    GLINT_ROW_CHOICE,       /* a specialization constant with named values */
-    GLINT_ROW_PUSH,         /* a push constant */
-    GLINT_ROW_DISPATCH,     /* one invocation for each pixel of an image, for cube maps in each face */
-    GLINT_ROW_FACT,         /* a constant: false when the fact does not hold, or nothing reads this image of the pass */
-    GLINT_ROW_NEEDS,        /* a fact the capture must show for the pass to be needed (replay/facts.c lists them);
-                                  image: a parameter of the pass that the fact is about, or NULL */
-    GLINT_ROW_READS_LEVELS, /* reads `image` where the parameter `name` is not 0, though no ray has a cone */
-    GLINT_ROW_PASSES_ON, /* where its facts do not hold, the pass would make `image` of this one, as it is: so the next
-                                  frame finds it, though the pass is dropped */
-    GLINT_ROW_INSTEAD, /* where its facts do not hold, `image` is this one of the capture: one on the device, with both names */
-    GLINT_ROW_SHOWS_ALL, /* while this parameter is off, every surface's reflection is shown, whatever its material */
-    GLINT_ROW_SELF,      /* all levels of an image that this pass writes; `name` is the binding's */
-    GLINT_ROW_HISTORY,   /* what an image held at the end of the previous frame; `name` is the binding's */
-    GLINT_ROW_DISPATCH_LEVELS, /* one dispatch for each of some levels of an image */
-    GLINT_ROW_DISPATCH_LIST,   /* instead of the DISPATCH before it: one invocation for each item of a list, if made */
-    GLINT_ROW_DISPATCH_TILES, /* instead of the DISPATCH before it: over the tiles of tile_list, if made; name: the range
-                                  that the pass is for; image: the parameter that is the class's limit, or NULL */
-    GLINT_ROW_PER_RAY,        /* the slot's passes run once for each ray of a frame */
-    GLINT_ROW_ACCUMULATE,     /* an image that becomes its mean over the rays */
-    GLINT_ROW_WORKGROUP,      /* `first` × `last` invocations make a workgroup; 8 × 8 where no row says so */
-    GLINT_ROW_BLOCKS,         /* on a CPU, an invocation works on `first` × `first` texels */
-    GLINT_ROW_ALONG_RAYS, /* of `name`, cube maps, the pass looks up what lies on the ways of the rays of `image`, an
-                                  image of normals; or, where it makes `name`, that holds the rays of `image` for mirrors */
-    GLINT_ROW_WITHIN,  /* of the dispatch before it: faces that no ray comes nearer to than `first` texels may be left
-                                  out where the image is looked up along rays alone */
-    GLINT_ROW_ASSUMED, /* a parameter that stands for what the capture's data do not say: halved and doubled, it
-                                  tells how far an answer depends on it */
-    GLINT_ROW_RESOLUTION, /* the pipeline's half resolution becomes "full" while this variant is in its slot */
-    /* What the preset `reference` has, and what error is traced back to: each slot has one of the first two. */
-    GLINT_ROW_REFERENCE,      /* this variant is its slot's reference */
-    GLINT_ROW_REFERENCE_NONE, /* the slot's reference is to leave it out; help: why */
-    GLINT_ROW_REFERENCE_SET,  /* a value there that is not the default; image: the slot whose parameter it is. Of
-                                 another slot: that parameter matters to this one alone */
-    GLINT_ROW_REFERENCE_WITH  /* neither this slot nor the one named is exchanged alone; help: why */
-};
 
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
 
@@ -131,6 +88,8 @@ struct glint_host_context;
 typedef bool (*glint_host_pass)(struct glint_host_context *context, struct glint_error *err);
 
 struct glint_pass {
+    const char *effect; /* the family of slots that it belongs to, "reflection": the first folder of its path */
+    const char *folder; /* where its files lie under passes/, "reflection/blur" */
     const char *slot, *variant;
     const char *title, *source;
     const struct glint_row *rows; /* slot.h's rows first or wherever it includes them */

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* A kind of step, or one of its values (passes/probe/steps.h). */
+/* A kind of step, or one of its values (passes/shared/probe/steps.h). */
 struct glint_probe_row {
     const char *name, *unit; /* unit: NULL for a kind */
     const char *text;

@@ -1,5 +1,0 @@
-/* A list block by block: in one dispatch, but with more to start for its readers. */
-PASS("Lists of blocks", "000, Step-by-step recap (stencil mask based on roughness)")
-#include "slot.h"
-#line 202
-DISPATCH(screen_list)

@@ -1,9 +1,0 @@
-/* A tile shows transparent surfaces when one of its pixels does. */
-PASS("Compacted list of tiles", "glint")
-#include "slot.h"
-WORKGROUP(16, 16)
-#line 202
-READ(texture2D, transparent_color)
-SELF(utextureBuffer, marked, transparent_tiles)
-DISPATCH(transparent_tiles)
-DISPATCH(transparent_tiles)

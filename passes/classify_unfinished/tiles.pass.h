@@ -1,7 +1,0 @@
-/* A list ordered by class, compacted by prefix sums over blocks. */
-PASS("Compacted list", "000, Step-by-step recap (stencil mask for SSR finished pixels)")
-#include "slot.h"
-#line 202
-SELF(utextureBuffer, marked, cubemap_list)
-DISPATCH(cubemap_list)
-DISPATCH(cubemap_list)

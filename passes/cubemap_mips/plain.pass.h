@@ -1,9 +1,0 @@
-/* Chains without a pre-filter: each level is the box mean of the finer one. */
-PASS("Box filter", "000, Pre-filtering cube-maps (regular MIP chain)")
-#include "slot.h"
-#line 202
-SELF(texture2DArray, finer_faces, cubemap_color_mips)
-SELF(texture2DArray, finer_distance, cubemap_distance_mips)
-#include "shared/join_rows.h"
-DISPATCH_LEVELS(cubemap_color_mips, 0, -1, down)
-REFERENCE

@@ -1,4 +1,0 @@
-/* The cube map whose centre is nearest to where the screen ray ended. */
-PASS("Nearest centre", "000, Best cube-map selection, GPU")
-#include "slot.h"
-REFERENCE

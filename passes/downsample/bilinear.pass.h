@@ -1,4 +1,0 @@
-/* The mean of each 2x2 block, which the slides warn of: depths between two surfaces, lost detail of normals. */
-PASS("Bilinear", "000, G-buffer down-sampling (what it advises against)")
-#include "slot.h"
-#include "jitter.h"

@@ -1,6 +1,0 @@
-/* One pixel of each 2x2 block, never a mixture. */
-PASS("Edge-aware pick", "000, G-buffer down-sampling and jittering")
-#include "slot.h"
-#include "jitter.h"
-#include "pick_rows.h"
-ALONG_RAYS(normal_jittered, normal_full)

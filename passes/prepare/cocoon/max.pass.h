@@ -1,0 +1,23 @@
+/* Computes a chain of farthest distances downwards, then goes up again with a weighted maximum. */
+PASS("Weighted maximum", "Mafia III talk, Generating cocoon MIP")
+#include "slot.h"
+WORKGROUP(8, 16)
+#line 202
+SELF(textureCubeArray, chain, cocoon_distance)
+SELF(texture2DArray, faces, cocoon_distance)
+FACT(cube_sky)
+SPEC(int,   size,       32,  1,     4096,  "texels", "Mafia III talk, Cocoon cube-map depth MIP", "max width of the level that becomes the cocoon")
+SPEC(int,   reach,      3,   0,     16,    "taps", "Mafia III talk, Weighted MAX (samples not printed)", "radius of the filter: 3 gives 29 taps")
+CHOICE2(maximum, pairs, pairs, samples, "Mafia III talk, Weighted MAX; pairs: glint, chosen by measuring", "what the maximum is taken of. pairs: the mean of two opposite samples, which keeps planes in place; samples: each sample, as in the Mafia III talk")
+SPEC(bool,  cap_sky,    true, 0,    1,     "1", "Mafia III talk, Generating cocoon MIP, upper MIPs", "finer levels use the cocoon's distance where they see sky; off: they stay +inf there")
+PUSH(float, kernel,     3.5, 0.25,  64.0,  "texels", "Mafia III talk, Weighted MAX (specPow not printed)", "radius of the kernel, in texels of the coarser level that is read")
+PUSH(float, threshold,  0.1, 0.001, 0.999, "1", "Mafia III talk, Weighted MAX (specPow not printed)", "weight at that radius, which determines the power of the kernel")
+DISPATCH_LEVELS(cocoon_distance, 1, 1, down)
+DISPATCH_LEVELS(cocoon_distance, 2, -1, down)
+DISPATCH_LEVELS_BY(cocoon_distance, size, 1, 31, up)
+DISPATCH_LEVELS_BY(cocoon_distance, size, 0, 0, up)
+WITHIN(3)
+DISPATCH_LEVELS_BY(cocoon_distance, size, -31, -1, up)
+WITHIN(1)
+DISPATCH(cocoon)
+WITHIN(0)

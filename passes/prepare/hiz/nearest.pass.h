@@ -1,0 +1,7 @@
+/* A cell covers all of its children: sizes are rounded down, and the last cell of a row also covers the remaining texels. */
+PASS("Nearest and farthest depth", "KF2 article, HZB Optimization (nearest depth only)")
+#include "slot.h"
+#line 202
+SELF(texture2D, finer, hiz)
+DISPATCH(depth_slopes)
+DISPATCH_LEVELS(hiz, 1, -1, down)

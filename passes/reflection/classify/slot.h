@@ -1,0 +1,10 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Which rays are traced on screen, by roughness class")
+READ(texture2D, depth_half)
+READ(texture2D, normal_jittered)
+WRITE(uimageBuffer, screen_list, R32UI, "1", LIST, "item", 0xFFFFFFFFu, "pixels that reflect, as x + 65536 y, smooth before rough ones, over the whole image or within each block of 32 x 32 pixels; 0xFFFFFFFF is padding")
+PUSH(float, hq_roughness, 0.1, 0.0, 1.0, "1", "Mafia III talk, Cube-map tracing", "max roughness of a smooth surface; affects only the order of work, not the results")
+NEEDS(reflecting)
+PER_RAY
+REFERENCE_NONE("it only orders work: no result depends on it")

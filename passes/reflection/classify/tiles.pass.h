@@ -1,0 +1,7 @@
+/* Builds one list ordered by class, compacted with prefix sums over blocks. */
+PASS("Compacted list", "Mafia III talk, Step-by-step recap (stencil mask based on roughness)")
+#include "slot.h"
+#line 202
+SELF(utextureBuffer, marked, screen_list)
+DISPATCH(screen_list)
+DISPATCH(screen_list)

@@ -1,0 +1,17 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("The cube map in which each ray starts")
+READ(texture2D, depth_half)
+READ(texture2D, normal_jittered)
+READ(utexture2D, pick)
+READ(texture2D, screen_travelled)
+READ(utexture2D, screen_finished)
+READ(texture2D, active_center)
+WRITE(uimage2D, cubemap_best, R8UI, "place", HALF, "place", 255, "place among the active cube maps; 255: none, or the ray has ended already")
+DISPATCH(cubemap_best)
+DISPATCH_TILES(shown)
+NEEDS(reflecting)
+NEEDS(cubemaps)
+PER_RAY
+#include "shared/tile_rows.h"
+REFERENCE_WITH(cubemap_trace, "the reference traces every cube map, so that the selection does not matter")

@@ -1,0 +1,56 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "march.pass.h"
+#include "shared/push_begin.glsl"
+#include "march.pass.h"
+};
+#include "march.glsl"
+#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
+
+Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
+    uint best = texelFetch(cubemap_best, pixel, 0).x;
+    if (best >= frame.counts.x) return Result(start_m, NO_PLACE, END_no_cubemap, 0u, 0u);
+    if (normal.w > max_roughness) return Result(INFINITE, best, END_fallback, 0u, 0u);
+    vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
+    precise vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    vec3 direction = mirror_direction(origin, normal.xyz);
+    return march(origin, direction, start_m, best, quality_of(normal.w, uvec2(pixel)));
+}
+
+void store(ivec2 pixel, Result result) {
+    probe_texel(pixel);
+    probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
+    imageStore(travelled, pixel, vec4(result.travelled_m));
+    imageStore(cubemap_index, pixel, uvec4(result.place));
+    if (!diagnostics) return;
+    imageStore(cubemap_end, pixel, uvec4(result.end));
+    imageStore(cubemap_steps, pixel, uvec4(result.steps));
+    imageStore(cubemap_fetches, pixel, uvec4(result.fetches));
+}
+
+bool has_ray(ivec2 pixel, out float depth_m, out vec4 normal) {
+    if (texelFetch(screen_finished, pixel, 0).x != 0u) return false;
+    depth_m = texelFetch(depth_half, pixel, 0).x;
+    normal = texelFetch(normal_jittered, pixel, 0);
+    return reflects(depth_m, normal.xyz);
+}
+
+void main() {
+    load_active_centers();
+    ivec2 size = imageSize(travelled);
+    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
+    float depth_m;
+    vec4 normal;
+    bool traced = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    if (!traced && inside(pixel, size))
+        store(pixel, Result(texelFetch(screen_travelled, pixel, 0).x, NO_PLACE, END_not_traced, 0u, 0u));
+    if (has_list()) {
+        pixel = listed_pixel(cubemap_list);
+        traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    }
+    if (traced) probe_texel(pixel);
+    if (traced) store(pixel, trace(pixel, depth_m, normal, texelFetch(screen_travelled, pixel, 0).x));
+}

@@ -1,0 +1,65 @@
+// Colour at the end of a ray on screen, as the previous frame showed it. Next include of a pass with the rows of before_rows.h.
+#include "color.glsl"
+
+const uint SHOWN = 1u, OUTSIDE = 2u, HIDDEN = 3u;
+
+bool of_frame(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
+
+// Where the end of the ray was seen in the previous frame, and how deep it lay; +inf for the sky. Depth 0: behind the camera.
+vec3 place_before(Ray ray) {
+    vec3 now = mat3(frame.view_from_world) * ray.end;
+    float front = frame.depth_range.w;
+    vec3 then = (frame.previous_view_from_world * vec4(ray.end, ray.endless ? 0.0 : 1.0)).xyz;
+    float depth_m = then.z * front;
+    if (!(depth_m > 0.0)) return vec3(0.0);
+    vec2 uv = project(then, frame.previous_uv_from_view, front);
+    if (motion && of_frame(motion_full)) {
+        vec2 seen = project(now, frame.uv_from_view, frame.depth_range.z);
+        ivec2 pixel = clamp(ivec2(seen * vec2(frame.size.xy)), ivec2(0), ivec2(frame.size.xy) - 1);
+        uv = seen + texelFetch(motion_full, pixel, 0).xy;
+        // Without its motion along the view, a surface that moves is where a still one would be.
+        if (of_frame(motion_depth_full)) depth_m = now.z * frame.depth_range.z + texelFetch(motion_depth_full, pixel, 0).x;
+    }
+    return vec3(uv, ray.endless ? INFINITE : depth_m);
+}
+
+bool shows(vec2 uv, float depth_m) {
+    if (!reject || !of_frame(previous_depth)) return true;
+    ivec2 pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
+    float seen_m = texelFetch(previous_depth, pixel, 0).x;
+    if (!(depth_m < LARGEST)) return !(seen_m < LARGEST);
+    return abs(seen_m - depth_m) <= hidden_depth * depth_m; // false for the sky's +inf
+}
+
+// Where the frame before has depths, of the texels around only those that show the ray's end.
+vec3 picture_before(vec3 place) {
+    bool scene = picture_of == picture_of_scene && of_frame(previous_scene), parts = joint && of_frame(previous_depth);
+    vec3 color = scene ? parts ? joint_texels(previous_scene, previous_depth, place.xy, place.z, hidden_depth).rgb
+                               : textureLod(sampler2D(previous_scene, linear_clamp), place.xy, 0.0).rgb
+                 : parts ? joint_texels(previous_lit, previous_depth, place.xy, place.z, hidden_depth).rgb
+                         : textureLod(sampler2D(previous_lit, linear_clamp), place.xy, 0.0).rgb;
+    return told_picture(scene ? IMAGE_previous_scene : IMAGE_previous_lit, place.xy, 0.0, color);
+}
+
+uint source_of(vec3 place) {
+    bool pictured = frame.flags.y == 0u && (of_frame(previous_lit) || of_frame(previous_scene));
+    if (!pictured || !(place.z > 0.0)) return OUTSIDE;
+    if (!all(greaterThanEqual(place.xy, vec2(0.0))) || !all(lessThanEqual(place.xy, vec2(1.0)))) return OUTSIDE;
+    return shows(place.xy, place.z) ? SHOWN : HIDDEN;
+}
+
+// A hit that the previous frame does not show. Where it lies is known, so that any cube map can say what is there.
+vec4 not_shown(Ray ray) {
+    if (hidden == hidden_black) return vec4(0.0);
+    if (ray.endless) return vec4(sky_color(ray), 1.0);
+    uint place = nearest_active(ray.end);
+    return place < frame.counts.x ? cubemap_lookup(ray, place) : vec4(0.0);
+}
+
+vec4 color_before(Ray ray, out uint source) {
+    vec3 place = place_before(ray);
+    source = source_of(place);
+    vec4 color = source == SHOWN ? vec4(picture_before(place), 1.0) : not_shown(ray);
+    if (color.a > 0.0 && fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
+    return color;
+}

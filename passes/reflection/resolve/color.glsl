@@ -1,0 +1,172 @@
+// Colour at the end of a ray (Mafia III talk, Color resolve shaders), as wide as the cone that the ray stands for. Next include of a
+// pass with the rows of sources.h, which calls load_active_centers().
+#include "shared/active.glsl"
+#include "shared/camera.glsl"
+#include "shared/cone.glsl"
+#include "shared/cube_filter.glsl"
+#include "shared/fog.glsl"
+#include "shared/paraboloid.glsl"
+#include "shared/probe/tell.glsl"
+
+const float LEAST_SHARE = 1.0 / 64.0; // of what is looked for in a level: what has less is mostly rounding
+
+// A ray that has ended. `end`: camera-relative world, a unit direction when the ray went on for ever.
+struct Ray {
+    vec3 position, direction, end;
+    float travelled_m, cone;
+    bool endless;
+};
+
+Ray ended_ray(vec3 position, vec3 normal, float travelled_m, float cone) {
+    Ray ray;
+    ray.position = position;
+    ray.direction = mirror_direction(position, normal);
+    ray.travelled_m = travelled_m;
+    ray.cone = cone;
+    ray.endless = !(travelled_m < LARGEST);
+    ray.end = ray.endless ? ray.direction : position + ray.direction * travelled_m;
+    return ray;
+}
+
+void probe_color(uint image, uint place, vec2 uv, float level, vec4 color) {
+    probe(PROBE_color, vec4(image, place, uv * vec2(frame.size.xy)), vec4(level, color.rgb), vec4(color.a));
+}
+vec3 told_sky(uint image, float level, vec3 color) {
+    probe_color(image, ACTIVE_MOST, vec2(0.0), level, vec4(color, 1.0));
+    return color;
+}
+vec3 told_picture(uint image, vec2 uv, float level, vec3 color) {
+    probe_color(image, ACTIVE_MOST, uv, level, vec4(color, 1.0));
+    return color;
+}
+// alone: what is no sky of a texel, by itself.
+vec4 told_cubemap(uint image, vec4 at, float level, vec4 color, bool alone) {
+    if (alone) color = vec4(color.rgb / max(color.a, LEAST_SHARE), 1.0);
+    probe_color(image, uint(at.w), vec2(0.0), level, color);
+    return color;
+}
+
+vec3 sky_color(Ray ray) {
+    if (!fact_sky_seen) return vec3(0.0);
+    if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
+        float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
+        return told_sky(IMAGE_sky_mips, level, cube_levels(sky_mips, ray.direction, level).rgb);
+    }
+    return told_sky(IMAGE_sky, 0.0, cube_finest(sky, ray.direction).rgb);
+}
+
+// The four texels around a place that show a depth, +inf the sky, as far as tolerance goes; if none does, the one that is
+// nearest to it. a: whether one does.
+vec4 joint_texels(texture2D image, texture2D depths_m, vec2 uv, float depth_m, float tolerance) {
+    vec2 place = uv * vec2(frame.size.xy) - 0.5, corner = floor(place), part = place - corner;
+    vec4 seen_m = textureGather(sampler2D(depths_m, nearest_clamp), (corner + 1.0) / vec2(frame.size.xy)).wzxy;
+    vec4 shares = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy), color = vec4(0.0);
+    float inverse = depth_m < LARGEST ? 1.0 / depth_m : 0.0, least = LARGEST;
+    int nearest = 0;
+    if (!filter_color) shares = vec4(greaterThanEqual(shares, vec4(max(max(shares.x, shares.y), max(shares.z, shares.w)))));
+    for (int i = 0; i < 4; ++i) {
+        float apart = abs((seen_m[i] < LARGEST ? 1.0 / seen_m[i] : 0.0) - inverse);
+        if (apart < least) nearest = i;
+        least = min(least, apart);
+        if (!(apart <= tolerance * inverse) || shares[i] <= 0.0) continue;
+        ivec2 pixel = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(frame.size.xy) - 1);
+        color += shares[i] * vec4(texelFetch(image, pixel, 0).rgb, 1.0);
+    }
+    if (color.a > 0.0) return vec4(color.rgb / color.a, 1.0);
+    ivec2 pixel = clamp(ivec2(corner) + ivec2(nearest & 1, nearest >> 1), ivec2(0), ivec2(frame.size.xy) - 1);
+    return vec4(texelFetch(image, pixel, 0).rgb, 0.0);
+}
+
+vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
+    if (ray.cone > 0.0 && cone_screen && has_lit_mips) {
+        float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
+        float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
+                                        float(findMSB(max(frame.size.x, frame.size.y))));
+        if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return sky_color(ray);
+        vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
+        // A level that leaves the sky out says nothing of it.
+        if (color.a > (ray.endless ? 1.0 - LEAST_SHARE : LEAST_SHARE)) return told_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
+    }
+    vec3 color = joint          ? joint_texels(lit, depth_full, uv, ray.endless ? INFINITE : depth_m, depth_tolerance).rgb
+                 : filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb
+                                : texelFetch(lit, pixel, 0).rgb;
+    return told_picture(IMAGE_lit, uv, 0.0, color);
+}
+
+vec4 screen_color(Ray ray) {
+    vec3 end = mat3(frame.view_from_world) * ray.end;
+    float depth_m = end.z * frame.depth_range.z;
+    if (!(depth_m > 0.0)) return vec4(0.0);
+    vec2 uv = clamp(project(end, frame.uv_from_view, frame.depth_range.z), 0.0, 1.0);
+    ivec2 pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
+    if (check_depth && !ray.endless) {
+        float seen_m = texelFetch(depth_full, pixel, 0).x;
+        if (!(abs(seen_m - depth_m) <= depth_tolerance * depth_m)) return vec4(0.0);
+    }
+    return vec4(picture(uv, pixel, ray, depth_m), 1.0);
+}
+
+// What stands for the cube maps where the pipeline converts them; one fetch, and no face to choose.
+vec4 paraboloid_texel(Ray ray, vec4 at, bool alone) {
+    vec3 d = normalize(at.xyz) * paraboloid_axes(frame.up.xyz), uv = paraboloid_uv(d, float(frame.counts.z));
+    float level = 0.0;
+    if (ray.cone > 0.0 && cone_cubemap) {
+        float spread = ray.endless ? 1.0 : ray.travelled_m / length(at.xyz);
+        level = paraboloid_level(cone_tangent(ray.cone) * spread, d.z, float(frame.counts.z), texel_scale);
+    }
+    uv.z += 2.0 * at.w;
+    return told_cubemap(IMAGE_paraboloids, at, level, textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level), alone);
+}
+
+vec4 cubemap_texel(Ray ray, vec4 at, bool alone) {
+    if (has_paraboloids) return paraboloid_texel(ray, at, alone);
+    if (ray.cone > 0.0 && cone_cubemap && has_cubemap_color_mips) {
+        float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
+        if (level > 0.0)
+            return told_cubemap(IMAGE_cubemap_color_mips, at, level, cube_levels(cubemap_color_mips, at, level), alone);
+    }
+    vec4 color = filter_color ? cube_finest(cubemap_color, at)
+                              : textureLod(samplerCubeArray(cubemap_color, nearest_clamp), at, 0.0);
+    return told_cubemap(IMAGE_cubemap_color, at, 0.0, color, alone);
+}
+
+// Where three faces meet, a sampler's weights of eight bits may sum up to 255/256, in a level and in its lookup: that is no sky.
+// What counts as opaque is reached evenly, so that no rounding decides.
+float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
+
+// Of a ray that ended on a surface the sky beside that is no part: rays that end in the sky bring it. Which of the two is at
+// the end is what the nearer of the cube map's texels say, and not the cone's width.
+vec4 surface_in_cubemap(Ray ray, vec3 center, uint place) {
+    vec4 at = vec4(ray.end - center, place);
+    if (cube_finest(cubemap_color, at).a < 0.5) return vec4(sky_color(ray), 1.0);
+    return vec4(cubemap_texel(ray, at, true).rgb, 1.0);
+}
+
+vec4 cubemap_lookup(Ray ray, uint place) {
+    vec3 center = active_centers[place].xyz;
+    if (joint && fact_sky_seen && !ray.endless) return surface_in_cubemap(ray, center, place);
+    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place), false);
+    if (!fact_sky_seen) return vec4(color.rgb, 1.0);
+    color.a = opacity(color.a);
+    if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
+    return vec4(color.rgb, 1.0);
+}
+
+vec3 through_fog(vec3 color, Ray ray) {
+    float height = frame.fog_height.x + dot(ray.position, frame.up.xyz);
+    float depth = fog_optical_depth(frame.fog_color.w, height, dot(ray.direction, frame.up.xyz), frame.fog_height.y,
+                                    ray.travelled_m);
+    vec3 target = fog_target == fog_target_sky && frame.counts.w > 0u ? sky_color(ray) : frame.fog_color.rgb;
+    return mix(color, target, fog_factor(depth));
+}
+
+// finished: on screen; place: of the cube map where it ended otherwise, or none. a: 0 where no source was found.
+vec4 color_at_end(Ray ray, bool finished, uint place) {
+    vec4 color;
+    if (finished) color = screen_color(ray);
+    else if (place < frame.counts.x) color = cubemap_lookup(ray, place);
+    else if (ray.endless) color = vec4(sky_color(ray), 1.0);
+    else return vec4(0.0);
+    if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
+    return color;
+}

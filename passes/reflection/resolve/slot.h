@@ -1,0 +1,13 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Colour at the ends of rays")
+READ(texture2D, depth_half)
+READ(texture2D, normal_jittered)
+READ(utexture2D, pick)
+WRITE(image2D, reflection_half, RGBA16F, "radiance", HALF, "R G B A", 0, "rgb: radiance arriving along the ray; a: 1 where the ray found a colour")
+DISPATCH(reflection_half)
+DISPATCH_TILES(shown)
+NEEDS(reflecting)
+PER_RAY
+#include "shared/tile_rows.h"
+ACCUMULATE(reflection_half)

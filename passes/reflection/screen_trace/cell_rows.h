@@ -1,0 +1,18 @@
+/* The variants that walk through cells. */
+#line 202
+READ(texture2D, normal_half)
+READ(texture2D, inverse_half)
+SPEC(bool,  sky,         true,  0,   1,     "1", "chosen by measuring", "a ray whose vanishing point shows sky ends there; off: it continues in the cube maps")
+SPEC(bool,  pass_behind, true,  0,   1,     "1", "chosen by measuring", "continue behind objects; off: stop there")
+PUSH(float, length_m,    1e5, 0.0, 1e6,  "m", "KF2 article, Linear ray march", "max length of a ray; 0: no ray is traced")
+PUSH(float, thickness,   0.001,  0.0, 100.0, "1", "chosen by measuring", "relative thickness: a ray that arrives behind a surface by at most this fraction of the depth hits it")
+PUSH(float, thickness_m, 0.0,   0.0, 1e6,   "m", "the KF2 article has none; chosen by measuring", "absolute thickness, added to the relative one; 1e6: everything is solid, as in the KF2 article")
+PUSH(float, seam,        0.5,   0.0, 0.5, "texels", "glint", "a ray that arrives behind a surface hits it if it crossed the surface's plane at most this far before")
+PUSH(float, jump,        0.01,  0.0, 1e6,   "1", "glint", "max relative distance between the surfaces of the two texels at such a seam")
+PUSH(float, solid,       1.0,   0.0, 1e6,   "1", "glint", "assumed depth of objects, relative to the distance that a ray covers behind them; a ray that would be inside ends there; 0: infinitely thin")
+PUSH(float, bias,        0.0001, 0.0, 1.0,  "1", "KF2 article, Banding and Self-Intersection", "min relative depth behind a surface that counts as behind")
+PUSH(float, viewer_limit, 1.0, -1.0, 1.0,   "1", "KF2 article, Viewer-facing attenuation", "rays that run towards the viewer, with a cosine to the view vector above this, are not traced; 1: all are traced")
+ASSUMED(thickness)
+ASSUMED(thickness_m)
+ASSUMED(solid)
+ASSUMED(jump)

@@ -1,0 +1,9 @@
+/* Visits every texel that a ray crosses, one after the other: nothing is skipped. */
+PASS("Walk over every texel", "KF2 article (it names it); McGuire and Mara 2014")
+#include "slot.h"
+#include "cell_rows.h"
+#line 302
+SPEC(int,   cells,       4096,  1,   65536, "texels", "McGuire and Mara 2014", "max texels visited")
+REFERENCE
+REFERENCE_SET(screen_trace, thickness, 0.01)
+REFERENCE_SET(screen_trace, solid, 32)

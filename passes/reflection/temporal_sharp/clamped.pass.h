@@ -1,0 +1,18 @@
+/* History clamped to the current neighbourhood, less tightly on rougher surfaces. Surfaces beyond the limit have their
+   history at half resolution. */
+PASS("Variance-clamped history", "Mafia III talk, Temporal filter")
+#include "slot.h"
+WORKGROUP(8, 16)
+#line 202
+DISPATCH_TILES_BY(smooth, sharp_roughness)
+HISTORY(texture2D, previous_stable, reflection_stable)
+NEEDS(history)
+PASSES_ON(reflection_stable, reflection_sharp)
+PASSES_ON(reflection_stable, reflection)
+CHOICE2(ndf, ggx, blinn_phong, ggx, "Mafia III talk, Temporal filter", "NDF whose lobe limits how far the view may turn; must equal downsample.ndf")
+SPEC(bool,  clamp_history,   true, 0,   1,    "1", "Mafia III talk, Temporal filter", "clamp the history to the neighbourhood's colours; off: use it as it is")
+PUSH(float, history,         15.0, 0.0, 255.0, "1", "Mafia III talk, Temporal filter", "weight of the history relative to the new frame; 0: no history")
+PUSH(float, window,          1.0,  0.0, 100.0, "standard deviations", "Mafia III talk, Temporal filter", "max deviation of a mirror's history from the neighbourhood's mean")
+PUSH(float, sharp_roughness, 0.1,  0.0, 1.0,  "1", "Mafia III talk, Temporal filter", "roughness at which the clamp is infinitely wide; rougher surfaces are passed through")
+NEEDS_BY(smooth, sharp_roughness)
+#include "shared/reproject_rows.h"

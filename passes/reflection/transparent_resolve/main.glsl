@@ -1,0 +1,23 @@
+// Every texel that has a ray, for a variant that defines vec4 color_of(Ray ray, bool finished, uint place, ivec2 texel).
+// Next include of a pass with the rows of this slot and those of reflection/resolve/sources.h.
+#define TILE_LIST transparent_tiles
+#include "shared/tiles.glsl"
+
+vec4 resolved(ivec2 texel, float depth_m, vec3 normal) {
+    vec2 uv = picked_uv(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);
+    vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+    float travelled_m = texelFetch(transparent_travelled, texel, 0).x, cone = texelFetch(transparent_cone, texel, 0).x;
+    return color_of(ended_ray(position, normal, travelled_m, cone), texelFetch(transparent_screen_finished, texel, 0).x != 0u,
+                    texelFetch(transparent_place, texel, 0).x, texel);
+}
+
+void main() {
+    load_active_centers();
+    ivec2 texel = tile_texel(reduction(frame.size));
+    if (any(greaterThanEqual(texel, imageSize(transparent_reflection)))) return;
+    float depth_m = texelFetch(transparent_depth_half, texel, 0).x;
+    vec3 normal = texelFetch(transparent_normal_jittered, texel, 0).xyz;
+    probe_texel(texel);
+    vec4 color = tile_works && reflects(depth_m, normal) ? resolved(texel, depth_m, normal) : vec4(0.0);
+    imageStore(transparent_reflection, texel, color);
+}

@@ -1,5 +1,0 @@
-/* Where the rays of opaque surfaces ended; of every pass that resolves them. */
-#line 252
-READ(utexture2D, screen_finished)
-READ(texture2D, travelled)
-READ(utexture2D, cubemap_index)

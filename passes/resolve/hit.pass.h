@@ -1,8 +1,0 @@
-/* One colour at the end of each ray: the diffuse picture for screen hits, the cube maps for the others. */
-PASS("Colour at the hit", "000, Color resolve shaders")
-#include "slot.h"
-OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
-#include "ends.h"
-#include "sources.h"
-REFERENCE
-ALONG_RAYS(cubemap_color, normal_jittered)

@@ -1,0 +1,179 @@
+"""The kinds of rows that a declaration (VARIANT.pass.h, slot.h) may hold: the one place where a kind is written.
+
+A declaration is read several times, each time with other macros of the same names. passes/table.py writes these macros from this table:
+
+    names.h                 C, first reading: names that the second one uses as constants
+    rows.h                  C, second reading: each row becomes a struct glint_row
+    row_kinds.h             C, public: enum glint_row_kind
+    shared/bindings.glsl    GLSL, first reading: images become bindings, constants specialization constants
+    shared/push_begin.glsl  GLSL, second reading: push constants
+
+To add a kind, add a Kind here. Its fields:
+
+    name, parameters   the macro: Kind('READ', 'kind, image', …) is written READ(texture2D, depth_half) in a declaration
+    about              what a row of the kind says; it becomes the comment at the value of enum glint_row_kind
+    row                initialisers of struct glint_row (include/glint/passes.h), beside .kind and .id, which every row has
+    names              what the first reading in C makes of it
+    bindings, push     what the readings in GLSL make of it
+    as_kind            the kind under which C sees it, when it is another spelling of that one
+
+In texts $x stands for the macro's parameter x. __LINE__ is the row's line, which is its binding or constant id in both languages: nothing
+is numbered by hand, and `#line` in slot.h and the shared rows keeps the lines of different files apart.
+"""
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    name: str
+    parameters: str
+    about: str
+    row: str = '.name = ""'
+    names: str = ''
+    bindings: str = ''
+    push: str = ''
+    as_kind: str = ''
+
+
+# Written images have no format in GLSL, so that the host may store them as half or float without a compile.
+BINDING = 'layout(set = 0, binding = __LINE__) uniform $kind $image;'
+WRITTEN = 'layout(set = 0, binding = __LINE__) uniform writeonly $kind $image;'
+IMAGE = ('.name = #$image, .glsl = #$kind, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, .unit = $unit, '
+         '.channels = $channels, .nothing = (double)($nothing), .help = $meaning')
+VALUE = ('.name = #$name, .type = VALUE_##$type, .initial = (double)($initial), .lowest = (double)($lowest), '
+         '.highest = (double)($highest), .unit = $unit, .source = $source, .help = $help')
+
+
+def choice(*options):
+    """CHOICE2 for two options, and so on."""
+    places = ', '.join(f'PLACE($name, ${o})' for o in options)
+    values = ' '.join(f'const int $name##_##${o} = {i};' for i, o in enumerate(options))
+    return Kind(
+        f'CHOICE{len(options)}', f'name, initial, {", ".join(options)}, source, help',
+        'A parameter as a specialization constant with named values (CHOICE2 to CHOICE5).', as_kind='CHOICE',
+        names=f'enum {{ {places} }};',
+        row=(f'.name = #$name, .type = GLINT_VALUE_INT, .initial = PLACE($name, $initial), .lowest = 0, .highest = {len(options) - 1}, '
+             '.unit = "1", .source = $source, .help = $help, .choices = (const char *const[]){'
+             + ', '.join(f'#${o}' for o in options) + ', NULL}'),
+        bindings=values + ' layout(constant_id = __LINE__) const int $name = $name##_##$initial;')
+
+
+KINDS = [
+    Kind('PASS', 'title, source', 'Title of the pass, and the document that it is from (docs/sources.md).',
+         row='.name = $title, .source = $source',
+         names='static const char PASTE2(title, PASS_ID)[] = $title, PASTE2(source, PASS_ID)[] = $source;'),
+    Kind('SLOT', 'title', 'Title of the slot.', row='.name = $title'),
+
+    # ---- Images ----
+    Kind('READ', 'kind, image',
+         'An image that another pass or the capture makes. All its levels are one texture. Cube maps are read as textureCube or '
+         'textureCubeArray, or as texture2DArray (layers as for WRITE) where the texel is known and neither filter nor face selection is needed.',
+         row='.name = #$image, .glsl = #$kind', bindings=BINDING),
+    Kind('OPTIONAL_READ', 'kind, image, format, size, nothing',
+         'A READ of an image that need not exist. has_NAME is false in the shader when no pass makes it, and its "nothing" value is bound.',
+         row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
+             '.nothing = (double)($nothing)',
+         bindings=BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;', as_kind='READ'),
+    Kind('SELF', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
+         row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
+    Kind('HISTORY', 'kind, name, image',
+         'What an image of the pipeline, not of the capture, held at the end of the previous frame, where frame.flags.x is 1; the image\'s '
+         '"nothing" value if its pass had nothing to do in that frame. Otherwise a stand-in of one texel with that value. `name` is the binding\'s.',
+         row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
+    Kind('WRITE', 'kind, image, format, unit, size, channels, nothing, meaning',
+         'An image that this pass makes. An image with levels (a size class ..._MIPS) is written one level at a time: dispatch_level, whose size '
+         'imageSize() gives. Cube maps are written as image2DArray: layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), which is '
+         'gl_GlobalInvocationID.z. A LIST is a buffer of uints (uimageBuffer, read as utextureBuffer): words 0 to 2 are workgroup counts, '
+         'word 3 is the number of items, and the items begin at word 256. Nothing clears it; what lies behind the items is the maker\'s own.',
+         row=IMAGE, bindings=WRITTEN),
+    Kind('DIAGNOSTIC', 'kind, image, format, unit, size, channels, nothing, meaning',
+         'A WRITE that is made only when diagnostics are on; a stand-in of 1 x 1 is bound otherwise.', row=IMAGE, bindings=WRITTEN),
+    Kind('CAPTURE', 'image, format, unit, size, role, channels, required, nothing, meaning',
+         'An image that comes from the capture (passes/capture_images.h); role and channels are those of capture-format/FORMAT.md.',
+         row='.name = #$image, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, .unit = $unit, .role = $role, '
+             '.source = $channels, .required = $required, .nothing = (double)($nothing), .help = $meaning'),
+
+    # ---- Parameters ----
+    Kind('SPEC', 'type, name, initial, lowest, highest, unit, source, help',
+         'A parameter as a specialization constant, for what changes loops or code paths.', row=VALUE,
+         bindings='layout(constant_id = __LINE__) const $type $name = $type($initial);'),
+    choice('a', 'b'),
+    choice('a', 'b', 'c'),
+    choice('a', 'b', 'c', 'd'),
+    choice('a', 'b', 'c', 'd', 'e'),
+    Kind('PUSH', 'type, name, initial, lowest, highest, unit, source, help', 'A parameter as a push constant, for what varies cheaply.',
+         row=VALUE, push='$type $name;'),
+    Kind('ASSUMED', 'parameter',
+         'This parameter stands for something that the capture does not contain, such as how thick objects are. `glint reference` halves and '
+         'doubles it to find how far the answer depends on it.', row='.name = #$parameter'),
+
+    # ---- What is dispatched ----
+    # The dispatches of a pass run in the order of their rows. dispatch_phase is the row's number among them, from 0: a constant, so that the
+    # code of other phases costs nothing even on devices that do not skip a branch that no invocation takes.
+    Kind('DISPATCH', 'image',
+         'One invocation for each pixel of an image, for cube maps in each face; over a list, one workgroup for each 32 x 32 pixels of HALF.',
+         row='.name = #$image'),
+    Kind('DISPATCH_LEVELS', 'image, first, last, order',
+         'One dispatch for each level of an image from first to last, both included, in the order `down` (fine to coarse) or `up`; negative '
+         'numbers count from the coarsest, which is -1.',
+         row='.name = #$image, .first = $first, .last = $last, .order = GLINT_ORDER_##$order'),
+    Kind('DISPATCH_LEVELS_BY', 'image, width, first, last, order',
+         'DISPATCH_LEVELS that counts from the finest level that is no wider than the parameter: 0 is that one, -1 the next finer; numbers '
+         'beyond the existing levels are clamped to them.',
+         row='.name = #$image, .assigned = #$width, .first = $first, .last = $last, .order = GLINT_ORDER_##$order', as_kind='DISPATCH_LEVELS'),
+    Kind('DISPATCH_LIST', 'list',
+         'Behind a DISPATCH and instead of it when a pass makes the list: one invocation for each item, 64 to a workgroup, in the phase of this '
+         'row. A workgroup also writes what the pass says of the image\'s tile of the same number where the list leaves pixels out: a list has at '
+         'least as many workgroups as HALF has tiles (shared/work_list.glsl). Several rows give several lists, each a phase.',
+         row='.name = #$list'),
+    Kind('DISPATCH_TILES', 'range',
+         'Behind a DISPATCH and instead of it when a pass makes tile_list: over the tiles of that range (shared/tile_ranges.h), and with '
+         'tile_works false over the others, to write what the images hold there (shared/tiles.glsl).', row='.name = #$range'),
+    Kind('DISPATCH_TILES_BY', 'range, parameter',
+         'DISPATCH_TILES of the range smooth or rough, whose limit is the parameter: the largest roughness of a smooth surface, the smallest of a '
+         'rough one.', row='.name = #$range, .image = #$parameter', as_kind='DISPATCH_TILES'),
+    Kind('WORKGROUP', 'width, height', 'Invocations of a workgroup; 8 x 8 without this row.', row='.name = "", .first = $width, .last = $height'),
+    Kind('BLOCKS', 'across',
+         'On a CPU an invocation works on so many texels each way, from BLOCK * gl_GlobalInvocationID on; on a GPU, where neighbouring '
+         'invocations run side by side, on one.',
+         row='.name = "", .first = $across', bindings='layout(constant_id = __LINE__) const int BLOCK = $across;'),
+    Kind('PER_RAY', '', 'The passes of this slot run once for each ray of a frame.'),
+    Kind('ACCUMULATE', 'image', 'An image that becomes its mean over the rays of a frame.', row='.name = #$image'),
+    Kind('RESOLUTION', 'size', 'The pipeline\'s half resolution becomes full while this variant is in its slot.', row='.name = #$size'),
+
+    # ---- When the pass is needed, and what takes its place ----
+    Kind('FACT', 'fact',
+         'A constant fact_NAME in the shader: false when the survey found nothing of the kind in the frame, so that the code for it is left '
+         'out. Of an image that the pass makes: false when no pass that runs reads it; it is not made then, and must not be written.',
+         row='.name = #$fact', bindings='layout(constant_id = __LINE__) const bool fact_##$fact = true;'),
+    Kind('NEEDS', 'fact', 'The pass is needed only when this fact holds for the capture.', row='.name = #$fact'),
+    Kind('NEEDS_BY', 'fact, parameter', 'NEEDS of a fact about a parameter of the pass.',
+         row='.name = #$fact, .image = #$parameter', as_kind='NEEDS'),
+    Kind('READS_LEVELS', 'image, parameter',
+         'The pass reads this image only where the parameter is not 0, and then even if no ray has a cone.',
+         row='.name = #$parameter, .image = #$image'),
+    Kind('PASSES_ON', 'image, from',
+         'When the facts that the pass needs do not hold, `image` would equal this image that it reads: while the pass is dropped, the next '
+         'frame finds that one as its history. Of several rows the first whose image is made counts.',
+         row='.name = #$from, .image = #$image'),
+    Kind('INSTEAD', 'image, captured',
+         'When the facts that the pass needs do not hold, `image` equals this image of the capture: while the pass is dropped, both names are '
+         'one image on the device.', row='.name = #$captured, .image = #$image'),
+    Kind('SHOWS_ALL', 'parameter', 'While this parameter is off, the reflection of every surface is visible, whatever its material.',
+         row='.name = #$parameter'),
+    Kind('ALONG_RAYS', 'image, normals',
+         'Of these cube maps the pass looks up only what lies along the rays of an image of normals as the cube maps\' centres see them, and no '
+         'farther than a texel beside it. In the pass that makes `image`: it holds normals, and its mirror rays are those of `normals`.',
+         row='.name = #$image, .image = #$normals'),
+    Kind('WITHIN', 'texels', 'Behind a DISPATCH: cube-map faces that no ray comes nearer to than this may be left out where the images are '
+         'looked up along rays alone (ALONG_RAYS).', row='.name = "", .first = $texels'),
+
+    # ---- The preset `reference`, and what errors are traced back to: each slot has one of the first two ----
+    Kind('REFERENCE', '', 'This variant is its slot\'s reference.'),
+    Kind('REFERENCE_NONE', 'why', 'The slot\'s reference is to leave it out.', row='.name = "", .help = $why'),
+    Kind('REFERENCE_SET', 'slot, parameter, value',
+         'A parameter value of the reference that is not the default. If the parameter is another slot\'s, it matters to this slot alone.',
+         row='.name = #$parameter, .image = #$slot, .assigned = #$value'),
+    Kind('REFERENCE_WITH', 'slot, why', 'Neither this slot nor the one named is exchanged for its reference without the other.',
+         row='.name = #$slot, .help = $why'),
+]

@@ -1,9 +1,0 @@
-/* Every texel that a ray crosses, one after the other: nothing is stepped over. */
-PASS("Walk over every texel", "002 names it; McGuire and Mara, JCGT 3(4), 2014")
-#include "slot.h"
-#include "cell_rows.h"
-#line 302
-SPEC(int,   cells,       4096,  1,   65536, "texels", "McGuire and Mara 2014", "texels crossed at most")
-REFERENCE
-REFERENCE_SET(screen_trace, thickness, 0.01)
-REFERENCE_SET(screen_trace, solid, 32)

@@ -1,0 +1,24 @@
+// What every pass has beside its declaration: constants that the host sets, the frame, the samplers. The generated
+// shared/bindings.glsl includes it. Other bindings of set 0 and other constants are rows of the declaration (passes/row_kinds.py).
+layout(constant_id = 0) const bool diagnostics = false;
+layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/tell.glsl)
+layout(constant_id = 3) const bool halves = true; // false: images declared as half floats are full floats
+layout(constant_id = 4) const uint dispatch_phase = 0u; // the number of this dispatch among the pass's rows DISPATCH…
+const uint ALL_TILES = 0xFFFFFFFFu; // there is no list of tiles: the dispatch covers the whole image
+layout(constant_id = 995) const bool filter_by_hand = false; // cube maps are filtered by shared/cube_filter.glsl, not by a sampler
+layout(constant_id = 996) const uint tile_wide = 2u; // width of a tile in pixels; 16 for the list of strips (shared/tile_list.h)
+layout(constant_id = 997) const uint tile_range = ALL_TILES; // the range of shared/tile_ranges.h that the dispatch covers
+layout(constant_id = 998) const bool tile_works = true; // false: the dispatch covers the other tiles, where the pass has nothing to do
+
+// Ids 1 and 2 are the workgroup's size, from the row WORKGROUP.
+layout(local_size_x = 8, local_size_y = 8, local_size_x_id = 1, local_size_y_id = 2) in;
+
+#define FIELD(type, name, meaning) type name;
+layout(set = 1, binding = 0, std140) uniform Frame {
+#include "frame_fields.h"
+} frame;
+#undef FIELD
+// The frame number that random4() takes: a different one for each ray of a frame.
+uint random_frame() { return frame.counts.y + frame.flags.w * 0x9E3779B9u; }
+layout(set = 1, binding = 1) uniform sampler linear_clamp;
+layout(set = 1, binding = 2) uniform sampler nearest_clamp;

@@ -1,0 +1,13 @@
+/* Result of a step of a probed ray, read by C and GLSL. The place in the list is the value. */
+DECISION(front,     "in front: continues")
+DECISION(hit,       "hit")
+DECISION(behind,    "behind by more than the thickness")
+DECISION(back_face, "back face")
+DECISION(absent,    "rejected by the check of the hit")
+DECISION(finer,     "may hit something: goes down a level")
+DECISION(hidden,    "behind everything in the cell: continues")
+DECISION(closing,   "behind: bisects the step")
+DECISION(resting,   "still at the surface where it starts")
+DECISION(unseen,    "occluded from here: next cube map")
+DECISION(skipped,   "in front of everything in the cell: skips it")
+DECISION(sky,       "sky")

@@ -1,4 +1,0 @@
-/* The march of cubemap_trace/march along the chain of the cube map whose centre is nearest to where the screen ray stopped. */
-PASS("March along the chain", "001, Transparency and Glows; Global Illumination")
-#include "slot.h"
-#include "cubemap_trace/march_rows.h"

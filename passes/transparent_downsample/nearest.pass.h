@@ -1,4 +1,0 @@
-/* The nearest of a block's pixels, and a ray from its lobe. */
-PASS("Nearest of the block", "001, Transparency and Glows; Stochastic Sampling")
-#include "slot.h"
-#include "downsample/jitter.h"

@@ -1,4 +1,0 @@
-/* As resolve/hit: the picture for screen hits, the cube maps for the others. */
-PASS("Colour at the hit", "001, Transparency and Glows")
-#include "slot.h"
-#include "resolve/sources.h"

@@ -1,5 +1,0 @@
-/* As resolve/previous: a hit on screen is looked up in the previous frame, or in the cube map nearest to it. */
-PASS("Colour of the previous frame", "001, Transparency and Glows; Global Illumination")
-#include "slot.h"
-#include "resolve/sources.h"
-#include "resolve/before_rows.h"
