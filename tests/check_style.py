@@ -51,7 +51,7 @@ for f in files:
     for n, line in enumerate(lines, 1):
         if line.rstrip() != line:
             faults.append(f"{f}:{n}: trailing space")
-includes = [a for d in ("capture-format", "passes", "replay", "samples") for a in ("-I", f"{d}/include")]
+includes = [a for d in ("capture-format", "passes", "replay", "samples", "selftest") for a in ("-I", f"{d}/include")]
 for h in (f for f in files if "/include/glint/" in f):
     for command in (["gcc", "-std=c11"], ["g++", "-std=c++17", "-x", "c++"]):
         with tempfile.NamedTemporaryFile("w", suffix=".c") as unit:

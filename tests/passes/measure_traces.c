@@ -9,7 +9,7 @@
 
 #include "glint/replay.h"
 #include "glint/sort.h"
-#include "walk.h"
+#include "depth_traversal.h"
 
 struct truth {
     uint32_t width, height;
@@ -17,7 +17,7 @@ struct truth {
     float *distance, *visible;
     float *footprint_m; /* of the texel where the ray truly ends */
     unsigned char *has_ray, *shown, *oracle;
-    struct walk_grid grid;
+    struct depth_grid grid;
 };
 
 static void die(const struct glint_error *err) {
@@ -44,15 +44,15 @@ static double tolerance(const struct truth *truth, size_t i) {
 }
 
 /* Whether the texel where a ray truly ends shows that place, and how much of its surface a texel covers. */
-static void look(struct truth *truth, size_t i, const struct walk_ray *ray) {
-    double place[2], depth, slopes[2], t = (double)truth->distance[i], angle = walk_texel_angle(&truth->grid);
-    if (!(t < 3e38) || !walk_project(&truth->grid, ray, t, place, &depth)) return;
+static void look(struct truth *truth, size_t i, const struct depth_ray *ray) {
+    double place[2], depth, slopes[2], t = (double)truth->distance[i], angle = depth_grid_texel_angle(&truth->grid);
+    if (!(t < 3e38) || !depth_ray_project(&truth->grid, ray, t, place, &depth)) return;
     truth->footprint_m[i] = (float)(angle * depth);
     if (place[0] < 0 || place[1] < 0 || place[0] >= truth->width || place[1] >= truth->height) return;
     uint32_t x = (uint32_t)place[0], y = (uint32_t)place[1];
     double seen = (double)truth->depth_m[(size_t)y * truth->width + x];
     if (!(seen < 3e38) || !(truth->visible[i] > 0)) return;
-    walk_slopes(&truth->grid, x, y, slopes);
+    depth_grid_slopes(&truth->grid, x, y, slopes);
     double steep = fabs(slopes[0]) + fabs(slopes[1]);
     if (fabs(seen / depth - 1) > 0.01 + steep) return;
     truth->shown[i] = 1;
@@ -66,7 +66,7 @@ struct best {
 };
 
 /* The oracle takes, of all surfaces of the buffer that the ray comes upon, the one that is right. */
-static bool meets(void *user, const struct walk_cell *cell) {
+static bool meets(void *user, const struct depth_cell *cell) {
     struct best *best = user;
     if (cell->own) return true;
     double near = tolerance(best->truth, best->i), t = (double)best->truth->distance[best->i];
@@ -78,13 +78,13 @@ static bool meets(void *user, const struct walk_cell *cell) {
 
 static void judge(struct truth *truth, size_t count[2]) {
     for (size_t i = 0; i < (size_t)truth->width * truth->height; ++i) {
-        struct walk_ray ray;
-        if (!walk_ray_init(&ray, &truth->grid, (uint32_t)(i % truth->width), (uint32_t)(i / truth->width))) continue;
+        struct depth_ray ray;
+        if (!depth_ray_init(&ray, &truth->grid, (uint32_t)(i % truth->width), (uint32_t)(i / truth->width))) continue;
         truth->has_ray[i] = 1;
         look(truth, i, &ray);
         if (!truth->shown[i]) continue;
         struct best best = {truth, i, false};
-        walk(&truth->grid, &ray, 1e5, meets, &best);
+        depth_ray_traverse(&truth->grid, &ray, 1e5, meets, &best);
         truth->oracle[i] = best.found;
         count[0]++;
         count[1] += best.found;
@@ -135,11 +135,11 @@ static struct tally tally_of(struct glint_replay *replay, const struct truth *tr
             else tally.wrong_hidden += weight;
             if (truth->distance[i] < 3e38f) *(error < 0 ? &tally.early : &tally.late) += weight;
         }
-        struct walk_ray ray;
+        struct depth_ray ray;
         double place[2], depth;
         if (travelled[i] < 3e38f &&
-            walk_ray_init(&ray, &truth->grid, (uint32_t)(i % truth->width), (uint32_t)(i / truth->width)) &&
-            walk_project(&truth->grid, &ray, (double)travelled[i], place, &depth) &&
+            depth_ray_init(&ray, &truth->grid, (uint32_t)(i % truth->width), (uint32_t)(i / truth->width)) &&
+            depth_ray_project(&truth->grid, &ray, (double)travelled[i], place, &depth) &&
             hypot(place[0] - ray.x, place[1] - ray.y) > 64)
             tally.long_rays++, tally.fetches_long += fetches[i], tally.texels_long += steps[i];
     }
@@ -255,8 +255,8 @@ int main(int argc, char **argv) {
         if (!truth.depth_m) {
             truth.depth_m = image(replay, "depth_half", GLINT_F32, &truth.width, &truth.height);
             truth.normal = image(replay, "normal_half", GLINT_F32, NULL, NULL);
-            walk_grid_init(&truth.grid, glint_capture_frame(capture), truth.width, truth.height, truth.depth_m,
-                           truth.normal);
+            depth_grid_init(&truth.grid, glint_capture_frame(capture), truth.width, truth.height, truth.depth_m,
+                            truth.normal);
             size_t count[2] = {0};
             judge(&truth, count);
             printf("{\"name\": \"oracle\", \"device\": \"%s\", \"shown\": %zu, \"recall\": %.5f}\n",
