@@ -175,7 +175,7 @@ static void hiz_as_dda(struct gpu *gpu, const char *what) {
                   what, t.width, t.height, a.rays, a.hits, a.lost, a.invented, a.far,
                   texels > 0 ? fetches / texels : 0);
     assert_true(10000 * (a.flips + a.far) <= a.rays);
-    if (t.width > 600) assert_true(2 * fetches <= texels); /* far fewer the larger the picture is: tests/traces.py */
+    if (t.width > 600) assert_true(2 * fetches <= texels); /* far fewer the larger the picture is: tools/traces.py */
     paths_free(&paths);
     traced_free(&expected);
     traced_free(&t);

@@ -8,7 +8,7 @@ from pages import table
 
 HEAD = """# Does anybody notice when a shader is wrong?
 
-Written by `tests/mutants.py page`; do not edit. The files of `passes/` are changed mechanically, one place at a time: a comparison
+Written by `tools/mutants.py page`; do not edit. The files of `passes/` are changed mechanically, one place at a time: a comparison
 turned, a constant changed (doubled, 0 to 1), a guard, a clamp or an epsilon removed, a term dropped, signs or axes exchanged. `glint
 selftest --quick` and the device tests (`gpu_…`) are run on each until one fails; what runs on the host has its own test. Which
 places is a matter of a seed: some in each file, and one at least in each mechanism of [mechanisms.md](mechanisms.md). Changes that do not compile,

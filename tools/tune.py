@@ -3,8 +3,8 @@
 that it has not seen.
 
 tune.py measure GLINT --as NAME -o RECORD.json [--cost ms]    needs nothing but the program
-tune.py page [RECORD.json …] [-o DOCS]                        DOCS/tune.md of these and of tests/records/tune
-tune.py docs GLINT [-o DOCS]                                  both, by fetches, tests/records/tune/fetches.json: no times of this machine"""
+tune.py page [RECORD.json …] [-o DOCS]                        DOCS/tune.md of these and of tools/records/tune
+tune.py docs GLINT [-o DOCS]                                  both, by fetches, tools/records/tune/fetches.json: no times of this machine"""
 import argparse
 import json
 import pathlib
@@ -114,10 +114,10 @@ def chapter(record):
 
 
 def page(records, docs):
-    """Of files; those of devices lie in tests/records/tune."""
+    """Of files; those of devices lie in tools/records/tune."""
     told = [json.loads(pathlib.Path(file).read_text()) for file in (*records, *sorted(RECORDS.glob("*.json")))]
     lines = ["# What tuning buys", "",
-             "Written by `./dev docs` (tests/tune.py). `glint tune` looks for the least error within a budget: here at half and a quarter of what "
+             "Written by `./dev docs` (tools/tune.py). `glint tune` looks for the least error within a budget: here at half and a quarter of what "
              "the traces of `mafia3` cost, tuned on `street` and `room` together and then measured on `hotel`, too, which it has not seen. Beside it "
              "stands what one does without a search: all counts of steps and cells times one factor. The largest factor within the budget is found "
              "first; what that costs on each scene is then all that the search may use there, and its error on each scene is what the search has to "

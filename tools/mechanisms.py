@@ -12,7 +12,8 @@ import pathlib
 import subprocess
 import sys
 
-import formulas
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests"))
+import formulas  # noqa: E402
 from mechanism_rows import (CUBES, HISTORY, MIRROR, PICTURE, RAYS, REASONS, ROWS, SMOOTH, surface)
 
 os.environ["GLINT_CACHE"] = "none"  # each run is to take its own time
@@ -51,7 +52,7 @@ def switches(text):
 class Bench:
     def __init__(self, glint, repeat):
         self.glint, self.repeat, self.known = os.path.abspath(glint), repeat, {}
-        self.measure = os.path.join(os.path.dirname(self.glint), "../tests/passes/measure_fallback")
+        self.measure = os.path.join(os.path.dirname(self.glint), "../tools/measure_fallback")
 
     def run(self, *arguments):
         done = subprocess.run([self.glint, *map(str, arguments)], capture_output=True, text=True)

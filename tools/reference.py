@@ -2,7 +2,7 @@
 """What the reference's noise, time and assumptions are, and what of an error is missing information; writes docs/reference.md.
 
 reference.py record GLINT --as NAME [-o RECORD.json]   measure on this machine's device
-reference.py page [-o docs/reference.md]               from the records in tests/records/reference
+reference.py page [-o docs/reference.md]               from the records in tools/records/reference
 
 Recording needs nothing but the program, so that it can be done wherever a bundle runs. The page has the times of every
 record, all else from the one with the most rays."""

@@ -13,7 +13,7 @@ import tempfile
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "viewer-cli"))
+sys.path.insert(0, os.path.join(HERE, "../tests/viewer-cli"))
 from browser import Browser  # noqa: E402
 
 NAMED = ["#1d1f21", "#cc6666", "#b5bd68", "#f0c674", "#81a2be", "#b294bb", "#8abeb7", "#c5c8c6"]

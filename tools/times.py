@@ -2,7 +2,7 @@
 """Times of the presets and of the rows of their pages on this machine's device: times.py GLINT --as NAME [-o RECORD.json]
 
 Needs nothing but the program, so that a record can be made wherever a bundle runs. The pages read every record in
-tests/records/times."""
+tools/records/times."""
 import argparse
 import importlib
 import json

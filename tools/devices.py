@@ -3,7 +3,7 @@
 
 devices.py run GLINT --as NAME -o FOLDER [--captures F...]      replays on this machine's device, with what runs leave
 devices.py census GLINT FOLDER FOLDER -o RECORD.json            compares two of them, with glint diff
-devices.py page [-o docs/devices.md]                            from the records in tests/records/devices
+devices.py page [-o docs/devices.md]                            from the records in tools/records/devices
 
 The first needs nothing but the program, so that it can be done wherever a bundle runs; captures of its own are made where none are
 given. The second asks `glint stability` which decisions are ties, and reads its answer with oiiotool."""
@@ -30,7 +30,7 @@ def replay(glint, capture, folder, preset, precision, *more):
 def weights(glint, capture, folder, *more):
     """How far filtered lookups are from exact weights, and from weights of 8 bits, at most: parts of the texels' difference."""
     made = folder / "filter"
-    replay(glint, capture, made, "mafia3", "float", "--shader", f"resolve={HERE / 'filter.comp'}", "--outputs", "reflection_half", *more)
+    replay(glint, capture, made, "mafia3", "float", "--shader", f"resolve={HERE.parent / 'tests/filter.comp'}", "--outputs", "reflection_half", *more)
     told = json.loads(run(glint, "info", next(made.glob("*-resolve.exr")), "--json"))
     found = {row["name"]: row["range"]["max"] for row in told["parts"][0]["channels"]}
     shutil.rmtree(made)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures what the sources leave open, on street and room against their truth, and writes the tables of passes/NOTES.md.
 
-measure.py GLINT [NOTES.md]   GLINT is the program; without NOTES.md the tables are printed.
+notes.py GLINT [NOTES.md]   GLINT is the program; without NOTES.md the tables are printed.
 """
 import json
 import pathlib
