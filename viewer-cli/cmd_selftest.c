@@ -3,10 +3,10 @@
 
 #include <jansson.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "glint/selftest.h"
-#include "progress.h"
-#include "table.h"
+#include "io/progress.h"
+#include "io/table.h"
 
 struct arguments {
     struct list only;
@@ -42,7 +42,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_selftest;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_selftest_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case KEY_QUICK:
@@ -241,7 +241,7 @@ static bool run_cases(struct glint_selftest *selftest, const struct arguments *a
     return ok;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_selftest_run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
     struct timespec start;
@@ -274,7 +274,7 @@ const struct command cmd_selftest = {
         "within rounding of going the other way. Cases that fail are said once more at the end, with what they claim. "
         "The exit status is 1 when a case fails, 2 when none could be run.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_selftest_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_selftest_run,
 };

@@ -2,10 +2,10 @@
 #ifndef GLINT_VIEWER_CONTEST_H
 #define GLINT_VIEWER_CONTEST_H
 
-#include "args.h"
+#include "options/args.h"
 #include "glint/judge.h"
-#include "progress.h"
-#include "view/sheet.h"
+#include "io/progress.h"
+#include "draw/view/sheet.h"
 
 struct contestant {
     char label[64]; /* the preset's name, or its file's without folder and .json */

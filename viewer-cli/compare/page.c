@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "compare/contest.h"
-#include "page/page.h"
+#include "draw/page/page.h"
 
 static const struct showing *showing_of(const struct contest_table *t, size_t capture, size_t preset) {
     return &t->showings[capture * t->contest->count + preset];

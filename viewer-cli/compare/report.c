@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "compare/contest.h"
-#include "table.h"
-#include "text_file.h"
+#include "io/table.h"
+#include "io/text_file.h"
 
 static const char *base_name(const char *path) {
     return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
