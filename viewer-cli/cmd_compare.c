@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/contest.h"
+#include "compare/compare.h"
 #include "draw/page/page.h"
 #include "io/pipe.h"
 #include "draw/view/png_file.h"

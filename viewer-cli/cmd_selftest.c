@@ -263,16 +263,20 @@ const struct command cmd_selftest = {
         "Checks what a device makes of the shaders, case by case. A case is a claim with a bound: the table has the "
         "worst "
         "error, the bound, and the input where it is worst; --list has the claim and the bound's reason. Groups: "
-        "functions (those that the passes share, over dense tables with 0, poles and infinity, against double "
-        "precision "
-        "on the very inputs that the device had; what captures hold, decoded), geometry (rays through hard places), "
-        "numbers (worlds far away, other depths and projections), garbage (bad pixels spoil no others), time "
-        "(histories "
-        "and noise of frames that follow each other), invariance (one scene under every convention). "
-        "An ULP is the distance of neighbouring floats at the expected value. Where a reason names the precision that "
-        "Vulkan grants, a device may use it up and still conform. Ties are decisions, such as hit or not, that lie "
-        "within rounding of going the other way. Cases that fail are said once more at the end, with what they claim. "
-        "The exit status is 1 when a case fails, 2 when none could be run.",
+        "functions "
+        "(those that the passes share, over dense tables with 0, poles and infinity, against double precision on the "
+        "very "
+        "inputs that the device had; what captures hold, decoded), geometry (rays through hard places), numbers "
+        "(worlds far "
+        "away, other depths and projections), garbage (bad pixels spoil no others), sizes (pictures and cube maps of "
+        "any "
+        "size), time (histories and noise of frames that follow each other), invariance (one scene under every "
+        "convention). An ULP is the distance of neighbouring floats at the expected value. Where a reason names the "
+        "precision that Vulkan grants, a device may use it up and still conform. Ties are decisions, such as hit or "
+        "not, "
+        "that lie within rounding of going the other way. Cases that fail are said once more at the end, with what "
+        "they "
+        "claim. The exit status is 1 when a case fails, 2 when none could be run.",
     .options = options,
     .parse = cmd_selftest_parse,
     .examples = examples,

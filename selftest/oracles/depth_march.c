@@ -34,7 +34,7 @@ static double rounded(struct stepping *m) {
     return depth_grid_rounding(m->grid, 1, m->asked++);
 }
 
-static void limit(struct stepping *m, double s, uint32_t reason) {
+static void limit_march(struct stepping *m, double s, uint32_t reason) {
     if (!(s >= 0 && s < m->end)) return;
     m->end = s;
     m->limit = reason;
@@ -48,11 +48,11 @@ static struct stepping stepping_of(const struct depth_grid *grid, const struct d
     m.toward = ray->direction[2] * grid->front;
     for (int k = 0; k < 2; k++) {
         m.across[k] = (ray->direction[k] - ray->origin[k] / m.z0 * m.toward) * grid->scale[k] * size[k];
-        limit(&m, (m.across[k] > 0 ? size[k] - start[k] : -start[k]) / m.across[k], END_left_screen);
+        limit_march(&m, (m.across[k] > 0 ? size[k] - start[k] : -start[k]) / m.across[k], END_left_screen);
     }
-    if (m.toward < 0) limit(&m, (1 / fmin(grid->near_m, m.z0) - 1 / m.z0) * m.z0 / -m.toward, END_faced_viewer);
+    if (m.toward < 0) limit_march(&m, (1 / fmin(grid->near_m, m.z0) - 1 / m.z0) * m.z0 / -m.toward, END_faced_viewer);
     const double far = m.z0 + rules->length_m * m.toward;
-    if (far > 0) limit(&m, rules->length_m / far, END_steps_exhausted);
+    if (far > 0) limit_march(&m, rules->length_m / far, END_steps_exhausted);
     return m;
 }
 

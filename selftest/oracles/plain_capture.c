@@ -15,7 +15,7 @@ static double focal(const struct plain *plain) {
     return 1 / tan(plain->fov_y_degrees * 3.14159265358979323846 / 360);
 }
 
-static void fill(const struct plain *plain, float *values) {
+static void fill_planes(const struct plain *plain, float *values) {
     static const float ordinary[PLAIN_CHANNELS] = {(float)5, 0,    0, 1, 0,     0,    0.5f, 0.5f,
                                                    0.5f,     0.5f, 0, 0, 0.25f, 0.5f, 1};
     size_t pixels = (size_t)plain->width * plain->height;
@@ -224,7 +224,7 @@ static bool add_pictures(struct glint_writer *writer, const struct plain *plain,
 bool plain_write(const char *path, const struct plain *plain, struct glint_error *err) {
     float *values = malloc((size_t)plain->width * plain->height * PLAIN_CHANNELS * sizeof *values);
     if (!values) return no_memory(err);
-    fill(plain, values);
+    fill_planes(plain, values);
     if (plain->spoil) plain->spoil(plain, values);
     const struct glint_writer_options options = {.compression = plain->compression};
     const struct glint_frame frame = frame_of(plain);

@@ -37,7 +37,7 @@ struct surface {
 };
 
 /* The plane n·p = d where it is in front and nearer than what was there. */
-static void put(struct surface *s, const double view[3], const double normal[3], double d) {
+static void put_surface(struct surface *s, const double view[3], const double normal[3], double d) {
     const double depth_m = d / dot(normal, view);
     if (!(depth_m > 0.2) || depth_m >= s->depth_m) return;
     s->depth_m = depth_m;
@@ -57,7 +57,7 @@ static void put_boards(struct surface *s, const struct plane_scene *scene, const
         const double tilted[3] = {1.6 * (n[4] - 0.5), 1.6 * (n[5] - 0.5), 1};
         normalised(tilted, normal);
         to[0] = 2.4 * (place[0] - 0.5), to[1] = -1.4 * (place[1] - 0.5), to[2] = -1;
-        put(s, view, normal, (2 + 7 * noise(scene->seed + b, 6)) * dot(normal, to));
+        put_surface(s, view, normal, (2 + 7 * noise(scene->seed + b, 6)) * dot(normal, to));
     }
 }
 
@@ -72,19 +72,20 @@ static struct surface surface_of(const struct plain *plain, const struct plane_s
         s.depth_m = scene->flat_m[0] * pow(scene->flat_m[1] / scene->flat_m[0], part_of);
         return s;
     }
-    put(&s, view, floor, -1.1);
-    put(&s, view, side, -4);
-    if (part[1] > 0.3 || part[0] < 0.4) put(&s, view, wall, -11); /* above it, to the right: sky */
+    put_surface(&s, view, floor, -1.1);
+    put_surface(&s, view, side, -4);
+    if (part[1] > 0.3 || part[0] < 0.4) put_surface(&s, view, wall, -11); /* above it, to the right: sky */
     if (scene->rails) { /* at places in the world: which pixels they fill is the camera's affair */
         for (int k = 0; k < 5; k++) {
             const double at = -2 + 0.9 * k,
                          half = 0.5 * tan(degrees * 3.14159265358979323846 / 360) / (0.5 * plain->height);
-            if (fabs(view[0] - at / 3) <= half) put(&s, view, facing, -3);
-            if (k < 2 && fabs(view[1] - (at + 1) / 4) <= half) put(&s, view, facing, -4);
+            if (fabs(view[0] - at / 3) <= half) put_surface(&s, view, facing, -3);
+            if (k < 2 && fabs(view[1] - (at + 1) / 4) <= half) put_surface(&s, view, facing, -4);
         }
     } else if (scene->stipples) {
         const bool checks = (x ^ y) & 1, columns = x & 1, rows = y % 3 == 0;
-        if (part[0] < 0.33 ? checks : part[0] < 0.66 ? columns : rows) put(&s, view, facing, part[1] < 0.5 ? -3 : -2);
+        if (part[0] < 0.33 ? checks : part[0] < 0.66 ? columns : rows)
+            put_surface(&s, view, facing, part[1] < 0.5 ? -3 : -2);
     } else {
         put_boards(&s, scene, part, view);
     }
@@ -133,7 +134,7 @@ static void normal_for(const struct plane_scene *scene, uint32_t i, const double
     for (int k = 0; k < 3; k++) normal[k] = sqrt(1 - cosine * cosine) * across[k] - cosine * unit[k];
 }
 
-static void fill(const struct plain *plain, float *values) {
+static void fill_surfaces(const struct plain *plain, float *values) {
     const struct plane_scene *scene = plain->user;
     const size_t pixels = (size_t)plain->width * plain->height;
     const double *camera = plain->world_to_view;
@@ -157,6 +158,6 @@ struct plain plane_scene_capture(const struct plane_scene *scene, uint32_t width
                           .height = height,
                           .fov_y_degrees = degrees,
                           .world_to_view = turned_camera(),
-                          .spoil = fill,
+                          .spoil = fill_surfaces,
                           .user = scene};
 }

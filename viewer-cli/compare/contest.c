@@ -1,5 +1,5 @@
 /* Several presets on the same capture, taking turns. */
-#include "compare/contest.h"
+#include "compare/compare.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/contest.h"
+#include "compare/compare.h"
 #include "draw/page/page.h"
 
 static const struct showing *showing_of(const struct contest_table *t, size_t capture, size_t preset) {

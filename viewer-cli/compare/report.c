@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/contest.h"
+#include "compare/compare.h"
 #include "io/table.h"
 #include "io/text_file.h"
 

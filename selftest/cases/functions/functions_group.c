@@ -59,7 +59,7 @@ static size_t list_ends(const struct axis *axis, double ends[8]) {
     return n;
 }
 
-static double inside(const struct axis *axis, double u) {
+static double axis_value(const struct axis *axis, double u) {
     double sign = 1;
     if (axis->more & NEGATIVE) {
         sign = u < 0.5 ? -1 : 1;
@@ -84,7 +84,7 @@ static void fill_arguments(const struct function *f, size_t i, size_t points, fl
     memset(x, 0, ARGUMENTS * sizeof *x);
     for (size_t k = 0; k < ARGUMENTS && f->axes[k].scale; k++) {
         const size_t n = list_ends(&f->axes[k], ends);
-        x[k] = (float)(i < shown ? ends[corner % n] : inside(&f->axes[k], fmod((double)(i + 1) * steps[k], 1)));
+        x[k] = (float)(i < shown ? ends[corner % n] : axis_value(&f->axes[k], fmod((double)(i + 1) * steps[k], 1)));
         corner /= n;
     }
     if (f->make) f->make(x);
@@ -188,8 +188,8 @@ static bool write_capture(const char *path, float *const *x, uint32_t height, st
     return ok;
 }
 
-static bool evaluate(const struct case_context *context, const char *capture_path, const char *shader,
-                     const char *preset, float *out, struct glint_error *err) {
+static bool evaluate_table(const struct case_context *context, const char *capture_path, const char *shader,
+                           const char *preset, float *out, struct glint_error *err) {
     static const char *const passes[] = {"compose", NULL}, *const outputs[] = {"composed", NULL};
     const struct glint_replay_options options = {
         .passes = passes, .outputs = outputs, .all = true, .float_precision = true};
@@ -285,7 +285,7 @@ static bool run_tables(const struct case_context *context, const bool *selected,
         }
     bool ok = write_shader(selected, rows, paths[1], err) && case_write_text(paths[2], preset, err) &&
               write_capture(paths[0], x, (uint32_t)(cases * rows), err) &&
-              evaluate(context, paths[0], paths[1], paths[2], out, err);
+              evaluate_table(context, paths[0], paths[1], paths[2], out, err);
     place = 0;
     for (size_t i = 0; ok && i < tabled(); i++)
         for (size_t p = 0; selected[i] && p < points; p++, place++) {

@@ -251,7 +251,7 @@ struct table {
     uint16_t words[3][POINTS];
 };
 
-static void fill(const struct decoding *d, struct table *t) {
+static void fill_table(const struct decoding *d, struct table *t) {
     for (size_t i = 0; i < POINTS; i++) {
         double stored[3] = {0, 0, 0};
         const double u = fmod(((double)i + 0.5) * 1.4142135623730951, 1),
@@ -343,7 +343,7 @@ static bool check_decoding(struct frames *frames, const struct image_case *which
     bool ok = (t && found) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     snprintf(path, sizeof path, "%s/decoding.exr", frames->context->folder);
     while (d->channels[count]) count++;
-    if (ok) fill(d, t);
+    if (ok) fill_table(d, t);
     ok =
         ok && write_capture(path, d, t, &info, err) && (capture = glint_capture_open(path, NULL, err)) &&
         glint_capture_read(capture, glint_capture_find(capture, d->part), d->channels, count, GLINT_F32, found, 0, err);
@@ -385,7 +385,7 @@ static bool check_device(struct frames *frames, const struct image_case *which, 
     bool ok = (t && image) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     snprintf(path, sizeof path, "%s/decoding.exr", frames->context->folder);
     frames->half = true;
-    if (ok) fill(d, t);
+    if (ok) fill_table(d, t);
     ok = ok && write_capture(path, d, t, &info, err) && frames_pipeline(frames, passes, settings, err) &&
          frames_run_capture(frames, path, err) && frames_read(frames, depth ? "depth_half" : "normal_half", image, err);
     for (size_t i = 0; ok && !depth && i < POINTS; i++) image[i] = image[4 * i + 3];

@@ -53,8 +53,8 @@ static bool run_lists(struct frames *frames, const struct kind *kind, const char
            (!shader || frames_shader(frames, "screen_trace", shader, err)) && frames_run_capture(frames, path, err);
 }
 
-static void *read(struct frames *frames, const char *name, enum glint_type type, size_t *values,
-                  struct glint_error *err) {
+static void *read_list(struct frames *frames, const char *name, enum glint_type type, size_t *values,
+                       struct glint_error *err) {
     const struct glint_image *image = glint_replay_find_image(frames->replay, name);
     *values = image ? (size_t)image->width * image->height * image->components : 0;
     void *out = image ? malloc(*values * sizeof(uint32_t)) : NULL;
@@ -88,7 +88,7 @@ static void add_class(const struct kind *kind, int class, uint32_t first, uint32
             items->item[items->count++] = y << 16 | x;
     }
 }
-static bool make(const struct kind *kind, bool by_block, struct items *items, struct glint_error *err) {
+static bool make_items(const struct kind *kind, bool by_block, struct items *items, struct glint_error *err) {
     const uint32_t blocks = (kind->width + 31) / 32 * ((kind->height + 31) / 32);
     *items = (struct items){calloc((size_t)blocks * 1024 + 128, sizeof *items->item), 0};
     if (!items->item) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -115,8 +115,9 @@ static bool check_list(struct frames *frames, const struct image_case *which, st
     for (size_t k = 0; ok && k < KINDS; k++) {
         struct items items = {NULL, 0};
         size_t room = 0;
-        ok = make(&kinds[k], by_block, &items, err) && run_lists(frames, &kinds[k], passes, which->with, NULL, err);
-        uint32_t *list = ok ? read(frames, "screen_list", GLINT_U32, &room, err) : NULL;
+        ok = make_items(&kinds[k], by_block, &items, err) &&
+             run_lists(frames, &kinds[k], passes, which->with, NULL, err);
+        uint32_t *list = ok ? read_list(frames, "screen_list", GLINT_U32, &room, err) : NULL;
         ok = list && (ITEMS + items.count <= room ||
                       glint_fail(err, GLINT_ERROR_DEVICE, "self-test: a list of %zu words is too short", room));
         const uint32_t tiles = (kinds[k].width + 7) / 8 * ((kinds[k].height + 7) / 8),
@@ -152,7 +153,7 @@ static bool check_pixels(struct frames *frames, const struct image_case *which, 
     for (size_t k = 0; ok && k < KINDS; k++) {
         size_t count = 0;
         ok = run_lists(frames, &kinds[k], which->with == without ? two : all, which->with, shader, err);
-        float *found = ok ? read(frames, "screen_travelled", GLINT_F32, &count, err) : NULL;
+        float *found = ok ? read_list(frames, "screen_travelled", GLINT_F32, &count, err) : NULL;
         ok = found != NULL;
         for (size_t i = 0; ok && i < count; i++) {
             const uint32_t x = (uint32_t)i % kinds[k].width, y = (uint32_t)i / kinds[k].width;
@@ -225,7 +226,7 @@ static bool check_tiles(struct frames *frames, const struct image_case *which, s
         const size_t next = words_of(&kinds[k], WIDE), words = strips ? next + words_of(&kinds[k], STRIP) : next;
         size_t room = 0;
         ok = run_lists(frames, &kinds[k], passes, which->with, NULL, err);
-        uint32_t *list = ok ? read(frames, "tile_list", GLINT_U32, &room, err) : NULL;
+        uint32_t *list = ok ? read_list(frames, "tile_list", GLINT_U32, &room, err) : NULL;
         ok = list && (words <= room ||
                       glint_fail(err, GLINT_ERROR_DEVICE, "self-test: a list of %zu words is too short", room));
         if (ok) compare_tiles(list, k, WIDE, finding);
@@ -252,7 +253,7 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
         const uint32_t scale = which->with == half_texels ? 2 : 1, width = (kinds[k].width + scale - 1) / scale;
         size_t count = 0;
         ok = run_lists(frames, &kinds[k], passes, which->with, shader, err);
-        float *found = ok ? read(frames, "screen_travelled", GLINT_F32, &count, err) : NULL;
+        float *found = ok ? read_list(frames, "screen_travelled", GLINT_F32, &count, err) : NULL;
         ok = found != NULL;
         for (size_t i = 0; ok && i < count; i++) {
             const uint32_t x = (uint32_t)i % width, y = (uint32_t)i / width;

@@ -19,7 +19,7 @@ static double draw(size_t i, uint32_t what) {
 }
 
 /* A floor that rises to the right, with steps, bumps of a tenth of a radian, edges, sky and holes. */
-static void make(struct surfaces *s) {
+static void make_surfaces(struct surfaces *s) {
     static const float rough[7] = {0.02f, 0.08f, 0.13f, 0.22f, 0.31f, 0.5f, 0.56f};
     static const double place[3] = {2, 1, -3};
     frame_ordinary(&s->frame, 1);
@@ -205,7 +205,7 @@ static bool check_surfaces(struct frames *frames, const struct image_case *which
     struct surfaces *s = calloc(1, sizeof *s);
     float *out = calloc(4 * TEXELS, sizeof *out);
     bool ok = (s && out) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok) make(s);
+    if (ok) make_surfaces(s);
     ok = ok && run_surfaces(frames, s, which, out, err);
     for (size_t i = 0; ok && i < TEXELS; i++) {
         double y[4], otherwise[4];

@@ -8,7 +8,7 @@
 /* ---- The world's axes ---- */
 
 /* One of the 24 ways to turn the world onto its axes; 24 more mirror it. */
-static void turn(uint32_t i, struct open_box *box) {
+static void turn_axes(uint32_t i, struct open_box *box) {
     static const int orders[6][3] = {{1, 2, 3}, {2, 3, 1}, {3, 1, 2}, {2, 1, 3}, {1, 3, 2}, {3, 2, 1}};
     const int *order = orders[i % 6];
     const uint32_t signs = i / 6; /* 0 to 7 */
@@ -20,7 +20,7 @@ static bool is_mirrored(uint32_t i) {
 }
 static void turn_chosen(uint32_t i, bool mirrored, struct open_box *box) {
     for (uint32_t n = 0, j = 0; j < 48; j++)
-        if (is_mirrored(j) == mirrored && n++ == i) turn(j, box);
+        if (is_mirrored(j) == mirrored && n++ == i) turn_axes(j, box);
 }
 static void turned(uint32_t i, struct open_box *box) {
     turn_chosen(i, false, box);
@@ -31,14 +31,14 @@ static void mirrored(uint32_t i, struct open_box *box) {
 
 /* ---- The projection's ---- */
 
-static void hand(uint32_t i, struct open_box *box) {
+static void set_handedness(uint32_t i, struct open_box *box) {
     box->x_left = i & 1, box->y_down = i >> 1 & 1, box->depth_grows = i >> 2 & 1;
     box->clip_y = i >> 3 & 1 ? GLINT_CLIP_Y_DOWN : GLINT_CLIP_Y_UP;
 }
-static void clip(uint32_t i, struct open_box *box) {
+static void set_clip_depth(uint32_t i, struct open_box *box) {
     static const enum glint_depth_encoding depths[] = {GLINT_DEPTH_REVERSED, GLINT_DEPTH_DEVICE,
                                                        GLINT_DEPTH_REVERSED_INFINITE, GLINT_DEPTH_VIEW_LINEAR};
-    hand(i, box);
+    set_handedness(i, box);
     box->clip_z = i & 1 ? GLINT_CLIP_Z_ZERO_TO_ONE : GLINT_CLIP_Z_MINUS_ONE_TO_ONE;
     box->encodings.depth = depths[i / 2 % 4];
     box->near_m = 0.3, box->far_m = 100;
@@ -46,31 +46,31 @@ static void clip(uint32_t i, struct open_box *box) {
 
 /* ---- All of it ---- */
 
-static uint32_t number(uint32_t *state) {
+static uint32_t next_random(uint32_t *state) {
     *state = *state * 1664525u + 1013904223u;
     return *state >> 16;
 }
 
 static void any_encoding(uint32_t *state, struct open_box *box) {
-    box->encodings = (struct glint_encodings){.depth = number(state) % 6,
-                                              .normal = number(state) % 3,
-                                              .normal_space = number(state) % 2,
-                                              .roughness = number(state) % 4,
-                                              .motion = number(state) % 3,
-                                              .color = number(state) % 3,
+    box->encodings = (struct glint_encodings){.depth = next_random(state) % 6,
+                                              .normal = next_random(state) % 3,
+                                              .normal_space = next_random(state) % 2,
+                                              .roughness = next_random(state) % 4,
+                                              .motion = next_random(state) % 3,
+                                              .color = next_random(state) % 3,
                                               .motion_depth = GLINT_MOTION_DEPTH_VIEW_LINEAR};
     box->near_m = 0.3, box->far_m = 100;
-    box->pre_exposure = exp2(number(state) % 9 - 4.0);
-    box->metres_per_unit = exp2(number(state) % 21 - 10.0);
-    box->clip_z = number(state) % 2 ? GLINT_CLIP_Z_ZERO_TO_ONE : GLINT_CLIP_Z_MINUS_ONE_TO_ONE;
-    hand(number(state), box);
-    for (int k = 0; k < 3; k++) box->offset_m[k] = 1e4 * (number(state) / 32768.0 - 1);
+    box->pre_exposure = exp2(next_random(state) % 9 - 4.0);
+    box->metres_per_unit = exp2(next_random(state) % 21 - 10.0);
+    box->clip_z = next_random(state) % 2 ? GLINT_CLIP_Z_ZERO_TO_ONE : GLINT_CLIP_Z_MINUS_ONE_TO_ONE;
+    set_handedness(next_random(state), box);
+    for (int k = 0; k < 3; k++) box->offset_m[k] = 1e4 * (next_random(state) / 32768.0 - 1);
 }
 static void anything(uint32_t i, struct open_box *box) {
     uint32_t state = i;
     any_encoding(&state, box);
-    turn(number(&state) % 48, box);
-    box->cubes_reversed = number(&state) % 2;
+    turn_axes(next_random(&state) % 48, box);
+    box->cubes_reversed = next_random(&state) % 2;
 }
 static void anything_unturned(uint32_t i, struct open_box *box) {
     uint32_t state = i + 1000;
@@ -85,8 +85,8 @@ static void anything_unturned(uint32_t i, struct open_box *box) {
 static const struct convention_case mirrors[] = {
     {"axes turned", "each of the 24 ways to call the axes x, y and z, so that each face of the cube maps is each other's", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = turned},
     {"axes mirrored", "each of the 24 ways in a left-handed world", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = mirrored},
-    {"view axes", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = hand},
-    {"clip depth", "clip z from -1 to 1 and from 0 to 1, near or far at the upper end", {0}, 6.5e-5, .reason = STORED, .variants = 16, .vary = clip},
+    {"view axes", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
+    {"clip depth", "clip z from -1 to 1 and from 0 to 1, near or far at the upper end", {0}, 6.5e-5, .reason = STORED, .variants = 16, .vary = set_clip_depth},
     {"cube maps in another order", "the last one is the first", {.cubes_reversed = true}, 0, .reason = "the same arithmetic"},
     {"inches", "0.0254 metres a unit", {.metres_per_unit = 0.0254}, 2e-5, .reason = ROUNDED},
     {"anything", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 24, .vary = anything},
@@ -99,7 +99,7 @@ static const struct convention_case lobes[] = {
     {"alpha", "the square of roughness", {.encodings.roughness = GLINT_ROUGHNESS_ALPHA}, 2e-5, .reason = ROUNDED},
     {"gloss of a rough floor", "one less roughness", {.encodings.roughness = GLINT_ROUGHNESS_GLOSS}, 2e-5, .reason = ROUNDED},
     {"power of a rough floor", "Blinn-Phong's", {.encodings.roughness = GLINT_ROUGHNESS_POWER}, 2e-5, .reason = ROUNDED},
-    {"view axes of a rough floor", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = hand},
+    {"view axes of a rough floor", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
     {"anything on a rough floor", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 24, .vary = anything_unturned},
 };
 static const struct convention_case moves[] = {

@@ -167,8 +167,8 @@ static bool check_all(struct pictures *pictures, struct tally *tally, struct gli
     return ok;
 }
 
-static bool begin(struct pictures *pictures, const struct case_context *context, const struct trace *trace,
-                  struct glint_error *err) {
+static bool begin_trace(struct pictures *pictures, const struct case_context *context, const struct trace *trace,
+                        struct glint_error *err) {
     return pictures_begin(pictures, context, trace->slots, err) &&
            glint_pipeline_use(pictures->pipeline, trace->use, err) &&
            glint_pipeline_set(pictures->pipeline, trace->set, err);
@@ -180,8 +180,8 @@ bool numbers_depth_check(const struct case_context *context, const struct open_b
     for (size_t v = 0; ok && v < sizeof traces / sizeof *traces; v++) {
         struct pictures pictures = {0};
         struct tally tally = {box, &traces[v], finding};
-        ok = begin(&pictures, context, &traces[v], err) && glint_pipeline_use(pictures.pipeline, downsample, err) &&
-             check_all(&pictures, &tally, err);
+        ok = begin_trace(&pictures, context, &traces[v], err) &&
+             glint_pipeline_use(pictures.pipeline, downsample, err) && check_all(&pictures, &tally, err);
         pictures_end(&pictures);
     }
     return ok;
@@ -192,7 +192,7 @@ bool numbers_depth_run(const struct case_context *context, const bool *selected,
     bool ok = true;
     for (size_t v = 0; ok && v < (context->quick ? 1 : sizeof traces / sizeof *traces); v++) {
         struct pictures pictures = {0};
-        ok = begin(&pictures, context, &traces[v], err) &&
+        ok = begin_trace(&pictures, context, &traces[v], err) &&
              glint_pipeline_set(pictures.pipeline, "downsample.edges=false", err);
         for (size_t i = 0; ok && i < numbers_depth_count(); i++) {
             struct tally tally = {&cases[i].box, &traces[v], &findings[i]};

@@ -105,7 +105,7 @@ static double distance_error(double a, double b) {
     return a == b ? 0 : fabs(a - b) / (1 + fmin(fabs(a), fabs(b)));
 }
 
-static bool same(const struct cube_end *a, const struct cube_end *b, bool steps) {
+static bool is_same_end(const struct cube_end *a, const struct cube_end *b, bool steps) {
     return a->place == b->place && a->reason == b->reason && (!steps || a->steps == b->steps);
 }
 
@@ -115,7 +115,7 @@ static double error_beyond_rounding(const struct cube_rays *task, const struct t
     double low = INFINITY, high = -INFINITY;
     for (uint32_t way = 1; way <= ways && !(low <= found->t && found->t <= high); way++) {
         const struct cube_end other = reference_end(task, traced, ray, i, way);
-        if (!same(&other, found, task->rules)) continue;
+        if (!is_same_end(&other, found, task->rules)) continue;
         low = fmin(low, other.t);
         high = fmax(high, other.t);
     }
@@ -152,10 +152,10 @@ static void check_ray(const struct cube_rays *task, const struct traced *traced,
         return;
     }
     if (has_ray) expected = reference_end(task, traced, &ray, i, 0);
-    double error = same(&found, &expected, task->rules) ? distance_error(found.t, expected.t) : INFINITY;
+    double error = is_same_end(&found, &expected, task->rules) ? distance_error(found.t, expected.t) : INFINITY;
     if (has_ray && !(error <= task->bound)) {
         const double beyond = error_beyond_rounding(task, traced, &ray, i, &found);
-        finding->ties += !same(&found, &expected, task->rules) && beyond <= task->bound;
+        finding->ties += !is_same_end(&found, &expected, task->rules) && beyond <= task->bound;
         error = fmin(error, beyond);
     }
     if (has_ray && !(farther(traced, &ray, i) <= 1e-5)) error = INFINITY;

@@ -35,7 +35,7 @@ struct cube_rays {
     void (*sky)(const double direction[3], float out[3]);
     enum glint_volume volume;
 };
-/* Pictures of so many seeds through the trial's pipeline. */
+/* Pictures of so many seeds through the run's pipeline. */
 void cube_rays(struct case_run *run, const struct cube_rays *task, uint32_t seeds,
                struct glint_selftest_finding *finding);
 

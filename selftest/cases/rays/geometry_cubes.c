@@ -11,18 +11,18 @@ enum { WIDE = 61, HIGH = 37, QUICK_WIDE = 31, QUICK_HIGH = 19, CUBE = 24, FINE_C
 
 enum scene { ROOM, PILLARS, SKY, SPECK };
 
-static void color(const double d[3], bool sky, float out[5]) {
+static void color(const double d[3], bool is_sky, float out[5]) {
     for (int k = 0; k < 3; k++) out[k] = (float)(0.5 + 0.4 * d[k]);
-    out[3] = sky ? 0 : 1;
+    out[3] = is_sky ? 0 : 1;
 }
 
-static void room(uint32_t number, const double d[3], float out[5]) {
+static void room_texel(uint32_t number, const double d[3], float out[5]) {
     color(d, false, out);
     out[4] = (float)room_distance(number, d);
 }
 
 /* The same with blocks before the walls, and holes in them. */
-static void pillars(uint32_t number, const double d[3], float out[5]) {
+static void pillar_texel(uint32_t number, const double d[3], float out[5]) {
     const double most = fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2])));
     uint32_t block = number;
     for (int k = 0; k < 3; k++) block = 8 * block + (uint32_t)(3.5 + 3 * d[k] / most);
@@ -31,22 +31,22 @@ static void pillars(uint32_t number, const double d[3], float out[5]) {
     out[4] = what > 0.85 ? INFINITY : (float)(what < 0.4 ? far * (0.3 + what) : far);
 }
 
-static void sky(uint32_t number, const double d[3], float out[5]) {
+static void sky_texel(uint32_t number, const double d[3], float out[5]) {
     (void)number;
     color(d, true, out);
     out[4] = INFINITY;
 }
 
 /* All sky but for one texel. */
-static void speck(uint32_t number, const double d[3], float out[5]) {
+static void speck_texel(uint32_t number, const double d[3], float out[5]) {
     const double half = 1.0 / COARSE_CUBE, at[2] = {half, -3 * half};
     const bool here = d[1] > 0 && fabs(d[0] / d[1] - at[0]) < half && fabs(d[2] / d[1] - at[1]) < half;
-    sky(number, d, out);
+    sky_texel(number, d, out);
     if (here) color(d, false, out);
     if (here) out[4] = 0.4f;
 }
 
-static void blue(const double d[3], float out[3]) {
+static void sky_color(const double d[3], float out[3]) {
     for (int k = 0; k < 3; k++) out[k] = (float)(0.4 + 0.3 * d[k]);
 }
 
@@ -71,7 +71,8 @@ enum {
 static void check_scene(struct case_run *run, const struct replay_case *c, const struct march_rules *rules,
                         struct glint_selftest_finding *finding) {
     static const double depths_m[6][2] = {{0.2, 1.5}, {1e-6, 1e-3}, {1.5, 5}, {30, 60}, {0.1, 0.45}, {3, 3}};
-    static void (*const scenes[4])(uint32_t, const double[3], float[5]) = {room, pillars, sky, speck};
+    static void (*const scenes[4])(uint32_t, const double[3], float[5]) = {room_texel, pillar_texel, sky_texel,
+                                                                           speck_texel};
     const enum scene scene = (enum scene)(c->number / SCENE % 4);
     const bool few = run->context->quick && !rules; /* the double replay takes long for these */
     struct cube_rays task = {.rules = rules,
@@ -86,7 +87,7 @@ static void check_scene(struct case_run *run, const struct replay_case *c, const
                                                             : FINE_CUBE,
                              .cube_count = rules ? CUBES_MOST : 1,
                              .cube = scenes[scene],
-                             .sky = c->number & OWN_SKY ? blue : NULL,
+                             .sky = c->number & OWN_SKY ? sky_color : NULL,
                              .volume = (enum glint_volume)(c->number / VOLUME % 8)};
     memcpy(task.depths_m, depths_m[c->number % RAYS], sizeof task.depths_m);
     if (task.volume == GLINT_VOLUME_HULL) task.depths_m[0] = task.depths_m[1] = 1.5; /* its face */

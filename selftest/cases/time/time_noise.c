@@ -125,12 +125,12 @@ struct pictures {
     size_t bytes[IMAGES];
 };
 
-static void drop(struct pictures *pictures) {
+static void free_pictures(struct pictures *pictures) {
     for (int i = 0; i < IMAGES; i++) free(pictures->values[i]);
     *pictures = (struct pictures){{NULL}, {0}};
 }
 
-static bool take(struct glint_replay *replay, struct pictures *pictures, struct glint_error *err) {
+static bool read_pictures(struct glint_replay *replay, struct pictures *pictures, struct glint_error *err) {
     for (int i = 0; i < IMAGES; i++) {
         const struct glint_image *image = glint_replay_find_image(replay, images[i]);
         if (!image) return glint_fail(err, GLINT_ERROR_DEVICE, "self-test: the replay made no %s", images[i]);
@@ -175,7 +175,7 @@ static bool follow(const struct case_context *context, const struct glint_pipeli
         box.cut = cut && box.frame == CUT_AT;
         ok = replay_frame(context, replay, pipeline, &box, &capture, err);
     }
-    ok = ok && take(replay, pictures, err);
+    ok = ok && read_pictures(replay, pictures, err);
     if (replay) glint_replay_load(replay, NULL, NULL);
     glint_replay_destroy(&replay);
     glint_capture_close(&capture);
@@ -198,7 +198,7 @@ static bool cut_leaves_no_trace(const struct case_context *context, struct glint
         if (ok)
             figure(finding, abs(differing - expected), alone.bytes[IMAGES - 1] / sizeof(float),
                    "images that differ, cuts:", cut, differing, expected);
-        drop(&in_shot), drop(&alone);
+        free_pictures(&in_shot), free_pictures(&alone);
     }
     glint_pipeline_destroy(&pipeline);
     return ok;

@@ -49,7 +49,7 @@ static void reflection_seen(const struct frame *frame, int n, size_t pixel, stru
 }
 
 /* A quarter of the lobe, which reaches twice the angle where GGX's density is a tenth, over what the view turned. */
-static void limit(const struct frame *frame, size_t pixel, struct history_texels *past) {
+static void limit_history(const struct frame *frame, size_t pixel, struct history_texels *past) {
     const struct sight s = sight_of(frame, pixel);
     double view[3], apart[3];
     frame_to_view(&frame->info.previous, s.place, view);
@@ -64,11 +64,11 @@ static void limit(const struct frame *frame, size_t pixel, struct history_texels
 }
 static void surface_turned(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
     surface_seen(frame, n, pixel, past);
-    limit(frame, pixel, past);
+    limit_history(frame, pixel, past);
 }
 static void view_turned(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
     (void)n;
-    limit(frame, pixel, past);
+    limit_history(frame, pixel, past);
 }
 
 /* ---- Cameras ---- */
@@ -93,7 +93,7 @@ static void forward(struct frame *frame, int n) {
     set_camera(frame, n, 0, 0, -0.3, 0);
     wall_at(frame, -8);
 }
-static void turn(struct frame *frame, int n) {
+static void turn_camera(struct frame *frame, int n) {
     set_camera(frame, n, 0, 0, 0, 0.013);
     wall_at(frame, -8);
 }
@@ -145,7 +145,7 @@ static void jittered(struct frame *frame, int n) {
 static const struct shot list[] = {
     {"camera across", "a wall goes by, its history with it by the cameras alone", {ALONE, CAMERAS, TURNS}, .frames = 6, .stage = pan, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
     {"camera forwards", "the wall grows, and its history with it", {ALONE, CAMERAS, TURNS}, .frames = 6, .stage = forward, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
-    {"camera turning", "turns no view of the wall: as long a history as ever", {ALONE, CAMERAS}, .frames = 6, .stage = turn, .past = surface_turned, .bound = 1e-4, .reason = PLACES},
+    {"camera turning", "turns no view of the wall: as long a history as ever", {ALONE, CAMERAS}, .frames = 6, .stage = turn_camera, .past = surface_turned, .bound = 1e-4, .reason = PLACES},
     {"behind the camera before", "what was not in front of it has no history, whatever its depth", {ALONE, CAMERAS, TURNS, "temporal.history_depth=10"}, .frames = 4, .stage = there_and_back, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
     {"views that turn", "the smoother, the shorter the history; a mirror has none", {ALONE, CAMERAS}, .frames = 8, .stage = pan_by_roughness, .past = surface_turned, .bound = 1e-4, .reason = PLACES},
     {"reflections' places", "looked for as far behind the surface as the ray went: 0 to infinite", {ALONE, "temporal.reprojection=reflection"}, .frames = 6, .stage = reflections, .past = reflection_seen, .bound = 1e-4, .reason = PLACES},

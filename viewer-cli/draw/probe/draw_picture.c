@@ -76,7 +76,7 @@ static void draw_window(const struct drawing *d, const struct ray_records *recor
             fprintf(d->out,
                     "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.3f\" fill=\"%s\" stroke=\"#fff\" stroke-width=\"%.3f\"/>",
                     draw_value(&records->records[i], "x"), draw_value(&records->records[i], "y"), 3.5 * scale,
-                    draw_color(&records->records[i]), 0.8 * scale);
+                    draw_decision_color(&records->records[i]), 0.8 * scale);
     fprintf(d->out,
             "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" stroke=\"#fff\" "
             "stroke-width=\"%.3f\"/></svg>\n",

@@ -81,9 +81,10 @@ static void draw_look(struct drawing *d, const struct panel *panel, const struct
     const double surface = draw_value(step, "surface_m"), from = (1 / from_depth - ray->inverse) / ray->inverse_rate;
     const double crossed[2][2] = {{from, from_depth}, {at, depth}}, gap[2][2] = {{at, depth}, {at, surface}};
     char style[96];
-    snprintf(style, sizeof style, "stroke=\"%s\" opacity=\"0.45\" fill=\"none\"", draw_color(step));
+    snprintf(style, sizeof style, "stroke=\"%s\" opacity=\"0.45\" fill=\"none\"", draw_decision_color(step));
     if (!isnan(surface)) panel_line(panel, gap, 2, style);
-    snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"4\" opacity=\"0.4\" fill=\"none\"", draw_color(step));
+    snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"4\" opacity=\"0.4\" fill=\"none\"",
+             draw_decision_color(step));
     if (draw_value(step, "travelled_m") > draw_value(step, "from_m")) panel_line(panel, crossed, 2, style);
     draw_step(d, panel, step, at, depth, number);
 }

@@ -24,7 +24,7 @@ double draw_value(const struct glint_probe_record *record, const char *name) {
     return record ? (double)glint_probe_value(record, name) : NAN;
 }
 
-const char *draw_color(const struct glint_probe_record *step) {
+const char *draw_decision_color(const struct glint_probe_record *step) {
     return draw_looks[look_of(step)].color;
 }
 

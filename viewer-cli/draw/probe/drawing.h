@@ -47,7 +47,7 @@ void draw_begin(const struct panel *panel, const char *title, const struct ray_r
 /* The points as what is seen, with all that lies behind it. */
 void draw_seen(const struct drawing *drawing, const struct panel *panel);
 /* Colour of a step's decision. */
-const char *draw_color(const struct glint_probe_record *step);
+const char *draw_decision_color(const struct glint_probe_record *step);
 void draw_step(struct drawing *drawing, const struct panel *panel, const struct glint_probe_record *step, double x,
                double y, size_t number);
 /* How far the reference's ray got when it hit, in the same slot; NaN when it did not. */

@@ -1,6 +1,6 @@
 /* Several presets on the same capture: what each gives, how far it is from the truth, what it takes. */
-#ifndef GLINT_VIEWER_CONTEST_H
-#define GLINT_VIEWER_CONTEST_H
+#ifndef GLINT_VIEWER_COMPARE_H
+#define GLINT_VIEWER_COMPARE_H
 
 #include "options/args.h"
 #include "glint/judge.h"
