@@ -74,7 +74,7 @@ KINDS = [
          row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
              '.nothing = (double)($nothing)',
          bindings=BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;', as_kind='READ'),
-    Kind('SELF', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
+    Kind('READ_OWN', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
          row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
     Kind('HISTORY', 'kind, name, image',
          'What an image of the pipeline, not of the capture, held at the end of the previous frame, where frame.flags.x is 1; the image\'s '
@@ -152,20 +152,20 @@ KINDS = [
     Kind('READS_LEVELS', 'image, parameter',
          'The pass reads this image only where the parameter is not 0, and then even if no ray has a cone.',
          row='.name = #$parameter, .image = #$image'),
-    Kind('PASSES_ON', 'image, from',
+    Kind('BYPASS', 'image, from',
          'When the facts that the pass needs do not hold, `image` would equal this image that it reads: while the pass is dropped, the next '
          'frame finds that one as its history. Of several rows the first whose image is made counts.',
          row='.name = #$from, .image = #$image'),
-    Kind('INSTEAD', 'image, captured',
+    Kind('ALIAS', 'image, captured',
          'When the facts that the pass needs do not hold, `image` equals this image of the capture: while the pass is dropped, both names are '
          'one image on the device.', row='.name = #$captured, .image = #$image'),
-    Kind('SHOWS_ALL', 'parameter', 'While this parameter is off, the reflection of every surface is visible, whatever its material.',
+    Kind('ALL_VISIBLE_UNLESS', 'parameter', 'While this parameter is off, the reflection of every surface is visible, whatever its material.',
          row='.name = #$parameter'),
     Kind('ALONG_RAYS', 'image, normals',
          'Of these cube maps the pass looks up only what lies along the rays of an image of normals as the cube maps\' centres see them, and no '
          'farther than a texel beside it. In the pass that makes `image`: it holds normals, and its mirror rays are those of `normals`.',
          row='.name = #$image, .image = #$normals'),
-    Kind('WITHIN', 'texels', 'Behind a DISPATCH: cube-map faces that no ray comes nearer to than this may be left out where the images are '
+    Kind('RAY_MARGIN', 'texels', 'Behind a DISPATCH: cube-map faces that no ray comes nearer to than this may be left out where the images are '
          'looked up along rays alone (ALONG_RAYS).', row='.name = "", .first = $texels'),
 
     # ---- The preset `reference`, and what errors are traced back to: each slot has one of the first two ----

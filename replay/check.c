@@ -47,21 +47,21 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
         if (row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS)
             dispatch = row->kind == GLINT_ROW_DISPATCH ? row : NULL;
         if (row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
-        if (row->kind == GLINT_ROW_PASSES_ON && (!own || !pass_row(pass, GLINT_ROW_READ, row->name)))
+        if (row->kind == GLINT_ROW_BYPASS && (!own || !pass_row(pass, GLINT_ROW_READ, row->name)))
             faults_add(faults, GLINT_ERROR_USAGE,
-                       "%s/%s: PASSES_ON %s: expected an image that the pass writes, made of one that it reads",
+                       "%s/%s: BYPASS %s: expected an image that the pass writes, made of one that it reads",
                        pass->slot, pass->variant, row->image);
-        const struct glint_row *captured = row->kind == GLINT_ROW_INSTEAD ? capture_row(row->name) : NULL;
-        if (row->kind == GLINT_ROW_INSTEAD &&
+        const struct glint_row *captured = row->kind == GLINT_ROW_ALIAS ? capture_row(row->name) : NULL;
+        if (row->kind == GLINT_ROW_ALIAS &&
             (!own || !captured || own->format != captured->format || own->size != captured->size))
             faults_add(
                 faults, GLINT_ERROR_USAGE,
-                "%s/%s: INSTEAD %s: expected an image that the pass writes, and one of the capture that is like it",
+                "%s/%s: ALIAS %s: expected an image that the pass writes, and one of the capture that is like it",
                 pass->slot, pass->variant, row->image);
-        if (row->kind == GLINT_ROW_SELF && !own)
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: SELF %s: expected an image that the pass writes", pass->slot,
-                       pass->variant, row->image);
-        else if (row->kind == GLINT_ROW_SELF) graph_check_kind(pass, row, own, faults);
+        if (row->kind == GLINT_ROW_READ_OWN && !own)
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: READ_OWN %s: expected an image that the pass writes",
+                       pass->slot, pass->variant, row->image);
+        else if (row->kind == GLINT_ROW_READ_OWN) graph_check_kind(pass, row, own, faults);
         const bool sums = own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) && !is_uint(own);
         if (row->kind == GLINT_ROW_ACCUMULATE && (!sums || !pass_row(pass, GLINT_ROW_PER_RAY, NULL)))
             faults_add(faults, GLINT_ERROR_USAGE,

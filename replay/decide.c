@@ -67,7 +67,7 @@ static bool is_read(const struct graph *graph, const struct graph_pass *maker, c
 
 /* A pass with nothing to do may leave an image as it is, unless its shader is the user's: what that makes is not known. */
 static void take_instead(struct graph_pass *pass) {
-    const struct glint_row *row = pass_row(pass->pass, GLINT_ROW_INSTEAD, NULL);
+    const struct glint_row *row = pass_row(pass->pass, GLINT_ROW_ALIAS, NULL);
     char text[128];
     if (!row) return;
     pass->runs = pass->entry->shader != NULL;

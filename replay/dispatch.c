@@ -255,8 +255,8 @@ static void access_images(const struct run *run, const struct glint_pass *pass, 
         const struct glint_row *row = &pass->rows[r];
         bool own = false;
         for (size_t s = 0; s < pass->row_count && row_is_output(row); s++)
-            own |= pass->rows[s].kind == GLINT_ROW_SELF && strcmp(row_image(&pass->rows[s]), row->name) == 0;
-        if (row_is_image(row) && row->kind != GLINT_ROW_SELF)
+            own |= pass->rows[s].kind == GLINT_ROW_READ_OWN && strcmp(row_image(&pass->rows[s]), row->name) == 0;
+        if (row_is_image(row) && row->kind != GLINT_ROW_READ_OWN)
             image_access(bound(run, row),
                          own                  ? IMAGE_SHADER_BOTH
                          : row_is_output(row) ? IMAGE_SHADER_WRITE
@@ -276,7 +276,8 @@ void step_record(const struct run *run, struct step *step) {
         push[0] = dispatch->level; /* how push_begin.glsl opens the block */
         struct barriers barriers = {0};
         if (dispatch->list) image_access(dispatch->list, IMAGE_GROUPS, &barriers);
-        if (!dispatch->rest || pass_row(step->pass->pass, GLINT_ROW_SELF, NULL)) /* else it only writes other tiles */
+        if (!dispatch->rest ||
+            pass_row(step->pass->pass, GLINT_ROW_READ_OWN, NULL)) /* else it only writes other tiles */
             access_images(run, step->pass->pass, &barriers);
         probes_access(step, &barriers);
         barriers_record(&barriers, device);

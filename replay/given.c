@@ -15,7 +15,7 @@ const struct glint_run_image *run_given(const struct run *run, const struct grap
     const struct glint_run_image *found = glint_run_find(folder, image->history ? name + strlen(HISTORY_PREFIX) : name);
     for (size_t r = 0; !found && image->history && image->pass && r < image->pass->row_count; r++) {
         const struct glint_row *row = &image->pass->rows[r]; /* the pass may have been dropped then */
-        if (row->kind == GLINT_ROW_PASSES_ON && strcmp(row->image, image->row->name) == 0)
+        if (row->kind == GLINT_ROW_BYPASS && strcmp(row->image, image->row->name) == 0)
             found = glint_run_find(folder, row->name);
     }
     return found;

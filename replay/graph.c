@@ -141,7 +141,7 @@ static void link_history(struct graph *graph, size_t reader, const struct glint_
 static void link_passed_on(struct graph *graph, const struct glint_pass *dropped) {
     for (size_t r = 0; r < dropped->row_count; r++) {
         const struct glint_row *row = &dropped->rows[r];
-        struct graph_image *image = row->kind == GLINT_ROW_PASSES_ON ? graph_find(graph, row->name) : NULL;
+        struct graph_image *image = row->kind == GLINT_ROW_BYPASS ? graph_find(graph, row->name) : NULL;
         if (!image || image->source != SOURCE_MADE || image->kept) continue;
         image->kept = true;
         image->kept_as = row->image;

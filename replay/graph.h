@@ -39,7 +39,7 @@ struct graph_pass {
     const struct glint_pass *pass;
     enum rank rank;
     bool runs;
-    const struct glint_row *instead; /* INSTEAD, where its image is the one of the capture; or NULL */
+    const struct glint_row *instead; /* ALIAS, where its image is the one of the capture; or NULL */
     uint32_t lacks;                  /* a bit for each FACT row, in order: the fact does not hold */
     bool cached_work;                /* it reads cube maps and nothing that changes with every frame */
     char reason[192];

@@ -113,7 +113,7 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
         if (step->spirv.frame_words[w]) key = mix_number(key, w << 32 | words[w]);
     if (run_limits(run, pass)) key = mix_faces(key, run);
     for (size_t r = 0; r < pass->row_count; r++)
-        if (row_is_sampled(&pass->rows[r]) && pass->rows[r].kind != GLINT_ROW_SELF) {
+        if (row_is_sampled(&pass->rows[r]) && pass->rows[r].kind != GLINT_ROW_READ_OWN) {
             const struct graph_image *image = graph_bound(&run->graph, &pass->rows[r]);
             key = mix_number(mix_text(key, image->name), run->keys[image - run->graph.images]);
         }

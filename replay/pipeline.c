@@ -350,7 +350,7 @@ void pipeline_classes(const struct glint_pipeline *pipeline, float *smooth, floa
 
 bool pipeline_shows_all(const struct glint_pipeline *pipeline) {
     for (size_t p = 0; p < pipeline->count; p++) {
-        const struct glint_row *row = pass_row(pipeline->passes[p].pass, GLINT_ROW_SHOWS_ALL, NULL);
+        const struct glint_row *row = pass_row(pipeline->passes[p].pass, GLINT_ROW_ALL_VISIBLE_UNLESS, NULL);
         const double *value = row ? value_of(&pipeline->passes[p], row->name) : NULL;
         if (value && *value == 0) return true;
     }

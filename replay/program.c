@@ -216,7 +216,7 @@ struct program *programs_get(struct glint_device *device, const struct glint_pas
     program->key = key;
     VkResult result = create_layouts(program, device, programs->frame, pass, constants, name);
     if (result == VK_SUCCESS)
-        result = create_pipeline(program, device, spirv, constants, pass_row(pass, GLINT_ROW_WITHIN, NULL), name);
+        result = create_pipeline(program, device, spirv, constants, pass_row(pass, GLINT_ROW_RAY_MARGIN, NULL), name);
     if (result != VK_SUCCESS) {
         vk_fail(err, name, result);
         program_destroy(program, device);

@@ -43,7 +43,7 @@ bool run_limits(const struct run *run, const struct glint_pass *pass) {
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r];
         if (row_is_output(row) && !graph_follows_rays(&run->graph, row->name)) return false;
-        within |= row->kind == GLINT_ROW_WITHIN;
+        within |= row->kind == GLINT_ROW_RAY_MARGIN;
     }
     return within && knows_ways(run);
 }
@@ -61,7 +61,7 @@ bool run_faces(const struct run *run, uint32_t level, int texels, uint8_t faces[
 bool run_dispatches_faces(const struct run *run, const struct glint_pass *pass, const struct glint_row *row,
                           uint32_t level, uint8_t faces[GLINT_SURVEY_CUBEMAPS]) {
     const struct glint_row *within = row + 1;
-    return within < pass->rows + pass->row_count && within->kind == GLINT_ROW_WITHIN && run_limits(run, pass) &&
+    return within < pass->rows + pass->row_count && within->kind == GLINT_ROW_RAY_MARGIN && run_limits(run, pass) &&
            run_faces(run, level, within->first, faces);
 }
 

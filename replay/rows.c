@@ -7,7 +7,7 @@ bool row_is_output(const struct glint_row *row) {
     return row->kind == GLINT_ROW_WRITE || row->kind == GLINT_ROW_DIAGNOSTIC;
 }
 bool row_is_sampled(const struct glint_row *row) {
-    return row->kind == GLINT_ROW_READ || row->kind == GLINT_ROW_SELF || row->kind == GLINT_ROW_HISTORY;
+    return row->kind == GLINT_ROW_READ || row->kind == GLINT_ROW_READ_OWN || row->kind == GLINT_ROW_HISTORY;
 }
 bool row_is_image(const struct glint_row *row) {
     return row_is_sampled(row) || row_is_output(row);

@@ -188,7 +188,7 @@ bool run_restore(struct run *run, struct step *step);
    so that it may leave some out; which of an image's faces are taken from the capture, false: all. */
 bool run_limits(const struct run *run, const struct glint_pass *pass);
 bool run_captures_faces(const struct run *run, size_t i, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);
-/* The faces of a level that a row DISPATCH works on, by the row WITHIN behind it; false: all. */
+/* The faces of a level that a row DISPATCH works on, by the row RAY_MARGIN behind it; false: all. */
 bool run_dispatches_faces(const struct run *run, const struct glint_pass *pass, const struct glint_row *row,
                           uint32_t level, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);
 uint32_t count_faces(const uint8_t *faces, uint32_t active);

@@ -9,13 +9,13 @@
 
 enum place {
 #define COUNT(name, bins, meaning) at_##name = 16 * __LINE__,
-#define LEAST(name, meaning) COUNT(name, 1, meaning)
-#define MOST(name, meaning) COUNT(name, 1, meaning)
+#define MINIMUM(name, meaning) COUNT(name, 1, meaning)
+#define MAXIMUM(name, meaning) COUNT(name, 1, meaning)
 #line 1
 #include "survey/figures.h"
 #undef COUNT
-#undef LEAST
-#undef MOST
+#undef MINIMUM
+#undef MAXIMUM
 };
 
 static float as_float(uint32_t bits) {

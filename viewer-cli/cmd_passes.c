@@ -176,7 +176,7 @@ static void print_pass(const struct glint_pass *pass, const char *previous_slot,
         any = true;
     }
     for (size_t i = 0; i < pass->row_count; i++)
-        if (pass->rows[i].kind == GLINT_ROW_INSTEAD)
+        if (pass->rows[i].kind == GLINT_ROW_ALIAS)
             printf("; without it %s is %s", pass->rows[i].image, pass->rows[i].name);
     if (any) fputs(markdown ? ".\n\n" : "\n\n", stdout);
     print_reference(pass);

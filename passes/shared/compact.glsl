@@ -119,7 +119,7 @@ void place_block(utextureBuffer marked, writeonly uimageBuffer list) {
     }
 }
 
-// `marked`: all of the list, as a SELF binding.
+// `marked`: all of the list, as a READ_OWN binding.
 void compact(utextureBuffer marked, writeonly uimageBuffer list) {
     if (dispatch_phase == 0u) mark_block(list);
     else place_block(marked, list);

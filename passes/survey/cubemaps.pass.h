@@ -8,6 +8,6 @@ WRITE(uimage2DArray, cubemap_open, R8UI, "1", COCOON, "open", 0, "1 where some t
 WRITE(uimage2DArray, cubemap_sky, R8UI, "1", COCOON, "sky", 0, "1 where some texels show the sky; 0 on faces that no ray reaches")
 DISPATCH(cubemap_open)
 DISPATCH(cubemap_sky)
-WITHIN(1)
+RAY_MARGIN(1)
 ALONG_RAYS(cubemap_color, normal_full)
 REFERENCE_NONE("it contributes nothing to the picture")

@@ -11,13 +11,13 @@
 #include "shared/work_list.glsl"
 
 #define COUNT(name, bins, meaning) const int at_##name = 16 * __LINE__;
-#define LEAST(name, meaning) COUNT(name, 1, meaning)
-#define MOST(name, meaning) COUNT(name, 1, meaning)
+#define MINIMUM(name, meaning) COUNT(name, 1, meaning)
+#define MAXIMUM(name, meaning) COUNT(name, 1, meaning)
 #line 0
 #include "figures.h"
 #undef COUNT
-#undef LEAST
-#undef MOST
+#undef MINIMUM
+#undef MAXIMUM
 #line 24
 const int ALL_FIGURES = 512;
 const int FIGURES = whole ? ALL_FIGURES : 128; // words of a workgroup: plans go by the first lines of figures.h alone
@@ -26,8 +26,8 @@ shared uint figures[ALL_FIGURES];
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
 uint kind_of(int figure) {
 #define COUNT(name, bins, meaning)
-#define LEAST(name, meaning) if (figure == at_##name) return LOWEST;
-#define MOST(name, meaning) if (figure == at_##name) return HIGHEST;
+#define MINIMUM(name, meaning) if (figure == at_##name) return LOWEST;
+#define MAXIMUM(name, meaning) if (figure == at_##name) return HIGHEST;
 #include "figures.h"
     return COUNTED;
 }

@@ -112,7 +112,7 @@ static void readers_of_a_dropped_pass_get_nothing(void **state) {
 /* A pass that makes an image like the capture's, and one that reads it. */
 static void what_a_dropped_pass_would_have_passed_on_is_the_captures(void **state) {
     static const struct glint_row last[] = {
-        READS("lit"), WRITES("l"), NEEDED("no"), {.kind = GLINT_ROW_INSTEAD, .name = "lit", .image = "l"}};
+        READS("lit"), WRITES("l"), NEEDED("no"), {.kind = GLINT_ROW_ALIAS, .name = "lit", .image = "l"}};
     struct glint_row like[4];
     memcpy(like, last, sizeof like);
     like[1].format = GLINT_FORMAT_RGBA16F;
@@ -125,7 +125,7 @@ static void what_a_dropped_pass_would_have_passed_on_is_the_captures(void **stat
     struct glint_error err;
     MAKE(&made, &unlike);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    fixture_says(&err, "INSTEAD l: expected an image that the pass writes");
+    fixture_says(&err, "ALIAS l: expected an image that the pass writes");
     MAKE(&made, &pass, &later, &zeta);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
     assert_false(graph.passes[0].runs);

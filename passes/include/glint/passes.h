@@ -68,7 +68,7 @@ struct glint_row {
     const char *role;     /* CAPTURE: the role, and in `source` its channels; "-" for a component left 0 */
     bool required;        /* CAPTURE: false: `nothing` when absent */
     bool optional;        /* READ: format, size and nothing are given here, for when no pass makes the image */
-    const char *image;    /* SELF, HISTORY: the image; NULL: `name` */
+    const char *image;    /* READ_OWN, HISTORY: the image; NULL: `name` */
     const char *assigned; /* REFERENCE_SET: as glint_pipeline_set takes it. DISPATCH_LEVELS: a parameter, or NULL */
     /* DISPATCH_LEVELS: the levels from one to the other, both included; negative: from the coarsest, which is -1.
        With a parameter: of the levels that there are, counted from the finest one that is no wider than that */

@@ -2,7 +2,7 @@
 PASS("Dual paraboloids", "GTA V article, Cubemap to Dual-Paraboloid Map")
 #include "slot.h"
 #line 202
-SELF(texture2DArray, finer, paraboloids)
+READ_OWN(texture2DArray, finer, paraboloids)
 SPEC(int,   taps,        2,    1, 4, "1", "glint", "lookups along each axis per texel; a texel at the pole covers four texels of the cube map")
 SPEC(bool,  fill,        true, 0, 1, "1", "glint; the article says nothing", "texels outside the disc hold the directions beyond the rim, so that filtering at the rim is continuous; off: they are black")
 SPEC(bool,  solid_angle, true, 0, 1, "1", "glint", "coarser levels weight texels by solid angle; off: all weights are equal")

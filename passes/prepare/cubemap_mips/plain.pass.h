@@ -2,8 +2,8 @@
 PASS("Box filter", "Mafia III talk, Pre-filtering cube-maps (regular MIP chain)")
 #include "slot.h"
 #line 202
-SELF(texture2DArray, finer_faces, cubemap_color_mips)
-SELF(texture2DArray, finer_distance, cubemap_distance_mips)
+READ_OWN(texture2DArray, finer_faces, cubemap_color_mips)
+READ_OWN(texture2DArray, finer_distance, cubemap_distance_mips)
 #include "shared/join_rows.h"
 DISPATCH_LEVELS(cubemap_color_mips, 0, -1, down)
 REFERENCE

@@ -2,6 +2,6 @@
 PASS("Nearest and farthest depth", "KF2 article, HZB Optimization (nearest depth only)")
 #include "slot.h"
 #line 202
-SELF(texture2D, finer, hiz)
+READ_OWN(texture2D, finer, hiz)
 DISPATCH(depth_slopes)
 DISPATCH_LEVELS(hiz, 1, -1, down)

@@ -2,6 +2,6 @@
 PASS("Compacted list", "Mafia III talk, Step-by-step recap (stencil mask based on roughness)")
 #include "slot.h"
 #line 202
-SELF(utextureBuffer, marked, screen_list)
+READ_OWN(utextureBuffer, marked, screen_list)
 DISPATCH(screen_list)
 DISPATCH(screen_list)

@@ -1,5 +1,5 @@
 // Makes a list of tiles, in two dispatches over it: the first marks each region's, the second puts them in their places. Next include
-// of a pass with WORKGROUP(16, 16), two rows DISPATCH over the list and SELF(utextureBuffer, marked, ...) of it.
+// of a pass with WORKGROUP(16, 16), two rows DISPATCH over the list and READ_OWN(utextureBuffer, marked, ...) of it.
 #include "shared/tile_grid.glsl"
 
 const uint SMOOTH = 1u, ROUGH = 2u;

@@ -4,6 +4,6 @@ PASS("Compacted list of tiles", "glint")
 WORKGROUP(16, 16)
 #line 202
 READ(texture2D, transparent_color)
-SELF(utextureBuffer, marked, transparent_tiles)
+READ_OWN(utextureBuffer, marked, transparent_tiles)
 DISPATCH(transparent_tiles)
 DISPATCH(transparent_tiles)

@@ -2,6 +2,6 @@
 PASS("Compacted list", "Mafia III talk, Step-by-step recap (stencil mask for SSR finished pixels)")
 #include "slot.h"
 #line 202
-SELF(utextureBuffer, marked, cubemap_list)
+READ_OWN(utextureBuffer, marked, cubemap_list)
 DISPATCH(cubemap_list)
 DISPATCH(cubemap_list)

@@ -4,6 +4,6 @@ PASS("Compacted list of tiles", "glint")
 WORKGROUP(16, 16)
 #line 202
 READ(texture2D, water_depth)
-SELF(utextureBuffer, marked, water_tiles)
+READ_OWN(utextureBuffer, marked, water_tiles)
 DISPATCH(water_tiles)
 DISPATCH(water_tiles)

@@ -2,7 +2,7 @@
 PASS("By contribution", "KF2 article, Applying Reflections")
 #include "slot.h"
 #line 202
-SHOWS_ALL(brdf)
+ALL_VISIBLE_UNLESS(brdf)
 OPTIONAL_READ(texture2D, contribution, R16F, HALF, 1)
 SPEC(bool,  modulate,  true, 0, 1, "1", "KF2 article, Applying Reflections", "alpha is the contribution times the length of the colour, which avoids dark halos; off: alpha is the contribution")
 SPEC(bool,  brdf,      true, 0, 1, "1", "glint; the article says nothing of materials", "multiply alpha by the environment BRDF; off: every surface is a mirror")

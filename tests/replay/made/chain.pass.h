@@ -1,7 +1,7 @@
 /* An image whose coarser levels come from its finer ones, and then the finer ones from the coarser. */
 PASS("Chain", "made for tests")
 READ(texture2D, depth_full)
-SELF(texture2D, levels, chain)
+READ_OWN(texture2D, levels, chain)
 WRITE(image2D, chain, R32F, "1", FULL_MIPS, "Z", 0, "level 0: pixel's number; coarser: sums; then, upwards: what is above added")
 WRITE(image2D, beside, R32F, "1", HALF, "Z", 0, "level and phase of the dispatch that wrote it")
 PUSH(float, factor, 1.0, 0.0, 4.0, "1", "made", "scales level 0")
