@@ -46,3 +46,4 @@
 #define REFERENCE_NONE(why)
 #define REFERENCE_SET(slot, parameter, value)
 #define REFERENCE_WITH(slot, why)
+#define ROLE(role, name)

@@ -25,3 +25,4 @@ PUSH(float, back_from,  -0.17, -1.0, 1.0, "1", "002, Reflections of Back Faces",
 PUSH(float, back_to,    0.0,   -1.0, 1.0, "1", "002, Reflections of Back Faces", "and above which nothing is taken")
 PUSH(float, blur,       1.0,   0.0, 16.0, "1", "002, Applying Reflections", "half the box's side, in parts of the cone's radius on screen; 0: no blur")
 PUSH(float, blur_limit, 24.0,  0.0, 256.0, "pixels", "glint", "at most so many pixels")
+ROLE(CONTRIBUTION, contribution)

@@ -34,7 +34,7 @@
 // it is remembered as that. Of several rows the first whose image is made counts.
 // INSTEAD(image, captured) says the same of an image of the capture, for this frame: while the pass is dropped, its image is that one.
 // FACT(name) gives a constant fact_NAME: false when the survey has found that the frame has nothing of the kind, so that the
-// code for it is left out (see replay/facts.c for the names). Of an image that the pass makes it is false when no pass that runs
+// code for it is left out (see passes/facts.h for the names). Of an image that the pass makes it is false when no pass that runs
 // reads it: it is not made then, and must not be written.
 // READS_LEVELS(image, parameter): the pass reads this one of its images only where the parameter is not 0, then even if no ray has
 // a cone.
@@ -45,6 +45,7 @@
 // ALONG_RAYS(image, normals): of these cube maps the pass looks up what lies on the ways of the rays of `normals`, as the centres
 // see them, and no farther than a texel beside them. In the pass that makes `image`: that holds normals, for mirrors those of
 // `normals`. WITHIN(texels), behind a DISPATCH: faces that no way comes that near to may be left out then.
+// ROLE(role, name) says what an image or a parameter is to replay and study, which know none by name (glint/passes.h).
 // ASSUMED(parameter) says that a parameter stands for what the capture's data do not say, as how thick objects are.
 layout(constant_id = 0) const bool diagnostics = false;
 layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (probe/tell.glsl)
@@ -100,6 +101,7 @@ layout(constant_id = 998) const bool tile_works = true;      // false: over the 
 #define ALONG_RAYS(image, normals)
 #define WITHIN(texels)
 #define RESOLUTION(size)
+#define ROLE(role, name)
 #define REFERENCE
 #define REFERENCE_NONE(why)
 #define REFERENCE_SET(slot, parameter, value)

@@ -15,3 +15,4 @@ WRITE(uimage2D, ray_ways, R32UI, "1", FIGURES, "faces", 0, "eight words: three o
 DISPATCH(depth_full)
 DISPATCH(ray_ways)
 REFERENCE_NONE("it makes no image of the picture")
+ROLE(SURVEY_REACHED_FACES, ray_ways)

@@ -58,7 +58,7 @@ static size_t differences_of_tiles(struct pair *pair, double *worked) {
         struct glint_capture *capture = tiled(pair->fixture, frame);
         differ += pair_differences(pair, capture, &left_out);
         const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);
-        json_t *all = json_object_get(pair->planned->record, "passes");
+        json_t *all = json_object_get(pair->planned->results.record, "passes");
         for (size_t p = 0; p < passes && frame == TILED_FRAMES; p++) {
             if (strcmp(results[p].pass->slot, "resolve") != 0) continue;
             json_t *work = json_object_get(json_array_get(all, p), "work");

@@ -22,7 +22,7 @@ enum glint_row_kind {
     GLINT_ROW_PUSH,         /* a push constant */
     GLINT_ROW_DISPATCH,     /* one invocation for each pixel of an image, for cube maps in each face */
     GLINT_ROW_FACT,         /* a constant: false when the fact does not hold, or nothing reads this image of the pass */
-    GLINT_ROW_NEEDS,        /* a fact the capture must show for the pass to be needed (replay/facts.c lists them);
+    GLINT_ROW_NEEDS,        /* a fact the capture must show for the pass to be needed (passes/facts.h lists them);
                                   image: a parameter of the pass that the fact is about, or NULL */
     GLINT_ROW_READS_LEVELS, /* reads `image` where the parameter `name` is not 0, though no ray has a cone */
     GLINT_ROW_PASSES_ON, /* where its facts do not hold, the pass would make `image` of this one, as it is: so the next
@@ -46,12 +46,35 @@ enum glint_row_kind {
     GLINT_ROW_ASSUMED, /* a parameter that stands for what the capture's data do not say: halved and doubled, it
                                   tells how far an answer depends on it */
     GLINT_ROW_RESOLUTION, /* the pipeline's half resolution becomes "full" while this variant is in its slot */
+    GLINT_ROW_ROLE, /* `name`, an image or a parameter of this pass, is what replay or study look for: enum glint_pass_role */
     /* What the preset `reference` has, and what error is traced back to: each slot has one of the first two. */
     GLINT_ROW_REFERENCE,      /* this variant is its slot's reference */
     GLINT_ROW_REFERENCE_NONE, /* the slot's reference is to leave it out; help: why */
     GLINT_ROW_REFERENCE_SET,  /* a value there that is not the default; image: the slot whose parameter it is. Of
                                  another slot: that parameter matters to this one alone */
     GLINT_ROW_REFERENCE_WITH  /* neither this slot nor the one named is exchanged alone; help: why */
+};
+
+/* What replay and study look for in declarations, since they know no slot and no image by name. */
+enum glint_pass_role {
+    GLINT_ROLE_CUBEMAP_ORDER,     /* the table that says which of the capture's cube maps take part, in which order */
+    GLINT_ROLE_SURVEY_FIGURES,    /* what a frame holds: passes/survey/figures.h */
+    GLINT_ROLE_SURVEY_OPEN_FACES, /* where active cube maps have texels without distance */
+    GLINT_ROLE_SURVEY_SKY_FACES,  /* where they let the sky through */
+    GLINT_ROLE_SURVEY_REACHED_FACES, /* the faces that mirror rays come to */
+    GLINT_ROLE_COMPOSED,             /* the reflection that the slot lays over the picture */
+    GLINT_ROLE_LOBE,                 /* the parameter that names the lobe rays are drawn from: truth.reflection.LOBE */
+    GLINT_ROLE_QUESTION,             /* a parameter that is part of what is asked, and not of how well it is answered */
+    GLINT_ROLE_RAY_NORMAL,           /* of rays, one a texel: the surface's normal and roughness, */
+    GLINT_ROLE_RAY_PICK,             /* which pixel they start from, */
+    GLINT_ROLE_RAY_DISTANCE,         /* how far they got, by the last tracer that is there, */
+    GLINT_ROLE_RAY_RADIANCE,         /* what arrives along them; */
+    GLINT_ROLE_CONTRIBUTION,         /* how much of the reflection is the run's own, beside its alpha; */
+    GLINT_ROLE_SCREEN_FINISHED,      /* whether they ended on screen, why, and what it cost; */
+    GLINT_ROLE_SCREEN_END,
+    GLINT_ROLE_SCREEN_FETCHES,
+    GLINT_ROLE_CUBEMAP_END, /* the same in cube maps */
+    GLINT_ROLE_CUBEMAP_FETCHES
 };
 
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
