@@ -1,5 +1,5 @@
 /* Compares two images: sums over tiles of pixels for each class, and the figures that follow from them. */
-#include "compare.h"
+#include "comparison.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Figures that follow from sums over pixels. */
-#include "compare.h"
+#include "comparison.h"
 
 #include <math.h>
 

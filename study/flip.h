@@ -2,7 +2,7 @@
 #ifndef GLINT_STUDY_FLIP_H
 #define GLINT_STUDY_FLIP_H
 
-#include "compare.h"
+#include "comparison.h"
 #include "filter.h"
 
 enum { FOUND, TRUTH, IMAGES };

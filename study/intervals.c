@@ -1,6 +1,6 @@
 /* Confidence intervals: bootstrap over tiles of pixels, because neighbours do not err independently, and percentiles of the
    resampled figures (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapters 8 and 13). */
-#include "compare.h"
+#include "comparison.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Pipelines between one and its reference. */
-#include "players.h"
+#include "exchange.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "players.h"
+#include "exchange.h"
 
 const struct exchange *players_slot(const struct glint_players *players, const char *slot) {
     for (size_t i = 0; i < players->slot_count; i++)

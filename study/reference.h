@@ -48,6 +48,8 @@ bool reference_measure(struct glint_reference *reference, struct glint_error *er
 enum { REFERENCE_DIGITS = 9 }; /* of numbers, as in run.json */
 bool reference_settings(struct glint_reference *reference, struct glint_error *err);
 json_t *reference_json(const struct glint_reference *reference);
+/* Names the first setting in which two differ. */
+bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err);
 json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity);
 
 /* reference_folder.c */
@@ -55,8 +57,6 @@ bool reference_resume(struct glint_reference *reference, bool anew, struct glint
 /* What the replay's last run was is kept for run.json. */
 bool reference_note(struct glint_reference *reference, struct glint_error *err);
 bool reference_save(struct glint_reference *reference, struct glint_error *err);
-/* Names the first setting in which two differ. */
-bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err);
 
 /* reference_round.c: the round under way, in the folder's unfinished.exr. */
 bool reference_save_round(struct glint_reference *reference, struct glint_error *err);

@@ -26,32 +26,6 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
 }
 
-/* ---- Whether it is the same ---- */
-
-static void value_text(const json_t *value, char text[80]) {
-    char *dumped =
-        value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
-    snprintf(text, 80, "%.70s", dumped ? dumped : "nothing");
-    free(dumped);
-}
-
-bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err) {
-    const char *key;
-    json_t *value;
-    if (json_equal(there, here)) return true;
-    const json_t *more = json_object_size(there) > json_object_size(here) ? there : here;
-    json_object_foreach((json_t *)more, key, value) { /* the macro reads alone */
-        char path[256];
-        snprintf(path, sizeof path, "%s%s%s", where, *where ? "." : "", key);
-        if (!reference_same_settings(path, json_object_get(there, key), json_object_get(here, key), err)) return false;
-    }
-    if (json_is_object(there) && json_is_object(here)) return true; /* the other one's keys are the same number */
-    char texts[2][80];
-    value_text(there, texts[0]);
-    value_text(here, texts[1]);
-    return glint_fail(err, GLINT_ERROR_USAGE, "%s is %s there and %s here", where, texts[0], texts[1]);
-}
-
 /* ---- Reading ---- */
 
 static bool read_half(struct glint_run *run, const char *folder, const char *name, const struct glint_part_info *part,

@@ -1,5 +1,5 @@
 /* Amplification, and where it starts, from what all seeds changed. */
-#include "stability.h"
+#include "measuring.h"
 
 #include <math.h>
 #include <stdlib.h>

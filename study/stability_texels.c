@@ -1,5 +1,5 @@
 /* Texel by texel: what a perturbed run changed. */
-#include "stability.h"
+#include "measuring.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* A step's descriptors, barriers and commands. */
 #include <string.h>
 
-#include "engine.h"
+#include "run.h"
 
 /* Cube maps can be sampled by direction, or fetched as an array of faces. */
 static VkImageView sampled_view(const struct image *image, const char *kind) {

@@ -1,5 +1,5 @@
 /* What a pass's rows dispatch: a list of dispatches, each with its level, its phase and its descriptors. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* One run of a plan, from its images to its last pass. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* Rounds of all passes, timed. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdio.h>
 #include <stdlib.h>

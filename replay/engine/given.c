@@ -1,5 +1,5 @@
 /* Images that a run folder gives instead of a pass. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdlib.h>
 #include <string.h>

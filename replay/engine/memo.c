@@ -1,6 +1,6 @@
 /* What each image's contents depend on, as a hash, and which passes therefore have to execute. An image whose stored
    hash is the wanted one is left as it is, and then nothing that only it needs is read or computed. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* What a run needs before its passes can be recorded: programs, descriptors, queries. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine.h"
+#include "run.h"
 
 enum { HEADER_WORDS = 3, RECORD_WORDS = 16, FIRST_VALUE = 4, MOST_RECORDS = 1 << 20, MOST_OF_PLACE = 1 << 16 };
 

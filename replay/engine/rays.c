@@ -1,6 +1,6 @@
 /* Several rays a frame: images that passes accumulate are summed up after each ray and become the mean after the last,
    by a program of our own. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Work on cube maps that an earlier process left in the cache folder, as the run's EXR file of the pass. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* How much of an image the tiles of a list cover. */
-#include "engine.h"
+#include "run.h"
 
 #include "shared/tile_list.h"
 

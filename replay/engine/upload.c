@@ -1,6 +1,6 @@
 /* Fills the images that no shader makes: decoded capture parts, tables, images of a run folder, "nothing". Pixels go
    straight into mapped staging memory in the image's format. */
-#include "engine.h"
+#include "run.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -17,7 +17,7 @@ bool frame_source_hash(struct frame_source *source, char hash[33], struct glint_
 
 void frame_source_load(struct frame_source *source, struct glint_capture *capture) {
     frame_source_release(source);
-    *source = (struct frame_source){.capture = capture, .serial = source->serial + 1, .tile_wide = source->tile_wide};
+    *source = (struct frame_source){.capture = capture, .serial = source->serial + 1};
 }
 
 void frame_source_release(struct frame_source *source) {

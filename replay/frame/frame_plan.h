@@ -20,7 +20,6 @@ enum {
 struct frame_source {
     struct glint_capture *capture;
     uint64_t serial;         /* of the load: contents of another capture never pass for this one's */
-    uint32_t tile_wide;      /* the device's */
     char hash[33];           /* of the capture; "": not known yet */
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
     struct channels sky;     /* read for its key, likewise */
@@ -62,8 +61,9 @@ struct frame_plan {
     struct reach reach;
     struct whole_work *whole; /* beside graph.passes; NULL: not asked for */
     struct glint_cube_faces faces;
-    char content[33]; /* hash of the capture; "": nothing of it is found again by other processes */
-    bool interim;     /* another run of the same frame follows: what is on the device and was read stays */
+    char content[33];   /* hash of the capture; "": nothing of it is found again by other processes */
+    uint32_t tile_wide; /* the device's */
+    bool interim;       /* another run of the same frame follows: what is on the device and was read stays */
 };
 void frame_plan_finish(struct frame_plan *plan);
 

@@ -92,7 +92,7 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
                                   .sky_face = sky ? sky->width : 0,
-                                  .tile_wide = plan->source->tile_wide};
+                                  .tile_wide = plan->tile_wide};
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     if (pipeline_traces_all_pixels(plan->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
     const struct glint_part_info **parts;

@@ -55,6 +55,7 @@ uint32_t device_family(VkPhysicalDevice physical, uint32_t *timestamp_bits);
 
 /* Fails with what was tried and Vulkan's word for the result. */
 bool vk_fail(struct glint_error *err, const char *what, VkResult result);
+VkFormat format_vulkan(enum glint_format format);
 
 /* `select` as in struct glint_device_options; `validate`: the validation layer. Stays where it is. */
 bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_error *err);

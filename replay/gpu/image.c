@@ -9,20 +9,6 @@ VkImageSubresourceRange image_range(const struct image_desc *desc) {
     return (VkImageSubresourceRange){VK_IMAGE_ASPECT_COLOR_BIT, 0, desc->levels, 0, image_layers(desc)};
 }
 
-VkFormat format_vulkan(enum glint_format format) {
-    static const VkFormat formats[] = {
-        [GLINT_FORMAT_R8UI] = VK_FORMAT_R8_UINT,
-        [GLINT_FORMAT_R32UI] = VK_FORMAT_R32_UINT,
-        [GLINT_FORMAT_R16F] = VK_FORMAT_R16_SFLOAT,
-        [GLINT_FORMAT_RG16F] = VK_FORMAT_R16G16_SFLOAT,
-        [GLINT_FORMAT_RGBA16F] = VK_FORMAT_R16G16B16A16_SFLOAT,
-        [GLINT_FORMAT_R32F] = VK_FORMAT_R32_SFLOAT,
-        [GLINT_FORMAT_RG32F] = VK_FORMAT_R32G32_SFLOAT,
-        [GLINT_FORMAT_RGBA32F] = VK_FORMAT_R32G32B32A32_SFLOAT,
-    };
-    return formats[format];
-}
-
 static VkResult create_buffer(struct image *image, struct gpu *gpu, struct glint_error *err) {
     const uint64_t texels = image_bytes(&image->desc, 0) / format_bytes(image->desc.format);
     VkPhysicalDeviceProperties properties;

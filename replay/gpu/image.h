@@ -31,7 +31,6 @@ struct image {
     struct block *block;
 };
 VkImageSubresourceRange image_range(const struct image_desc *desc);
-VkFormat format_vulkan(enum glint_format format);
 
 /* Creates the image without memory. */
 bool image_init(struct image *image, struct gpu *gpu, const char *name, const struct image_desc *desc,

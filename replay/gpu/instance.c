@@ -1,47 +1,12 @@
 /* The Vulkan instance, its validation messages and the list of devices. */
-#include "image.h"
+#include "format.h"
+#include "gpu.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char *const validation_layer = "VK_LAYER_KHRONOS_validation";
-
-bool vk_fail(struct glint_error *err, const char *what, VkResult result) {
-    const char *word = "an unexpected result";
-    enum glint_code code = GLINT_ERROR_DEVICE;
-    switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY:
-        word = "out of host memory";
-        code = GLINT_ERROR_MEMORY;
-        break;
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-        word = "out of device memory";
-        code = GLINT_ERROR_MEMORY;
-        break;
-    case VK_ERROR_DEVICE_LOST:
-        word = "the device was lost";
-        break;
-    case VK_ERROR_INITIALIZATION_FAILED:
-        word = "initialisation failed";
-        break;
-    case VK_ERROR_INCOMPATIBLE_DRIVER:
-        word = "no Vulkan driver (Debian: mesa-vulkan-drivers, which needs no GPU)";
-        break;
-    case VK_ERROR_LAYER_NOT_PRESENT:
-        word = "layer not installed";
-        break;
-    case VK_ERROR_FEATURE_NOT_PRESENT:
-        word = "feature not present";
-        break;
-    case VK_ERROR_EXTENSION_NOT_PRESENT:
-        word = "extension not present";
-        break;
-    default:
-        break;
-    }
-    return glint_fail(err, code, "Vulkan: %s: %s (%d)", what, word, (int)result);
-}
 
 static VkBool32 VKAPI_PTR on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                      VkDebugUtilsMessageTypeFlagsEXT types,

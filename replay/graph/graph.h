@@ -80,6 +80,8 @@ struct graph_inputs {
     struct facts facts;
 };
 
+/* An empty graph with room for the pipeline's. */
+bool graph_allocate(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err);
 /* Builds the graph of a pipeline: checks the declarations and sorts the passes. Faults are kept for graph_link, so that all are
    reported together; false only without memory. */
 bool graph_init(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err);

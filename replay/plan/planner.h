@@ -3,7 +3,7 @@
 #ifndef GLINT_REPLAY_PLANNER_H
 #define GLINT_REPLAY_PLANNER_H
 
-#include "engine.h"
+#include "run.h"
 #include "survey.h"
 
 struct planner {
@@ -32,7 +32,9 @@ uint32_t *survey_run(struct planner *planner, const struct pipeline_pass *before
    anew. `before`: how many the survey knows of from the last plan. */
 bool survey_cubemaps(struct planner *planner, struct frame_plan *plan, uint32_t before, struct glint_error *err);
 
-/* plan.c. All of a plan but its passes: graph_decide is done. */
+/* complete.c. A plan of nothing yet; and all of a plan but its passes, when graph_decide is done. */
+void plan_begin(struct frame_plan *plan, const struct planner *planner, const struct glint_pipeline *pipeline,
+                const struct glint_replay_options *options);
 bool plan_complete(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,
                    struct glint_error *err);
 

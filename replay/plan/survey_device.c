@@ -108,8 +108,10 @@ uint32_t *survey_run(struct planner *planner, const struct pipeline_pass *before
                                                  .no_cache = true,
                                                  .lineage = UINT32_MAX};
     const struct graph_inputs inputs = {.options = &options, .capture = planner->source->capture};
-    struct frame_plan plan = {.pipeline = &pipeline, .options = &options, .source = planner->source, .interim = true};
-    plan.tables = tables ? tables : &plan.own_tables;
+    struct frame_plan plan;
+    plan_begin(&plan, planner, &pipeline, &options);
+    plan.interim = true;
+    if (tables) plan.tables = tables;
     uint32_t *found = graph_init(&plan.graph, &pipeline, err) && graph_decide(&plan.graph, &inputs, err) &&
                               plan_complete(&plan, planner, &inputs, err)
                           ? run_and_read(planner, &plan, time, err)

@@ -79,7 +79,8 @@ static void find_whole_work(struct frame_plan *plan, const struct graph_inputs *
                                .options = &all,
                                .source = plan->source,
                                .inputs = plan->inputs,
-                               .tables = plan->tables};
+                               .tables = plan->tables,
+                               .tile_wide = plan->tile_wide};
     struct graph_inputs whole_inputs = *inputs;
     whole_inputs.options = &all;
     all.all = true;

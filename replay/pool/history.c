@@ -4,10 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-bool pooled_is_history(const struct pooled *pooled) {
-    return strncmp(pooled->image.name, HISTORY_PREFIX, strlen(HISTORY_PREFIX)) == 0;
-}
-
 void pool_age(struct pool *pool, const struct glint_frame *next) {
     const bool follows = pool->loaded && pool->ran && next->number == pool->number + 1;
     for (struct pooled *image = pool->images; image; image = image->next) image->transient |= pooled_is_history(image);

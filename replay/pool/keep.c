@@ -6,6 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool pooled_is_history(const struct pooled *pooled) {
+    return strncmp(pooled->image.name, HISTORY_PREFIX, strlen(HISTORY_PREFIX)) == 0;
+}
+
 const struct glint_image *pooled_shown(const struct pooled *pooled, uint32_t i) {
     if (pooled->as.row && i-- == 0) return &pooled->as;
     return pooled->listed && i < pooled->image.desc.levels ? &pooled->levels[i].info : NULL;

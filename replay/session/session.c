@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "shared/tile_list.h"
-
 struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err) {
     struct glint_replay *replay = calloc(1, sizeof *replay);
     if (!replay) {
@@ -13,7 +11,6 @@ struct glint_replay *glint_replay_create(struct glint_device *device, struct gli
         return NULL;
     }
     replay->device = device;
-    replay->source.tile_wide = device ? device->gpu.info.tile_wide : STRIP_WIDE;
     replay->pool = (struct pool){.gpu = device ? &device->gpu : NULL, .source = &replay->source};
     replay->planner =
         (struct planner){.source = &replay->source, .pool = &replay->pool, .engine = device ? &replay->engine : NULL};

@@ -1,6 +1,6 @@
 /* A pipeline beside its reference, slot by slot, and which slots are exchanged together. */
-#ifndef GLINT_STUDY_PLAYERS_H
-#define GLINT_STUDY_PLAYERS_H
+#ifndef GLINT_STUDY_EXCHANGE_H
+#define GLINT_STUDY_EXCHANGE_H
 
 #include "glint/blame.h"
 #include "glint/replay.h"

@@ -1,6 +1,6 @@
 /* What the parts of a measurement of stability share. */
-#ifndef GLINT_STUDY_STABILITY_H
-#define GLINT_STUDY_STABILITY_H
+#ifndef GLINT_STUDY_MEASURING_H
+#define GLINT_STUDY_MEASURING_H
 
 #include <string.h>
 

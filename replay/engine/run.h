@@ -1,6 +1,6 @@
 /* Runs a plan on the device. It never plans: what runs, of which size and over which faces stands in the plan. */
-#ifndef GLINT_REPLAY_ENGINE_H
-#define GLINT_REPLAY_ENGINE_H
+#ifndef GLINT_REPLAY_RUN_H
+#define GLINT_REPLAY_RUN_H
 
 #include "cache.h"
 #include "device.h"

@@ -1,6 +1,6 @@
 /* What the parts of a comparison of two images share. */
-#ifndef GLINT_STUDY_COMPARE_H
-#define GLINT_STUDY_COMPARE_H
+#ifndef GLINT_STUDY_COMPARISON_H
+#define GLINT_STUDY_COMPARISON_H
 
 #include "glint/metrics.h"
 

@@ -1,5 +1,5 @@
 /* Replays a frame as it is and with perturbed values, and gathers what that changes. */
-#include "stability.h"
+#include "measuring.h"
 
 #include <stdlib.h>
 #include <string.h>
