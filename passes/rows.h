@@ -106,7 +106,7 @@
 #define WITHIN(texels) {.kind = GLINT_ROW_WITHIN, .id = __LINE__, .name = "", .first = texels},
 #define ASSUMED(parameter) {.kind = GLINT_ROW_ASSUMED, .id = __LINE__, .name = #parameter},
 #define RESOLUTION(size) {.kind = GLINT_ROW_RESOLUTION, .id = __LINE__, .name = #size},
-#define ROLE(role, name_) {.kind = GLINT_ROW_ROLE, .id = __LINE__, .name = #name_, .first = GLINT_ROLE_##role},
+#define ROLE(role, name_) {.kind = GLINT_ROW_ROLE, .id = __LINE__, .name = "", .image = #name_, .first = GLINT_ROLE_##role},
 #define REFERENCE {.kind = GLINT_ROW_REFERENCE, .id = __LINE__, .name = ""},
 #define REFERENCE_NONE(why) {.kind = GLINT_ROW_REFERENCE_NONE, .id = __LINE__, .name = "", .help = why},
 #define REFERENCE_SET(slot_, parameter, value)                                                                \

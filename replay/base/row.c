@@ -95,7 +95,7 @@ const struct glint_pass *glint_pass_with_role(enum glint_pass_role role, const c
     for (size_t i = 0; i < count; i++) {
         const struct glint_row *row = glint_pass_role(&all[i], role);
         if (!row) continue;
-        *name = row->name;
+        *name = row->image;
         return &all[i];
     }
     *name = NULL;

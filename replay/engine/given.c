@@ -26,7 +26,7 @@ bool run_read_given(struct run *run, size_t i, size_t *bytes, struct glint_error
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u of %u %s channels, found %s",
                               source->history ? run->plan->options->history : run->plan->options->inputs, level->name,
                               level->width, level->height, components, integer ? "uint" : "float",
-                              info ? "another size or kind" : "none");
+                              info ? "another size or kind" : "nothing");
         if (!glint_run_read(plan_folder(run->plan, source), info, integer ? GLINT_U32 : GLINT_F32, at, err))
             return false;
     }

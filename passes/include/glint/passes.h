@@ -46,7 +46,7 @@ enum glint_row_kind {
     GLINT_ROW_ASSUMED, /* a parameter that stands for what the capture's data do not say: halved and doubled, it
                                   tells how far an answer depends on it */
     GLINT_ROW_RESOLUTION, /* the pipeline's half resolution becomes "full" while this variant is in its slot */
-    GLINT_ROW_ROLE, /* `name`, an image or a parameter of this pass, is what replay or study look for: enum glint_pass_role */
+    GLINT_ROW_ROLE, /* `image`, an image or a parameter of this pass, is what replay or study look for: enum glint_pass_role */
     /* What the preset `reference` has, and what error is traced back to: each slot has one of the first two. */
     GLINT_ROW_REFERENCE,      /* this variant is its slot's reference */
     GLINT_ROW_REFERENCE_NONE, /* the slot's reference is to leave it out; help: why */

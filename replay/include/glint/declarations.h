@@ -16,7 +16,7 @@ const struct glint_row *glint_pass_row(const struct glint_pass *pass, enum glint
 const struct glint_row *glint_pass_output(const struct glint_pass *pass, const char *image);
 /* The row of a pass's parameter; NULL: it has none of that name. */
 const struct glint_row *glint_pass_parameter(const struct glint_pass *pass, const char *name);
-/* The pass's row ROLE of that role, whose name is the image's or the parameter's; NULL: it has none. */
+/* The pass's row ROLE of that role, whose `image` names it; NULL: it has none. */
 const struct glint_row *glint_pass_role(const struct glint_pass *pass, enum glint_pass_role role);
 /* The first pass of all that has the role, and *name of what; NULL, both, when none has. */
 const struct glint_pass *glint_pass_with_role(enum glint_pass_role role, const char **name);

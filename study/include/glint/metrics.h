@@ -154,6 +154,8 @@ enum glint_surface {
 };
 /* "all", "mirror-like", "glossy", "rough": names of the elements of the arrays below, where all surfaces come first. */
 const char *glint_surface_name(enum glint_surface surface);
+/* Labels that are enum glint_surface as a set of classes; they stay the caller's. */
+struct glint_classes glint_surface_classes(const uint8_t *labels);
 enum glint_surface glint_surface_of(double roughness);
 
 struct glint_image_error {

@@ -1,5 +1,6 @@
 /* What runs are compared with, and what of them: the last reflection, the truth, the class of each pixel. */
-#include "answers.h"
+#include "glint/study.h"
+#include "question.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -172,8 +173,8 @@ void study_question(const struct glint_pipeline *pipeline, char question[QUESTIO
     const struct glint_row *row;
     for (size_t i = 0; (row = question_row(pipeline, i, &pass)); i++) {
         const size_t end = strlen(question);
-        if (value_text(pipeline, pass->slot, row->name, value))
-            snprintf(question + end, QUESTION_SIZE - end, "%s%s.%s=%s", end ? " " : "", pass->slot, row->name, value);
+        if (value_text(pipeline, pass->slot, row->image, value))
+            snprintf(question + end, QUESTION_SIZE - end, "%s%s.%s=%s", end ? " " : "", pass->slot, row->image, value);
     }
 }
 
@@ -183,10 +184,10 @@ struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeli
     const struct glint_row *row;
     for (size_t i = 0; reference && (row = question_row(pipeline, i, &pass)); i++) {
         char value[64], unused[64], assignment[256];
-        if (!value_text(pipeline, pass->slot, row->name, value) ||
-            !value_text(reference, pass->slot, row->name, unused))
+        if (!value_text(pipeline, pass->slot, row->image, value) ||
+            !value_text(reference, pass->slot, row->image, unused))
             continue;
-        snprintf(assignment, sizeof assignment, "%s.%s=%s", pass->slot, row->name, value);
+        snprintf(assignment, sizeof assignment, "%s.%s=%s", pass->slot, row->image, value);
         if (!glint_pipeline_set(reference, assignment, err)) glint_pipeline_destroy(&reference);
     }
     return reference;

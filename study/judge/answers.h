@@ -1,13 +1,10 @@
-/* What a pipeline is asked for, as far as its answer depends on it. */
+/* Answers to what pipelines are asked for, each found once. */
 #ifndef GLINT_STUDY_ANSWERS_H
 #define GLINT_STUDY_ANSWERS_H
 
 #include "glint/judge.h"
 #include "glint/reference.h"
-
-enum { QUESTION_SIZE = 256 };
-/* "downsample.ndf=ggx resolve.fog=1 …": pipelines of one question have the same reference and the same truth. */
-void study_question(const struct glint_pipeline *pipeline, char question[QUESTION_SIZE]);
+#include "question.h"
 
 /* Answers to the questions of one capture, each found once. */
 struct answer {

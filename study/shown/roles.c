@@ -7,7 +7,7 @@ const struct glint_image *study_image(const struct glint_replay *replay, enum gl
     const struct glint_image *last = NULL;
     for (size_t i = 0; i < count; i++) {
         const struct glint_row *row = glint_pass_role(results[i].pass, role);
-        const struct glint_image *image = row ? glint_replay_find_image(replay, row->name) : NULL;
+        const struct glint_image *image = row ? glint_replay_find_image(replay, row->image) : NULL;
         if (image) last = image;
     }
     return last;

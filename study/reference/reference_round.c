@@ -96,7 +96,7 @@ static bool read_batch(struct glint_exr *exr, size_t i, const char *path, const 
 
 static bool read_round(struct glint_reference *reference, struct glint_exr *exr, const char *path,
                        struct glint_error *err) {
-    const struct glint_part_info *gbuffer = glint_capture_find(reference->capture, "gbuffer");
+    const struct glint_part_info *gbuffer = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
     struct halves *halves = &reference->halves;
     const size_t count = glint_exr_part_count(exr);
     for (size_t i = 0; i < count && i < 2; i++) {

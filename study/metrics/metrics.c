@@ -62,6 +62,10 @@ const char *glint_surface_name(enum glint_surface surface) {
     return surface < GLINT_SURFACE_COUNT ? surface_names[surface] : NULL;
 }
 
+struct glint_classes glint_surface_classes(const uint8_t *labels) {
+    return (struct glint_classes){"surface", surface_names + 1, GLINT_SURFACE_COUNT - 1, (uint8_t *)(uintptr_t)labels};
+}
+
 enum glint_surface glint_surface_of(double roughness) {
     if (roughness <= GLINT_MIRROR_ROUGHNESS) return GLINT_SURFACE_MIRROR;
     return roughness <= GLINT_GLOSSY_ROUGHNESS ? GLINT_SURFACE_GLOSSY : GLINT_SURFACE_ROUGH;
@@ -90,8 +94,7 @@ bool glint_study_image(const struct glint_pixels *found, const struct glint_pixe
     if (channels == 0 || channels > 4 || channels > found->components || channels > truth->components)
         return glint_fail(err, GLINT_ERROR_USAGE, "images to compare: expected %u channels, found %u and %u", channels,
                           found->components, truth->components);
-    const struct glint_classes classes = {"surface", surface_names + 1, GLINT_SURFACE_COUNT - 1,
-                                          (uint8_t *)(uintptr_t)surfaces};
+    const struct glint_classes classes = glint_surface_classes(surfaces);
     const struct glint_metric_options options = {.metrics = GLINT_METRICS_CHEAP & ~(1u << GLINT_METRIC_PSNR),
                                                  .found_channels = names[channels],
                                                  .truth_channels = names[channels],

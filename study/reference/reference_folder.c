@@ -19,8 +19,15 @@ static const struct {
     {"reflection_b", "R G B A", "radiance", "mean of the other half, which shares no random number with the first"},
     {"reflection_error", "error", "1",
      "standard error of the mean of both halves, relative to it, by what they differ by"},
-    {"reflection", "R G B A", "radiance", "mean of both halves"},
+    {NULL, "R G B A", "radiance", "mean of both halves"},
 };
+
+/* The mean goes by the name of the reflection itself. */
+static const char *image_name(int i) {
+    const char *name = images[i].name;
+    if (!name) glint_pass_with_role(GLINT_ROLE_COMPOSED, &name);
+    return name;
+}
 
 static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
@@ -57,8 +64,8 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
     reference->halves.rays = (uint32_t)rays / 2;
     reference->state.seconds = json_number_value(json_object_get(own, "seconds"));
     reference->sensitivity = json_incref(json_object_get(own, "sensitivity"));
-    return read_half(run, folder, images[0].name, part, &reference->halves.of[0], err) &&
-           read_half(run, folder, images[1].name, part, &reference->halves.of[1], err) &&
+    return read_half(run, folder, image_name(0), part, &reference->halves.of[0], err) &&
+           read_half(run, folder, image_name(1), part, &reference->halves.of[1], err) &&
            reference_measure(reference, err);
 }
 
@@ -86,7 +93,7 @@ bool reference_resume(struct glint_reference *reference, bool anew, struct glint
 }
 
 bool glint_study_run_error(struct glint_run *run, float **error, struct glint_error *err) {
-    const struct glint_run_image *image = glint_run_find(run, images[2].name);
+    const struct glint_run_image *image = glint_run_find(run, image_name(2));
     *error = NULL;
     if (!image) return true;
     if (image->components != 1)
@@ -124,10 +131,10 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
     json_t *list = json_array(), *last = last_that_ran(record);
     for (int i = 0; i < IMAGES; i++)
         json_array_append_new(
-            list, json_pack("{ss ss* ss ss ss ss si si ss}", "name", images[i].name, "file", NULL, "part",
-                            images[i].name, "channels", images[i].channels, "unit", images[i].unit, "meaning",
-                            images[i].meaning, "width", (int)reference->halves.of[0].width, "height",
-                            (int)reference->halves.of[0].height, "format", i == 2 ? "R32F" : "RGBA32F"));
+            list, json_pack("{ss ss* ss ss ss ss si si ss}", "name", image_name(i), "file", NULL, "part", image_name(i),
+                            "channels", images[i].channels, "unit", images[i].unit, "meaning", images[i].meaning,
+                            "width", (int)reference->halves.of[0].width, "height", (int)reference->halves.of[0].height,
+                            "format", i == 2 ? "R32F" : "RGBA32F"));
     json_object_del(record, "first_ray");
     bool ok = own && last && json_object_set_new(record, "rays", json_integer(reference->state.rays)) == 0 &&
               json_object_set_new(record, "reference", own) == 0 && json_object_set_new(last, "images", list) == 0;
@@ -140,7 +147,7 @@ static void fill_part(const struct glint_pixels *pixels, int i, struct glint_exr
                       struct glint_exr_attribute attributes[3], struct glint_exr_part *part) {
     static const char *const rgba[] = {"R", "G", "B", "A"};
     const char *const texts[3][2] = {
-        {"glint.image", images[i].name}, {"glint.unit", images[i].unit}, {"glint.meaning", images[i].meaning}};
+        {"glint.image", image_name(i)}, {"glint.unit", images[i].unit}, {"glint.meaning", images[i].meaning}};
     for (uint32_t k = 0; k < pixels->components; k++)
         channels[k] = (struct glint_exr_channel){.name = pixels->components == 4 ? rgba[k] : images[i].channels,
                                                  .stored = GLINT_STORED_FLOAT,
@@ -149,7 +156,7 @@ static void fill_part(const struct glint_pixels *pixels, int i, struct glint_exr
     for (int t = 0; t < 3; t++)
         attributes[t] = (struct glint_exr_attribute){
             .name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
-    *part = (struct glint_exr_part){.name = images[i].name,
+    *part = (struct glint_exr_part){.name = image_name(i),
                                     .width = pixels->width,
                                     .height = pixels->height,
                                     .channels = channels,

@@ -167,7 +167,7 @@ static bool link_all(struct measuring *m, struct glint_error *err) {
 
 static bool begin(struct measuring *m, struct glint_error *err) {
     struct glint_stability *s = m->out;
-    const struct glint_part_info *gbuffer = glint_capture_find(m->capture, "gbuffer");
+    const struct glint_part_info *gbuffer = glint_capture_find(m->capture, GLINT_PART_GBUFFER);
     const size_t images = glint_replay_image_count(m->replay), pixels = (size_t)gbuffer->width * gbuffer->height;
     size_t count;
     const struct glint_pass_result *results = glint_replay_results(m->replay, &count);

@@ -25,8 +25,6 @@ struct glint_judge {
     size_t measured_count, measured_room;
 };
 
-static const char *const surface_names[] = {"mirror-like", "glossy", "rough"};
-
 const char *glint_answer_name(enum glint_answer answer) {
     static const char *const names[GLINT_ANSWER_COUNT] = {"reference", "truth"};
     return answer < GLINT_ANSWER_COUNT ? names[answer] : NULL;
@@ -70,7 +68,7 @@ bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, 
     unload(judge);
     if (!glint_replay_load(judge->replay, capture, err)) return false;
     if (!capture) return true;
-    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
     judge->capture = capture;
     judge->pixels = (size_t)gbuffer->width * gbuffer->height;
     return (judge->surfaces = glint_study_surfaces(capture, err)) != NULL;
@@ -116,7 +114,7 @@ static bool no_memory(struct glint_error *err) {
 
 /* The last reflection, and where it is one. Without any, because its passes have nothing to do, nothing is given. */
 static bool read_reflection(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
-    const struct glint_part_info *gbuffer = glint_capture_find(judge->capture, "gbuffer");
+    const struct glint_part_info *gbuffer = glint_capture_find(judge->capture, GLINT_PART_GBUFFER);
     struct glint_error own = {0};
     if (glint_study_reflection(judge->replay, &verdict->reflection, &own))
         return (verdict->given = glint_study_given(judge->replay, &verdict->reflection, err)) != NULL;
@@ -144,10 +142,7 @@ static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict
 
 static bool compare(struct glint_judge *judge, const struct answer *answer, struct glint_verdict *verdict,
                     struct glint_error *err) {
-    const struct glint_classes classes = {.title = "surface",
-                                          .names = surface_names,
-                                          .count = sizeof surface_names / sizeof *surface_names,
-                                          .labels = judge->surfaces};
+    const struct glint_classes classes = glint_surface_classes(judge->surfaces);
     const struct glint_metric_options options = {.metrics = judge->options.metrics,
                                                  .found_channels = "R G B",
                                                  .truth_channels = "R G B",
