@@ -103,6 +103,8 @@ KINDS = [
     choice('a', 'b', 'c', 'd', 'e'),
     Kind('PUSH', 'type, name, initial, lowest, highest, unit, source, help', 'A parameter as a push constant, for what varies cheaply.',
          row=VALUE, push='$type $name;'),
+    Kind('ROLE', 'role, name', 'What this image or parameter is to replay and study, which know none by name: enum glint_pass_role.',
+         row='.name = "", .image = #$name, .first = GLINT_ROLE_##$role'),
     Kind('ASSUMED', 'parameter',
          'This parameter stands for something that the capture does not contain, such as how thick objects are. `glint reference` halves and '
          'doubles it to find how far the answer depends on it.', row='.name = #$parameter'),

@@ -54,7 +54,7 @@ for f in files:
 generated = tempfile.TemporaryDirectory()
 os.mkdir(os.path.join(generated.name, "glint"))
 subprocess.run([sys.executable, "passes/table.py", "rows", os.path.join(generated.name, "glint/row_kinds.h")], check=True)
-includes = [a for d in ("capture-format", "passes", "replay", "samples", "selftest") for a in ("-I", f"{d}/include")] + ["-I", generated.name]
+includes = [a for d in ("capture-format", "passes", "replay", "study", "samples", "selftest") for a in ("-I", f"{d}/include")] + ["-I", generated.name]
 for h in (f for f in files if "/include/glint/" in f and f.endswith(".h")):
     for command in (["gcc", "-std=c11"], ["g++", "-std=c++17", "-x", "c++"]):
         with tempfile.NamedTemporaryFile("w", suffix=".c") as unit:
@@ -73,5 +73,15 @@ with open("capture-format/exports.map", encoding="utf-8") as text:
     shown = set(re.findall(r"\b(glint_\w+);", text.read()))
 for name in declared ^ shown:
     faults.append(f"capture-format/exports.map: {name} is " + ("missing" if name in declared else "in no public header"))
+# A room is a folder that one person can have in mind.
+ROOM_LINES = 2500
+for library in ("replay", "study"):
+    for room in sorted(d for d in os.listdir(library) if os.path.isdir(f"{library}/{d}") and d != "include"):
+        lines = 0
+        for name in os.listdir(f"{library}/{room}"):
+            with open(f"{library}/{room}/{name}", encoding="utf-8") as text:
+                lines += sum(1 for _ in text)
+        if lines > ROOM_LINES:
+            faults.append(f"{library}/{room}: {lines} lines, at most {ROOM_LINES}: expected two rooms")
 print("\n".join(faults), file=sys.stderr)
 sys.exit(1 if faults else 0)

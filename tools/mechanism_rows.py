@@ -58,7 +58,7 @@ PLUS = ["set downsample.pattern=plus"]
 HISTORY = ["use temporal=rough", "use temporal_sharp=clamped"]
 CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
 COCOON_ALONE = CUBES + ["set cubemap_trace.depth=captured", "set cubemap_trace.cocoon_start=surface"]
-LQ_AS_HQ = "set cubemap_trace.steps_lq=32 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
+LQ_AS_HQ = "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
 
 # (step, mechanism, scene, what both have, what turns it off, what is looked at[, what is traded for it])
 ROWS = [

@@ -21,3 +21,4 @@ SPEC(bool, whole, true, 0, 1, "1", "glint", "all figures; off: only those that t
 DISPATCH(survey_blocks)
 DISPATCH(survey_blocks)
 REFERENCE_NONE("it contributes nothing to the picture")
+ROLE(SURVEY_FIGURES, survey_figures)

@@ -15,3 +15,4 @@ WRITE(uimage2D, reached_faces, R32UI, "1", FIGURES, "faces", 0, "eight words: wo
 DISPATCH(depth_full)
 DISPATCH(reached_faces)
 REFERENCE_NONE("it contributes nothing to the picture")
+ROLE(SURVEY_REACHED_FACES, reached_faces)

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "fixture.h"
-#include "state.h"
+#include "session.h"
 
 enum { PLENTY = 64 << 20 };
 
@@ -68,8 +68,8 @@ static void check_fresh(struct glint_replay *fresh, struct glint_replay *replay,
 
 static uint64_t spare_bytes(const struct glint_replay *replay) {
     uint64_t bytes = 0;
-    for (const struct image *image = replay->images; image; image = image->next)
-        bytes += image->used ? 0 : image_memory_bytes(image);
+    for (const struct pooled *image = replay->pool.images; image; image = image->next)
+        bytes += image->used ? 0 : pooled_bytes(image);
     return bytes;
 }
 

@@ -81,7 +81,7 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
     struct pair *pair = pair_of(state);
     static const char *const presets[] = {"mafia3", "mafia3", "mafia3_shipped", "mafia_de"};
     char path[256];
-    uint32_t *wide = &pair->fixture->device->info.tile_wide;
+    uint32_t *wide = &pair->fixture->device->gpu.info.tile_wide;
     const uint32_t own = *wide, other = own == TILE_WIDE ? STRIP_WIDE : TILE_WIDE;
     mirror(pair->fixture, path);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {

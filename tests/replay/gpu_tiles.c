@@ -58,7 +58,7 @@ static size_t differences_of_tiles(struct pair *pair, double *worked) {
         struct glint_capture *capture = tiled(pair->fixture, frame);
         differ += pair_differences(pair, capture, &left_out);
         const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);
-        json_t *all = json_object_get(pair->planned->record, "passes");
+        json_t *all = json_object_get(pair->planned->results.record, "passes");
         for (size_t p = 0; p < passes && frame == TILED_FRAMES; p++) {
             if (strcmp(results[p].pass->slot, "resolve") != 0) continue;
             json_t *work = json_object_get(json_array_get(all, p), "work");
@@ -76,7 +76,7 @@ static size_t differences_of_tiles(struct pair *pair, double *worked) {
 static void tiles_leave_nothing_out(void **state) {
     struct pair *pair = pair_of(state);
     static const char *const presets[] = {"mafia3", "mafia_de", "mafia3_shipped"};
-    uint32_t *wide = &pair->fixture->device->info.tile_wide;
+    uint32_t *wide = &pair->fixture->device->gpu.info.tile_wide;
     const uint32_t own = *wide, other = own == TILE_WIDE ? STRIP_WIDE : TILE_WIDE;
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         double worked = 0, worked_other = 0;
@@ -108,7 +108,7 @@ static void a_wrong_list_is_found(void **state) {
         {"strips by what is not smooth", "!= 0u ? SMOOTH : 0u", "== 0u ? SMOOTH : 0u"},
         {"strips by the word beside", "own_region() + strip)", "own_region() + (strip ^ 1u))"},
     };
-    uint32_t *wide = &pair->fixture->device->info.tile_wide;
+    uint32_t *wide = &pair->fixture->device->gpu.info.tile_wide;
     const uint32_t own = *wide;
     *wide = STRIP_WIDE; /* both lists, whatever the device */
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {

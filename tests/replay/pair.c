@@ -116,14 +116,14 @@ size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t
         const struct glint_plan_entry *entries;
         size_t count;
         pair_check(glint_replay_plan(pair->planned, pair->pipeline, NULL, &entries, &count, &err), &err);
-        pair->lie(&pair->planned->survey);
+        pair->lie(&pair->planned->planner.survey.figures);
     }
     struct glint_replay_options options = {.float_precision = pair->float_precision};
     pair_check(glint_replay_run(pair->planned, pair->pipeline, &options, NULL, NULL, &err), &err);
     options.all = true;
     pair_check(glint_replay_run(pair->whole, pair->other ? pair->other : pair->pipeline, &options, NULL, NULL, &err),
                &err);
-    pair->last = pair->planned->survey;
+    pair->last = pair->planned->planner.survey.figures;
     size_t counts[2], passes, differ = 0;
     const struct glint_pass_result *results = glint_replay_results(pair->planned, &passes);
     for (size_t i = 0; i < passes; i++) *left_out += !results[i].ran;

@@ -3,7 +3,7 @@
 #define GLINT_TESTS_PAIR_H
 
 #include "fixture.h"
-#include "state.h"
+#include "session.h"
 
 /* Both stay for all tests, and so do their programs. */
 struct pair {

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "survey.h"
+#include "channels.h"
 
 enum { CHANNELS = 3 }; /* a colour, a constant, a distance */
 

@@ -49,19 +49,30 @@ static void make(struct pipeline *made, const struct glint_pass *const *passes, 
     make(made, (const struct glint_pass *const[]){__VA_ARGS__},                                                        \
          sizeof((const struct glint_pass *const[]){__VA_ARGS__}) / sizeof(void *))
 
-static bool holds(void *user, const char *fact, char *reason, size_t size, bool *known, struct glint_error *err) {
+static enum fact_about about(const char *fact) {
+    return strcmp(fact, "yes") == 0 || strcmp(fact, "no") == 0 ? FACT_PIXELS : FACT_UNKNOWN;
+}
+static bool holds(void *user, const char *fact, char *reason, size_t size, struct glint_error *err) {
     (void)user, (void)err;
-    *known = strcmp(fact, "yes") == 0 || strcmp(fact, "no") == 0;
     snprintf(reason, size, "%s of 10", strcmp(fact, "yes") == 0 ? "3" : "0");
     return strcmp(fact, "yes") == 0;
+}
+
+static bool link_all(struct graph *graph, const struct glint_pipeline *pipeline,
+                     const struct glint_replay_options *options, struct glint_capture *capture,
+                     struct glint_error *err) {
+    const struct graph_inputs inputs = {options, capture, NULL, {holds, about, NULL}};
+    const bool ok =
+        graph_init(graph, pipeline, err) && graph_decide(graph, &inputs, err) && graph_link(graph, &inputs, err);
+    if (!ok) graph_finish(graph);
+    return ok;
 }
 
 static bool build(void **state, struct graph *graph, const struct pipeline *made, struct glint_replay_options options,
                   struct glint_error *err) {
     const struct fixture *fixture = *state;
     *err = (struct glint_error){0};
-    return graph_init(graph, &(struct graph_inputs){&made->pipeline, &options, fixture->capture, NULL, {holds, NULL}},
-                      err);
+    return link_all(graph, &made->pipeline, &options, fixture->capture, err);
 }
 
 static void passes_run_in_the_order_of_their_images(void **state) {
@@ -280,9 +291,7 @@ static void the_real_passes_link(void **state) {
     struct graph graph;
     struct glint_error err = {0};
     const struct glint_replay_options options = {.all = true, .diagnostics = true};
-    if (!graph_init(&graph, &(struct graph_inputs){fixture->pipeline, &options, fixture->capture, NULL, {holds, NULL}},
-                    &err))
-        fail_msg("%s", err.message);
+    if (!link_all(&graph, fixture->pipeline, &options, fixture->capture, &err)) fail_msg("%s", err.message);
     for (size_t i = 0; i < graph.image_count; i++) {
         size_t channels = 0, components[] = {1, 1, 1, 2, 4, 1, 2, 4};
         if (!graph.images[i].pass) continue;
@@ -300,20 +309,19 @@ static void smooth_and_rough_pixels_are_facts(void **state) {
     struct glint_survey survey;
     struct glint_error err = {0};
     char reason[192];
-    bool known;
     assert_true(glint_survey_capture(fixture->capture, &survey, &err));
     assert_true(survey.reflecting.roughness[0] <= 0.1f && survey.reflecting.roughness[1] > 0.1f);
     survey = (struct glint_survey){.pixels = 10, .reflecting = {.count = 4, .roughness = {0.05f, 0.1f}}};
-    assert_true(survey_fact(&survey, false, "smooth 0.05", reason, sizeof reason, &known) && known);
+    assert_true(survey_fact(&survey, false, "smooth 0.05", reason, sizeof reason));
     assert_string_equal(reason, "the smoothest of 4 reflecting pixels has roughness 0.05, the limit is at most 0.05");
-    assert_false(survey_fact(&survey, false, "smooth 0.04", reason, sizeof reason, &known));
-    assert_true(survey_fact(&survey, false, "rough 0.1", reason, sizeof reason, &known) && known);
-    assert_false(survey_fact(&survey, false, "rough 0.11", reason, sizeof reason, &known));
+    assert_false(survey_fact(&survey, false, "smooth 0.04", reason, sizeof reason));
+    assert_true(survey_fact(&survey, false, "rough 0.1", reason, sizeof reason));
+    assert_false(survey_fact(&survey, false, "rough 0.11", reason, sizeof reason));
     assert_string_equal(reason, "the roughest of 4 reflecting pixels has roughness 0.1, the limit is at least 0.11");
-    assert_true(survey_fact(&survey, false, "cones", reason, sizeof reason, &known) && known);
+    assert_true(survey_fact(&survey, false, "cones", reason, sizeof reason));
     survey.reflecting.roughness[1] = 0;
-    assert_false(survey_fact(&survey, false, "cones", reason, sizeof reason, &known));
-    assert_false(survey_fact(&survey, true, "reflecting", reason, sizeof reason, &known)); /* no surface at all */
+    assert_false(survey_fact(&survey, false, "cones", reason, sizeof reason));
+    assert_false(survey_fact(&survey, true, "reflecting", reason, sizeof reason)); /* no surface at all */
     float pixels[5][4] = {{1, 0.1f, 0, 1}, {1, 0.3f, 0, NAN}, {1, NAN, 0.5f, 0}, {1, 1, 0, 0}, {INFINITY, 1, 1, 1}};
     const char *names[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
     const struct glint_part_info part = {.width = 5, .height = 1};

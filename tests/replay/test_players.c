@@ -52,11 +52,11 @@ static void declarations_are_the_preset(void **state) {
     const struct glint_pass *passes = glint_passes(&count);
     for (size_t i = 0; i < count; i++) {
         const struct pipeline_pass *entry = pipeline_find(reference, passes[i].slot);
-        const bool is = pass_row(&passes[i], GLINT_ROW_REFERENCE, NULL) != NULL;
+        const bool is = glint_pass_row(&passes[i], GLINT_ROW_REFERENCE, NULL) != NULL;
         if (is != (entry && entry->pass == &passes[i]))
             fail_msg("%s/%s: declared %d, in the preset %s", passes[i].slot, passes[i].variant, is,
                      entry ? entry->pass->variant : "none");
-        if (!!pass_row(&passes[i], GLINT_ROW_REFERENCE_NONE, NULL) == (entry != NULL))
+        if (!!glint_pass_row(&passes[i], GLINT_ROW_REFERENCE_NONE, NULL) == (entry != NULL))
             fail_msg("%s: both a reference and left out, or neither", passes[i].slot);
         references += is;
     }
@@ -88,7 +88,7 @@ static void declared_values_are_the_presets(void **state) {
     struct glint_error err = {0};
     for (size_t i = 0; i < made->count; i++)
         for (size_t r = 0; r < made->passes[i].pass->row_count; r++)
-            if (row_is_parameter(&made->passes[i].pass->rows[r]))
+            if (glint_row_is_parameter(&made->passes[i].pass->rows[r]))
                 made->passes[i].values[r] = made->passes[i].pass->rows[r].initial;
     for (size_t i = 0; i < made->count; i++)
         for (size_t r = 0; r < made->passes[i].pass->row_count; r++) {
@@ -139,9 +139,12 @@ static void shared_images_join_slots(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static bool holds(void *user, const char *fact, char *reason, size_t size, bool *known, struct glint_error *err) {
+static enum fact_about about(const char *fact) {
+    (void)fact;
+    return FACT_PARTS;
+}
+static bool holds(void *user, const char *fact, char *reason, size_t size, struct glint_error *err) {
     (void)user, (void)fact, (void)err;
-    *known = true;
     snprintf(reason, size, "made up");
     return true;
 }
@@ -157,8 +160,9 @@ static void every_coalition_is_a_pipeline(void **state) {
             const struct glint_replay_options options = {0};
             struct graph graph;
             struct glint_error err = {0};
-            if (!graph_init(&graph, &(struct graph_inputs){made, &options, fixture->capture, NULL, {holds, NULL}},
-                            &err))
+            const struct graph_inputs inputs = {&options, fixture->capture, NULL, {holds, about, NULL}};
+            if (!graph_init(&graph, made, &err) || !graph_decide(&graph, &inputs, &err) ||
+                !graph_link(&graph, &inputs, &err))
                 fail_msg("%s, coalition %x: %s", presets[i], c, err.message);
             graph_finish(&graph);
             glint_pipeline_destroy(&made);
@@ -210,7 +214,7 @@ static void ends_are_the_preset_and_its_reference(void **state) {
 static double value(const struct glint_pipeline *pipeline, const char *slot, const char *name) {
     const struct pipeline_pass *entry = pipeline_find(pipeline, slot);
     for (size_t r = 0; entry && r < entry->pass->row_count; r++)
-        if (row_is_parameter(&entry->pass->rows[r]) && !strcmp(entry->pass->rows[r].name, name))
+        if (glint_row_is_parameter(&entry->pass->rows[r]) && !strcmp(entry->pass->rows[r].name, name))
             return entry->values[r];
     fail_msg("no %s.%s", slot, name);
     return 0;

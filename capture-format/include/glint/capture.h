@@ -326,6 +326,15 @@ typedef void (*glint_report)(void *user, const char *rule, const char *message);
 bool glint_capture_validate(const char *path, const struct glint_limits *limits, glint_report report, void *user,
                             size_t *violations, struct glint_error *err);
 
+/* Parts that most readers look for. */
+#define GLINT_PART_GBUFFER "gbuffer"
+#define GLINT_PART_LIT "lit"
+#define GLINT_PART_SCENE "scene"
+#define GLINT_PART_SKY "sky"
+#define GLINT_PART_WATER "water"
+#define GLINT_PART_TRANSPARENT "transparent"
+#define GLINT_PART_MIRROR "planar.000" /* the one planar map that passes see */
+
 /* ---- The registry of roles, from which writer, reader, validate, info and FORMAT.md's tables derive ---- */
 
 struct glint_role_channel {

@@ -11,6 +11,28 @@
 extern "C" {
 #endif
 
+/* What replay and study look for in declarations, since they know no slot and no image by name. */
+enum glint_pass_role {
+    GLINT_ROLE_CUBEMAP_ORDER,     /* the table that says which of the capture's cube maps take part, in which order */
+    GLINT_ROLE_SURVEY_FIGURES,    /* what a frame holds: passes/survey/figures.h */
+    GLINT_ROLE_SURVEY_OPEN_FACES, /* where active cube maps have texels without distance */
+    GLINT_ROLE_SURVEY_SKY_FACES,  /* where they let the sky through */
+    GLINT_ROLE_SURVEY_REACHED_FACES, /* the faces that mirror rays come to */
+    GLINT_ROLE_COMPOSED,             /* the reflection that the slot lays over the picture */
+    GLINT_ROLE_LOBE,                 /* the parameter that names the lobe rays are drawn from: truth.reflection.LOBE */
+    GLINT_ROLE_QUESTION,             /* a parameter that is part of what is asked, and not of how well it is answered */
+    GLINT_ROLE_RAY_NORMAL,           /* of rays, one a texel: the surface's normal and roughness, */
+    GLINT_ROLE_RAY_PICK,             /* which pixel they start from, */
+    GLINT_ROLE_RAY_DISTANCE,         /* how far they got, by the last tracer that is there, */
+    GLINT_ROLE_RAY_RADIANCE,         /* what arrives along them; */
+    GLINT_ROLE_CONTRIBUTION,         /* how much of the reflection is the run's own, beside its alpha; */
+    GLINT_ROLE_SCREEN_FINISHED,      /* whether they ended on screen, why, and what it cost; */
+    GLINT_ROLE_SCREEN_END,
+    GLINT_ROLE_SCREEN_FETCHES,
+    GLINT_ROLE_CUBEMAP_END, /* the same in cube maps */
+    GLINT_ROLE_CUBEMAP_FETCHES
+};
+
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
 
 /* Relative to the pipeline's resolution, to the cube maps, or a table that a host pass fills. */

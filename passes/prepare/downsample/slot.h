@@ -16,3 +16,7 @@ PUSH(float, min_weight, 0.0, 0.0, 1.0, "1", "glint", "surfaces that reflect less
 NEEDS(reflections)
 PER_RAY
 #include "shared/shown_rows.h"
+ROLE(RAY_NORMAL, normal_half)
+ROLE(RAY_PICK, pick)
+ROLE(LOBE, ndf)
+ROLE(QUESTION, ndf)

@@ -17,3 +17,4 @@ WRITE(image2D, composed, RGBA16F, "radiance", FULL, "R G B A", 0, "lit plus the 
 DISPATCH(composed)
 DISPATCH_TILES(shown)
 #include "shared/tile_rows.h"
+ROLE(COMPOSED, reflection)

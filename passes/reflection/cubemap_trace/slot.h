@@ -21,3 +21,6 @@ DISPATCH_TILES(shown)
 NEEDS(reflecting)
 PER_RAY
 #include "shared/tile_rows.h"
+ROLE(RAY_DISTANCE, travelled)
+ROLE(CUBEMAP_END, cubemap_end)
+ROLE(CUBEMAP_FETCHES, cubemap_fetches)

@@ -25,3 +25,4 @@ PUSH(float, back_from,  -0.17, -1.0, 1.0, "1", "KF2 article, Reflections of Back
 PUSH(float, back_to,    0.0,   -1.0, 1.0, "1", "KF2 article, Reflections of Back Faces", "cosine above which nothing is attenuated")
 PUSH(float, blur,       1.0,   0.0, 16.0, "1", "KF2 article, Applying Reflections", "half the side of the box, relative to the cone's radius on screen; 0: no blur")
 PUSH(float, blur_limit, 24.0,  0.0, 256.0, "pixels", "glint", "max half side of the box")
+ROLE(CONTRIBUTION, contribution)

@@ -11,3 +11,6 @@ NEEDS(reflecting)
 PER_RAY
 #include "shared/tile_rows.h"
 ACCUMULATE(reflection_half)
+ROLE(RAY_RADIANCE, reflection_half)
+ROLE(QUESTION, fog)
+ROLE(QUESTION, fog_target)

@@ -18,3 +18,7 @@ NEEDS(reflecting)
 PER_RAY
 PUSH(float, max_roughness, 1.0, 0.0, 1.0, "1", "glint", "surfaces rougher than this are not traced on screen, only in the cube maps; 1: all are traced")
 #include "shared/tile_rows.h"
+ROLE(RAY_DISTANCE, screen_travelled)
+ROLE(SCREEN_FINISHED, screen_finished)
+ROLE(SCREEN_END, screen_end)
+ROLE(SCREEN_FETCHES, screen_fetches)

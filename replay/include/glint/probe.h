@@ -31,6 +31,8 @@ struct glint_probe_word {
     const char *name, *text;
 };
 struct glint_probe_word glint_probe_word(const char *unit, float value);
+/* Some of the end reasons: rays that end on a surface, in the sky, by the fallback; and how many reasons there are. */
+enum { GLINT_END_HIT = 1, GLINT_END_SKY = 7, GLINT_END_FALLBACK = 9, GLINT_END_REASONS = 11 };
 
 struct glint_probe_story {
     struct glint_probe_record *records; /* in the order of passes, the caller frees them */

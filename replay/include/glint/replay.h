@@ -3,11 +3,23 @@
 #define GLINT_REPLAY_H
 
 #include "glint/capture.h"
-#include "glint/passes.h"
+#include "glint/declarations.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* ---- Times and progress ---- */
+
+struct glint_time {
+    uint32_t n;
+    uint64_t min_ns, median_ns, max_ns;
+};
+/* Sorts `ns`. */
+struct glint_time glint_time_statistics(uint64_t *ns, size_t count);
+double glint_now_seconds(void); /* of a clock that only goes forward */
+/* Tells whoever follows a call how far it is (NULL: nobody); false with an error when they want it to stop. */
+bool glint_report_progress(glint_progress progress, void *user, const char *what, double done, struct glint_error *err);
 
 /* ---- Devices ---- */
 
@@ -44,6 +56,7 @@ uint32_t glint_device_messages(const struct glint_device *device, const char **l
 /* ---- Pipelines: which variant of each slot, with which parameter values ---- */
 
 struct glint_pipeline;
+#define GLINT_NO_VARIANT "none"
 /* `preset`: a path to a JSON file (it holds a '/' or ends in ".json"), or a name: $GLINT_PRESETS/NAME.json, then the
    presets built into the library. Everything wrong in the file is reported together. */
 struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err);
@@ -52,7 +65,7 @@ void glint_pipeline_destroy(struct glint_pipeline **pipeline);
 const char *glint_pipeline_name(const struct glint_pipeline *pipeline);
 /* Names of the presets built into the library; NULL past the last. */
 const char *glint_preset(size_t i);
-/* "slot=variant"; "none" leaves the slot out. Values of parameters that both variants have are kept. */
+/* "slot=variant"; GLINT_NO_VARIANT leaves the slot out. Values of parameters that both variants have are kept. */
 bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 /* "pipeline.rays=N": PER_RAY slots run N times a frame, 1 to 1024, and what they accumulate becomes the mean.
    "pipeline.first_ray=N": their number starts there, 0 by default: other random numbers than those of the rays before.
@@ -64,8 +77,21 @@ bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignme
 size_t glint_pipeline_pass_count(const struct glint_pipeline *pipeline);
 const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeline, size_t i);
 uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline); /* a frame, at least 1 */
+/* The pass in a slot; NULL: the pipeline leaves the slot out. */
+const struct glint_pass *glint_pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
 double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct glint_pass *pass,
                             const struct glint_row *parameter);
+/* Checked as glint_pipeline_set does; of a choice, the number of its name. */
+bool glint_pipeline_set_value(struct glint_pipeline *pipeline, const struct glint_pass *pass,
+                              const struct glint_row *parameter, double value, struct glint_error *err);
+/* The user's file that the pass's shader is compiled from; NULL: it is the pass's own. */
+const char *glint_pipeline_shader_file(const struct glint_pipeline *pipeline, const struct glint_pass *pass);
+
+/* ---- The camera ---- */
+
+/* The direction from the eye through a point of the picture, as long as it gets to depth 1: world = matrix · (u, v, 1), axes of
+   the capture's world, uv from the upper left corner. */
+void glint_frame_directions(const struct glint_frame *frame, double matrix[3][3]);
 
 /* ---- Survey: what a frame holds, which decides what it calls for ---- */
 
@@ -162,10 +188,6 @@ struct glint_plan_entry {
     char reason[192]; /* why it runs or not, with the figure */
     uint64_t texels;  /* that its dispatches go over when nothing is left out; 0: on the host, or not known */
 };
-struct glint_time {
-    uint32_t n;
-    uint64_t min_ns, median_ns, max_ns;
-};
 struct glint_pass_result {
     const struct glint_pass *pass;
     bool ran, shown;  /* shown: it ran, or its image is one of the capture's, which it would have passed on as it is */
@@ -190,6 +212,7 @@ struct glint_replay;
 /* The device stays the caller's and must outlive the replay. NULL: plans only. */
 struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err);
 void glint_replay_destroy(struct glint_replay **replay);
+struct glint_device *glint_replay_device(const struct glint_replay *replay); /* the caller's; NULL: plans only */
 /* The capture stays the caller's and must outlive its use here; NULL unloads. When its frame is the one after the frame
    that was run last, and no cut, passes that remember find that frame's images. */
 bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err);
@@ -203,6 +226,11 @@ char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *
 bool glint_survey_class(const struct glint_survey *survey, const struct glint_stencil_class *class_, uint64_t *count);
 /* "none", "camera" or "objects": what moved since the frame before. */
 const char *glint_survey_motion(const struct glint_survey *survey);
+/* What the device took for the survey that the last plan or run went by: of each frame, and of cube maps when one changes. */
+struct glint_survey_times {
+    uint64_t frame_ns, cubemaps_ns;
+};
+struct glint_survey_times glint_replay_survey_times(const struct glint_replay *replay);
 /* What would run. Reads what the survey needs from the capture. *entries is valid until the next call on `replay`. */
 bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                        const struct glint_replay_options *options, const struct glint_plan_entry **entries,
@@ -240,6 +268,13 @@ struct glint_bad_values {
    one comes first. Reads back images that were not written. *list is valid until the next call on `replay`. */
 bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad_values **list, size_t *count,
                              struct glint_error *err);
+/* What run.json says of the last run, but for its files: the caller frees it. NULL on failure. */
+char *glint_replay_json(struct glint_replay *replay, struct glint_error *err);
+/* The loaded capture's glint_capture_hash, found once. */
+bool glint_replay_capture_hash(struct glint_replay *replay, char hash[33], struct glint_error *err);
+/* A hash of the SPIR-V that a pass of the pipeline runs, which has a shader and is compiled where that is not built in. */
+bool glint_replay_shader_hash(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                              const struct glint_pass *pass, uint64_t *hash, struct glint_error *err);
 /* Writes `folder`/run.json and one EXR a pass, NN-SLOT.exr, where NN is the pass's place in the whole pipeline; each
    file appears complete or not at all, run.json last. A run that was there before is removed first. */
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
@@ -268,6 +303,10 @@ const char *glint_run_json(const struct glint_run *run);
 size_t glint_run_image_count(const struct glint_run *run);
 const struct glint_run_image *glint_run_image(const struct glint_run *run, size_t i);
 const struct glint_run_image *glint_run_find(const struct glint_run *run, const char *name);
+/* Removes the files that `folder`/run.json lists, and that first: no mixture ever looks complete. No run there is no error. */
+bool glint_run_remove(const char *folder, struct glint_error *err);
+/* Writes `folder`/run.json, complete or as it was before. */
+bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err);
 /* GLINT_F32, GLINT_U32 or the stored type; bits are kept when the types agree. */
 bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, enum glint_type type, void *out,
                     struct glint_error *err);

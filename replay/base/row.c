@@ -1,0 +1,127 @@
+/* Look-ups in declarations. */
+#include "row.h"
+
+#include <string.h>
+
+bool glint_row_is_output(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_WRITE || row->kind == GLINT_ROW_DIAGNOSTIC;
+}
+bool row_is_sampled(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_READ || row->kind == GLINT_ROW_READ_OWN || row->kind == GLINT_ROW_HISTORY;
+}
+bool glint_row_is_parameter(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_SPEC || row->kind == GLINT_ROW_CHOICE || row->kind == GLINT_ROW_PUSH;
+}
+bool row_is_dispatch(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS;
+}
+bool row_is_image(const struct glint_row *row) {
+    return row_is_sampled(row) || glint_row_is_output(row);
+}
+const char *row_image(const struct glint_row *row) {
+    return row->image ? row->image : row->name;
+}
+
+bool size_is_array(enum glint_size_class size) {
+    return size == GLINT_SIZE_CUBEMAPS || size == GLINT_SIZE_CUBEMAPS_MIPS || size == GLINT_SIZE_COCOON ||
+           size == GLINT_SIZE_PARABOLOIDS_MIPS;
+}
+bool size_is_cube(enum glint_size_class size) {
+    return (size_is_array(size) && size != GLINT_SIZE_PARABOLOIDS_MIPS) || size == GLINT_SIZE_SKY ||
+           size == GLINT_SIZE_SKY_MIPS;
+}
+bool size_has_levels(enum glint_size_class size) {
+    return size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_CUBEMAPS_MIPS ||
+           size == GLINT_SIZE_SKY_MIPS || size == GLINT_SIZE_PARABOLOIDS_MIPS || size == GLINT_SIZE_HALF_MIPS3;
+}
+
+bool size_is_buffer(enum glint_size_class size) {
+    return size == GLINT_SIZE_LIST || size == GLINT_SIZE_TILES;
+}
+
+bool list_has(const char *const *list, const char *name) {
+    for (; list && *list; list++)
+        if (strcmp(*list, name) == 0) return true;
+    return false;
+}
+
+const struct glint_row *glint_pass_row(const struct glint_pass *pass, enum glint_row_kind kind, const char *image) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == kind && (!image || strcmp(row_image(&pass->rows[r]), image) == 0))
+            return &pass->rows[r];
+    return NULL;
+}
+
+const struct glint_row *glint_pass_output(const struct glint_pass *pass, const char *image) {
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (glint_row_is_output(&pass->rows[i]) && strcmp(pass->rows[i].name, image) == 0) return &pass->rows[i];
+    return NULL;
+}
+
+const struct glint_row *capture_row(const char *image) {
+    size_t count;
+    const struct glint_row *rows = glint_capture_images(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(rows[i].name, image) == 0) return &rows[i];
+    return NULL;
+}
+
+const struct glint_row *glint_pass_parameter(const struct glint_pass *pass, const char *name) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (glint_row_is_parameter(&pass->rows[r]) && strcmp(pass->rows[r].name, name) == 0) return &pass->rows[r];
+    return NULL;
+}
+
+const double *parameter_value(const struct glint_pass *pass, const double *values, const char *parameter) {
+    const struct glint_row *row = parameter && values ? glint_pass_parameter(pass, parameter) : NULL;
+    return row ? &values[row - pass->rows] : NULL;
+}
+
+const char *channel_word(const char *channels, size_t place, size_t *length) {
+    for (; place > 0 && strchr(channels, ' '); place--) channels = strchr(channels, ' ') + 1;
+    *length = strcspn(channels, " ");
+    return channels;
+}
+
+const struct glint_row *glint_pass_role(const struct glint_pass *pass, enum glint_pass_role role) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_ROLE && pass->rows[r].first == (int)role) return &pass->rows[r];
+    return NULL;
+}
+
+const struct glint_pass *glint_pass_with_role(enum glint_pass_role role, const char **name) {
+    size_t count;
+    const struct glint_pass *all = glint_passes(&count);
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_row *row = glint_pass_role(&all[i], role);
+        if (!row) continue;
+        *name = row->image;
+        return &all[i];
+    }
+    *name = NULL;
+    return NULL;
+}
+
+const char *cubemap_order_image(void) {
+    const char *name;
+    glint_pass_with_role(GLINT_ROLE_CUBEMAP_ORDER, &name);
+    return name;
+}
+
+/* Cube-map arrays hold the active cube maps in the order of one table, so whoever reads an array depends on that. */
+size_t glint_row_reads(const struct glint_row *row, const char *names[2]) {
+    if (row->kind != GLINT_ROW_READ) return 0;
+    const struct glint_row *captured = capture_row(row->name);
+    names[0] = row->name;
+    names[1] = captured && size_is_array(captured->size) ? cubemap_order_image() : NULL;
+    return names[1] ? 2 : 1;
+}
+
+bool glint_pass_depends(const struct glint_pass *later, const struct glint_pass *earlier) {
+    for (size_t r = 0; r < later->row_count; r++) {
+        const char *names[2];
+        for (size_t n = glint_row_reads(&later->rows[r], names); n-- > 0;)
+            if (glint_pass_output(earlier, names[n])) return true;
+    }
+    return false;
+}

@@ -1,0 +1,94 @@
+/* A step's descriptors, barriers and commands. */
+#include <string.h>
+
+#include "run.h"
+
+/* Cube maps can be sampled by direction, or fetched as an array of faces. */
+static VkImageView sampled_view(const struct image *image, const char *kind) {
+    if (strstr(kind, "2DArray")) return image->faces_view;
+    return strstr(kind, "CubeArray") ? image->array_view : image->view;
+}
+
+static void write_descriptors(const struct run *run, const struct step *step, const struct dispatch *dispatch) {
+    const struct glint_pass *pass = step->pass->pass;
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (!row_is_image(row)) continue;
+        const struct image *image = &run_bound(run, row)->image;
+        const uint32_t coarsest = image->desc.levels - 1;
+        const bool sampled = row_is_sampled(row);
+        const VkDescriptorImageInfo info = {
+            .imageView = sampled ? sampled_view(image, row->glsl)
+                                 : image->levels[dispatch->level < coarsest ? dispatch->level : coarsest],
+            .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
+        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                            .dstSet = dispatch->set,
+                                            .dstBinding = row->id,
+                                            .descriptorCount = 1,
+                                            .descriptorType = row_descriptor(row),
+                                            .pImageInfo = &info,
+                                            .pTexelBufferView = &image->buffer_view};
+        vkUpdateDescriptorSets(run->gpu->device, 1, &write, 0, NULL);
+    }
+}
+
+bool step_describe(const struct run *run, struct step *step, struct glint_error *err) {
+    struct gpu *gpu = run->gpu;
+    for (size_t d = 0; d < step->dispatch_count; d++) {
+        struct dispatch *dispatch = &step->dispatches[d];
+        const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                  .descriptorPool = run->descriptors,
+                                                  .descriptorSetCount = 1,
+                                                  .pSetLayouts = &dispatch->program->images};
+        VkResult result = vkAllocateDescriptorSets(gpu->device, &info, &dispatch->set);
+        if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
+        device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)dispatch->set, step->pass->pass->slot);
+        write_descriptors(run, step, dispatch);
+    }
+    return true;
+}
+
+/* Barriers before a dispatch: an image that the pass writes may also be read by it, at other levels. */
+static void access_images(const struct run *run, const struct glint_pass *pass, struct barriers *barriers) {
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        bool own = false;
+        for (size_t s = 0; s < pass->row_count && glint_row_is_output(row); s++)
+            own |= pass->rows[s].kind == GLINT_ROW_READ_OWN && strcmp(row_image(&pass->rows[s]), row->name) == 0;
+        if (row_is_image(row) && row->kind != GLINT_ROW_READ_OWN)
+            image_access(&run_bound(run, row)->image,
+                         own                        ? IMAGE_SHADER_BOTH
+                         : glint_row_is_output(row) ? IMAGE_SHADER_WRITE
+                                                    : IMAGE_SHADER_READ,
+                         barriers);
+    }
+}
+
+void step_record(const struct run *run, struct step *step) {
+    struct gpu *gpu = run->gpu;
+    VkCommandBuffer commands = gpu->commands;
+    for (size_t d = 0; d < step->dispatch_count; d++) {
+        const struct dispatch *dispatch = &step->dispatches[d];
+        const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
+        const VkPipelineLayout layout = dispatch->program->layout;
+        uint32_t *push = step->constants.push;
+        push[0] = dispatch->level; /* how push_begin.glsl opens the block */
+        struct barriers barriers = {0};
+        if (dispatch->list) image_access(&dispatch->list->image, IMAGE_GROUPS, &barriers);
+        if (!dispatch->rest ||
+            glint_pass_row(step->pass->pass, GLINT_ROW_READ_OWN, NULL)) /* else it only writes other tiles */
+            access_images(run, step->pass->pass, &barriers);
+        probes_access(step, &barriers);
+        barriers_record(&barriers, gpu);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, dispatch->program->pipeline);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
+        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4, push);
+        const uint32_t *groups = dispatch->groups;
+        for (uint32_t i = 0; i < dispatch->layer_runs; i++)
+            vkCmdDispatchBase(commands, 0, 0, dispatch->layers[i].first, groups[0], groups[1],
+                              dispatch->layers[i].count);
+        if (dispatch->layers) continue;
+        if (dispatch->list) vkCmdDispatchIndirect(commands, dispatch->list->image.buffer, dispatch->from);
+        else vkCmdDispatch(commands, groups[0], groups[1], groups[2]);
+    }
+}

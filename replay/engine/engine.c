@@ -1,0 +1,84 @@
+/* One run of a plan, from its images to its last pass. */
+#include "run.h"
+
+#include <stdlib.h>
+
+bool engine_init(struct engine *engine, struct glint_device *device, struct frame_source *source, struct pool *pool,
+                 struct glint_error *err) {
+    *engine = (struct engine){.device = device, .gpu = &device->gpu, .pool = pool, .source = source};
+    return host_buffer_init(&engine->frame, engine->gpu, HOST_BUFFER_UNIFORM, sizeof(struct frame_block), "frame", err);
+}
+
+void engine_finish(struct engine *engine) {
+    if (!engine->gpu) return;
+    host_buffer_finish(&engine->frame, engine->gpu);
+    host_buffer_finish(&engine->probes, engine->gpu);
+    free(engine->probed);
+}
+
+static bool allocate_run(struct run *run, struct glint_error *err) {
+    const size_t images = run->plan->graph.image_count + 1, passes = run->plan->graph.pass_count + 1;
+    run->images = calloc(images, sizeof *run->images);
+    run->keys = calloc(images, sizeof *run->keys);
+    run->needed = calloc(images, sizeof *run->needed);
+    run->given = calloc(images, sizeof *run->given);
+    run->steps = calloc(passes, sizeof *run->steps);
+    return (run->images && run->keys && run->needed && run->given && run->steps) ||
+           glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+static bool put_aside(struct run *run, struct glint_error *err) {
+    const size_t count = run->plan->graph.image_count;
+    bool *written = calloc(count + 1, sizeof *written);
+    bool ok = written || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; ok && i < count; i++) written[i] = run_writes(run, i);
+    ok = ok && pool_put_aside(run->engine->pool, run->plan, run->images, run->keys, written, err);
+    free(written);
+    return ok;
+}
+
+static bool compute_frame(struct run *run, struct glint_error *err) {
+    struct engine *engine = run->engine;
+    if (!allocate_run(run, err) || !probes_prepare(run, err) ||
+        !pool_allocate(engine->pool, run->plan, run->images, err))
+        return false;
+    run->touched = true;
+    if (!run_keys(run, err)) return false;
+    pool_recall(engine->pool, run->plan, run->images, run->keys);
+    run_decide(run);
+    if (!put_aside(run, err) || !run_upload(run, err)) return false;
+    const double start = glint_now_seconds();
+    const bool ok =
+        run_prepare(run, err) && run_execute(run, err) && run_count_tiles(run, err) && probes_finish(run, err);
+    engine->source->seconds[PHASE_PASSES] += glint_now_seconds() - start;
+    return ok;
+}
+
+bool engine_run(struct run *run, struct engine *engine, const struct frame_plan *plan, glint_progress progress,
+                void *user, struct glint_error *err) {
+    *run = (struct run){.engine = engine, .plan = plan, .gpu = engine->gpu, .progress = progress, .user = user};
+    struct glint_error own = {0};
+    if (compute_frame(run, &own)) return true;
+    if (run->touched && own.code != GLINT_ERROR_INTERRUPTED)
+        pool_drop(engine->pool, true); /* what the device did to them is not known */
+    return glint_fail(err, own.code, "%s", own.message);
+}
+
+void engine_release(struct run *run) {
+    if (!run->engine) return;
+    rays_release(run);
+    vkDestroyQueryPool(run->gpu->device, run->queries, NULL);
+    vkDestroyDescriptorPool(run->gpu->device, run->descriptors, NULL);
+    for (size_t p = 0; run->steps && p < run->plan->graph.pass_count; p++) {
+        free(run->steps[p].ns);
+        for (size_t d = 0; d < run->steps[p].dispatch_count; d++) free(run->steps[p].dispatches[d].layers);
+        free(run->steps[p].dispatches);
+    }
+    for (size_t i = 0; run->given && i < run->plan->graph.image_count; i++) free(run->given[i]);
+    free(run->steps);
+    free(run->images);
+    free(run->keys);
+    free(run->given);
+    free(run->needed);
+    *run = (struct run){0};
+}

@@ -1,0 +1,124 @@
+/* Rounds of all passes, timed. */
+#include "run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void write_stamp(struct run *run) {
+    if (run->queries)
+        vkCmdWriteTimestamp2(run->gpu->commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, run->queries, run->stamps++);
+}
+
+/* One timestamp before the first pass and one after each: a pass's time is what passed since the one before it ended. */
+static bool begin_commands(struct run *run, struct glint_error *err) {
+    struct gpu *gpu = run->gpu;
+    if (!device_begin(gpu, err)) return false;
+    if (run->queries) vkCmdResetQueryPool(gpu->commands, run->queries, 0, (uint32_t)run->plan->graph.pass_count + 1);
+    run->stamps = 0;
+    write_stamp(run);
+    return true;
+}
+
+static void record_step(struct run *run, struct step *step) {
+    struct gpu *gpu = run->gpu;
+    const struct glint_pass *pass = step->pass->pass;
+    char label[128];
+    snprintf(label, sizeof label, "%s/%s", pass->slot, pass->variant);
+    device_begin_label(gpu, label);
+    step_record(run, step);
+    step->stamp = run->stamps;
+    write_stamp(run);
+    device_end_label(gpu);
+}
+
+static bool read_times(struct run *run, struct glint_error *err) {
+    const struct gpu *gpu = run->gpu;
+    for (size_t p = 0; run->queries && p < run->plan->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        uint64_t ticks[2];
+        if (!step->stamp) continue;
+        VkResult result = vkGetQueryPoolResults(gpu->device, run->queries, step->stamp - 1, 2, sizeof ticks, ticks,
+                                                sizeof ticks[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        if (result != VK_SUCCESS) return vk_fail(err, "reading timestamps", result);
+        const uint64_t passed = (ticks[1] - ticks[0]) & gpu->timestamp_mask;
+        step->round_ns += (uint64_t)((double)passed * gpu->timestamp_ns);
+        step->stamp = 0;
+    }
+    return true;
+}
+
+static bool submit_commands(struct run *run, const char *what, struct glint_error *err) {
+    return device_submit(run->gpu, what, err) && read_times(run, err);
+}
+
+/* Some of the passes, for one ray. `apart`: each is submitted by itself, so that who follows the progress can stop between
+   two; otherwise they are one command buffer, as a timed one has to be: a device that waits for the next submission
+   starts its first pass cold. `done` is how far the run is at the first pass, `share` their part. */
+static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t ray, bool apart, double done,
+                           double share, struct glint_error *err) {
+    struct frame_block block = run->plan->block;
+    bool recording = false;
+    block.flags.w += ray;
+    memcpy(run->engine->frame.map, &block, sizeof block);
+    for (size_t p = first; p < end; p++) {
+        struct step *step = &run->steps[p];
+        if (!step->execute) continue;
+        const char *slot = step->pass->pass->slot;
+        const double here = done + share * (double)(p - first) / (double)(end - first);
+        if (!glint_report_progress(run->progress, run->user, slot, 0.2 + 0.8 * here, err)) return false;
+        if (!recording && !begin_commands(run, err)) return false;
+        record_step(run, step);
+        recording = !apart;
+        if (!recording && !submit_commands(run, slot, err)) return false;
+    }
+    if (run->rays && first == run->plan->graph.loop_first && end == run->plan->graph.loop_end) {
+        if (!recording && !begin_commands(run, err)) return false;
+        rays_record(run, ray);
+        recording = true;
+    }
+    return !recording || submit_commands(run, "running the passes", err);
+}
+
+/* All passes; those that run for each ray in a loop, each ray submitted by itself. */
+static bool execute_round(struct run *run, bool apart, double done, double share, struct glint_error *err) {
+    const struct graph *graph = &run->plan->graph;
+    const size_t first = graph->loop_first, end = graph->loop_end;
+    const uint32_t rays = glint_pipeline_rays(run->plan->pipeline);
+    const double each = graph->pass_count ? share / (double)graph->pass_count : 0;
+    if (!execute_passes(run, 0, first, 0, apart, done, each * (double)first, err)) return false;
+    const double loop = each * (double)(end - first) / rays;
+    for (uint32_t ray = 0; end > first && ray < rays; ray++)
+        if (!execute_passes(run, first, end, ray, apart, done + each * (double)first + loop * ray, loop, err))
+            return false;
+    return execute_passes(run, end, graph->pass_count, 0, apart, done + each * (double)end,
+                          each * (double)(graph->pass_count - end), err);
+}
+
+bool run_execute(struct run *run, struct glint_error *err) {
+    const struct glint_replay_options *options = run->plan->options;
+    const uint32_t warmup = options->repeat == 0 ? 0 : options->warmup ? options->warmup : 1;
+    const uint32_t rounds = warmup + (options->repeat ? options->repeat : 1);
+    for (size_t p = 0; p < run->plan->graph.pass_count; p++) {
+        struct step *step = &run->steps[p];
+        if (!step->execute) continue;
+        if (!(step->ns = calloc(rounds, sizeof *step->ns))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        for (size_t i = 0; i < run->plan->graph.image_count; i++) /* until the new contents are complete */
+            if (run->plan->graph.images[i].source == SOURCE_MADE && run->plan->graph.images[i].maker == p)
+                run->images[i]->key = 0;
+    }
+    for (uint32_t round = 0; round < rounds; round++) {
+        for (size_t p = 0; p < run->plan->graph.pass_count; p++) run->steps[p].round_ns = 0;
+        const bool apart = run->progress && (round < warmup || rounds == 1);
+        if (!execute_round(run, apart, (double)round / rounds, 1.0 / rounds, err)) return false;
+        for (size_t p = 0; p < run->plan->graph.pass_count && round >= warmup && run->queries; p++)
+            if (run->steps[p].execute) run->steps[p].ns[run->steps[p].timed++] = run->steps[p].round_ns;
+    }
+    for (size_t i = 0; i < run->plan->graph.image_count; i++) {
+        const struct graph_image *image = &run->plan->graph.images[i];
+        if (image->source != SOURCE_MADE || run->images[i]->transient || !run->steps[image->maker].execute) continue;
+        run->images[i]->key = run->keys[i];
+        run->images[i]->round = options->round;
+    }
+    return true;
+}

@@ -1,0 +1,51 @@
+/* run.json, which comes last and so says that a run folder is complete. */
+#include "run_json.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glint/replay.h"
+
+enum { PATH_SIZE = 4096 };
+
+bool glint_run_remove(const char *folder, struct glint_error *err) {
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    json_t *root = json_load_file(path, 0, NULL), *pass, *image;
+    size_t p, i;
+    bool ok = unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    json_array_foreach(json_object_get(root, "passes"), p, pass) {
+        json_array_foreach(json_object_get(pass, "images"), i, image) {
+            const char *file = json_string_value(json_object_get(image, "file"));
+            size_t length = file ? strlen(file) : 0;
+            if (!ok || length < 5 || strchr(file, '/') || strcmp(file + length - 4, ".exr") != 0) continue;
+            snprintf(path, sizeof path, "%s/%s", folder, file);
+            unlink(path); /* listed once for each of its images */
+        }
+    }
+    json_decref(root);
+    return ok;
+}
+
+bool run_write_json(const char *folder, const json_t *root, struct glint_error *err) {
+    char path[PATH_SIZE], temporary[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    if (snprintf(temporary, sizeof temporary, "%s/run.json.tmp-%ld", folder, (long)getpid()) >= (int)sizeof temporary)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    if (json_dump_file(root, temporary, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0 && rename(temporary, path) == 0)
+        return true;
+    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    unlink(temporary);
+    return false;
+}
+
+bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err) {
+    json_error_t fault;
+    json_t *root = json_loads(text, 0, &fault);
+    const bool ok = root ? run_write_json(folder, root, err)
+                         : glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json: %s", folder, fault.text);
+    json_decref(root);
+    return ok;
+}

@@ -1,0 +1,152 @@
+/* The uniform block that every pass sees. World positions meet the camera's in double, before they become floats. */
+#include "frame_block.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "glint/replay.h"
+
+int up_axis(enum glint_axis up, double *sign) {
+    static const struct {
+        int axis;
+        double sign;
+    } axes[] = {[GLINT_AXIS_X] = {0, 1},      [GLINT_AXIS_Y] = {1, 1},      [GLINT_AXIS_Z] = {2, 1},
+                [GLINT_AXIS_NEG_X] = {0, -1}, [GLINT_AXIS_NEG_Y] = {1, -1}, [GLINT_AXIS_NEG_Z] = {2, -1}};
+    *sign = axes[up].sign;
+    return axes[up].axis;
+}
+
+static void fill_rotation(mat4 *view_from_world, mat4 *world_from_view, const double m[16]) {
+    memset(view_from_world, 0, sizeof *view_from_world);
+    memset(world_from_view, 0, sizeof *world_from_view);
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            view_from_world->column[column][row] = (float)m[4 * row + column];
+            world_from_view->column[row][column] = (float)m[4 * row + column];
+        }
+    view_from_world->column[3][3] = world_from_view->column[3][3] = 1;
+}
+
+/* For a point p relative to this camera in metres: previous view = R'·(p/u + eye) + t', times u metres a unit. */
+static void fill_previous(mat4 *out, const double previous[16], const double eye[3], double metres) {
+    memset(out, 0, sizeof *out);
+    for (int row = 0; row < 3; row++) {
+        const double *m = previous + 4 * row;
+        for (int column = 0; column < 3; column++) out->column[column][row] = (float)m[column];
+        out->column[3][row] = (float)((m[0] * eye[0] + m[1] * eye[1] + m[2] * eye[2] + m[3]) * metres);
+    }
+    out->column[3][3] = 1;
+}
+
+struct projection {
+    double a, b, c, d, front;
+};
+
+/* In front of the camera clip w = front · view z is positive, so depth = front · view z and
+   NDC x = a · view.x / depth + c · front. */
+static struct projection projection_of(const struct glint_camera *camera) {
+    const double *p = camera->view_to_clip;
+    double front = p[14] < 0 ? -1 : 1;
+    return (struct projection){p[0], p[5], p[2] * front, p[6] * front, front};
+}
+
+/* uv = view.xy / depth · scale + offset: u = (NDC x + 1)/2, v = (1 ∓ NDC y)/2 with v = 0 at the top. */
+static vec4 uv_from_view(const struct projection *p, enum glint_clip_y clip_y) {
+    double down = clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1;
+    return (vec4){(float)(p->a / 2), (float)(down * p->b / 2), (float)((1 + p->c) / 2), (float)((1 + down * p->d) / 2)};
+}
+
+static vec4 view_from_uv(const struct projection *p, enum glint_clip_y clip_y) {
+    double down = clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1;
+    return (vec4){(float)(2 / p->a), (float)(down * 2 / p->b), (float)(-(1 + p->c) / p->a),
+                  (float)(-(down + p->d) / p->b)};
+}
+
+/* Depth at which NDC z is `ndc`: (A·s·d + B)/d = ndc. */
+static double depth_at(const struct glint_camera *camera, double front, double ndc) {
+    double slope = ndc - camera->view_to_clip[10] * front, depth = camera->view_to_clip[11] / slope;
+    return fabs(slope) < 1e-12 || depth < 0 || depth > 1e9 ? INFINITY : depth;
+}
+
+static void fill_fog(struct frame_block *block, const struct glint_frame *frame, const double eye[3], double metres) {
+    double sign;
+    int axis = up_axis(frame->up, &sign);
+    float up[3] = {0};
+    up[axis] = (float)sign;
+    block->up = (vec4){up[0], up[1], up[2], 0};
+    if (!frame->has_fog) return;
+    const struct glint_fog *fog = &frame->fog;
+    block->fog_color = (vec4){fog->color[0], fog->color[1], fog->color[2], (float)(fog->density / metres)};
+    block->fog_height =
+        (vec4){(float)((eye[axis] * sign - fog->base) * metres), (float)(fog->scale_height * metres), 0, 0};
+}
+
+/* uv · depth and depth along the mirrored camera's axis, of points p relative to this one's in metres: its
+   view = R'·(p/u + eye) + t', times u metres a unit. */
+void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar) {
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    const struct projection p = projection_of(&planar->camera);
+    const vec4 uv = uv_from_view(&p, frame->clip_y);
+    double eye[3], offset = planar->plane[3], length = 0;
+    glint_camera_position(&frame->camera, eye);
+    mat4 view;
+    fill_previous(&view, planar->camera.world_to_view, eye, metres);
+    for (int c = 0; c < 4; c++) {
+        const float depth = (float)p.front * view.column[c][2];
+        block->mirror_uv_from_world.column[c][0] = uv.x * view.column[c][0] + uv.z * depth;
+        block->mirror_uv_from_world.column[c][1] = uv.y * view.column[c][1] + uv.w * depth;
+        block->mirror_uv_from_world.column[c][2] = block->mirror_uv_from_world.column[c][3] = depth;
+    }
+    for (int i = 0; i < 3; i++) offset += planar->plane[i] * eye[i], length += planar->plane[i] * planar->plane[i];
+    length = sqrt(length);
+    block->mirror_plane = (vec4){(float)(planar->plane[0] / length), (float)(planar->plane[1] / length),
+                                 (float)(planar->plane[2] / length), (float)(offset / length * metres)};
+}
+
+/* A first person's weapon and the like: the world behind it was never drawn. */
+static uvec4 foreground_of(const struct glint_frame *frame) {
+    for (uint32_t i = 0; i < frame->class_count; i++) {
+        const struct glint_stencil_class *class = &frame->classes[i];
+        if (strcmp(class->name, "foreground") == 0)
+            return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
+    }
+    return (uvec4){0, 0, 0, 0};
+}
+
+void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes) {
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    double eye[3];
+    memset(block, 0, sizeof *block); /* padding and all: the block is hashed */
+    glint_camera_position(&frame->camera, eye);
+    fill_rotation(&block->view_from_world, &block->world_from_view, frame->camera.world_to_view);
+    const struct projection p = projection_of(&frame->camera);
+    block->view_from_uv = view_from_uv(&p, frame->clip_y);
+    block->uv_from_view = uv_from_view(&p, frame->clip_y);
+    const struct glint_camera *previous = frame->has_previous ? &frame->previous : &frame->camera;
+    const struct projection q = projection_of(previous);
+    fill_previous(&block->previous_view_from_world, previous->world_to_view, eye, metres);
+    block->previous_uv_from_view = uv_from_view(&q, frame->clip_y);
+    double lowest = frame->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? -1 : 0;
+    double one = depth_at(&frame->camera, p.front, lowest), other = depth_at(&frame->camera, p.front, 1);
+    block->depth_range =
+        (vec4){(float)(fmin(one, other) * metres), (float)(fmax(one, other) * metres), (float)p.front, (float)q.front};
+    fill_fog(block, frame, eye, metres);
+    block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
+    block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
+    block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};
+    block->foreground = foreground_of(frame);
+}
+
+void glint_frame_directions(const struct glint_frame *frame, double matrix[3][3]) {
+    struct frame_block block;
+    frame_block_fill(&block, frame, &(struct frame_sizes){0});
+    const vec4 view = block.view_from_uv;
+    const double from_uv[3][3] = {
+        {(double)view.x, 0, (double)view.z}, {0, (double)view.y, (double)view.w}, {0, 0, (double)block.depth_range.z}};
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            matrix[row][column] = 0;
+            for (int k = 0; k < 3; k++)
+                matrix[row][column] += (double)block.world_from_view.column[k][row] * from_uv[k][column];
+        }
+}

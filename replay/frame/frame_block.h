@@ -1,0 +1,38 @@
+/* The uniform block that every pass sees, filled from the capture's frame in double. */
+#ifndef GLINT_REPLAY_FRAME_BLOCK_H
+#define GLINT_REPLAY_FRAME_BLOCK_H
+
+#include <stdint.h>
+
+#include "glint/capture.h"
+
+/* std140, as passes/shared/interface.glsl declares it: column-major matrices. */
+typedef struct {
+    float column[4][4];
+} mat4;
+typedef struct {
+    float x, y, z, w;
+} vec4;
+typedef struct {
+    uint32_t x, y, z, w;
+} uvec4;
+struct frame_block {
+#define FIELD(type, name, meaning) type name;
+#include "shared/frame_fields.h"
+#undef FIELD
+};
+
+struct frame_sizes {
+    uint32_t full[2], half[2], planar[2];
+    uint32_t active, chain, cube_face, sky_face;
+    uint32_t tile_wide; /* glint_device_info's */
+    bool history;       /* what HISTORY rows name is there */
+};
+
+/* Index of the up axis and its sign. */
+int up_axis(enum glint_axis up, double *sign);
+void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
+/* The mirror of the one planar map that passes see; its fields stay 0 without. */
+void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
+
+#endif

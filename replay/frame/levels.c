@@ -1,0 +1,40 @@
+/* What rows DISPATCH go over: levels and texels. */
+#include <math.h>
+
+#include "frame_plan.h"
+#include "shared/tile_list.h"
+
+/* The finest level that is no wider than a parameter says. */
+static int level_of_width(const struct graph_pass *pass, const struct image_desc *desc, const char *parameter) {
+    const double width = *pipeline_value(pass->entry, parameter);
+    int level = 0;
+    while (level < 31 && ldexp(width, level) < desc->width) level++;
+    return level;
+}
+
+bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row, const struct image_desc *desc,
+                     uint32_t *first, uint32_t *last) {
+    const int count = (int)desc->levels;
+    const bool swapped = (row->first < 0) == (row->last < 0) ? row->first > row->last : row->first < 0;
+    int fine = swapped ? row->last : row->first, coarse = swapped ? row->first : row->last;
+    if (row->assigned) {
+        const int from = level_of_width(pass, desc, row->assigned);
+        fine = from + row->first, coarse = from + row->last;
+    } else {
+        fine = fine < 0 ? fine + count : fine;
+        coarse = coarse < 0 ? coarse + count : coarse;
+    }
+    if (fine < 0) fine = 0;
+    if (coarse > count - 1) coarse = count - 1;
+    *first = (uint32_t)fine;
+    *last = coarse < 0 ? 0 : (uint32_t)coarse;
+    return coarse >= fine;
+}
+
+uint64_t dispatch_texels(const struct frame_sizes *sizes, const struct image_desc *desc, enum glint_size_class size,
+                         uint32_t level) {
+    const struct extent extent = image_extent(desc, level);
+    if (size == GLINT_SIZE_TILES) return tile_count(sizes, TILE_WIDE);
+    if (desc->buffer) return (uint64_t)sizes->half[0] * sizes->half[1];
+    return (uint64_t)extent.width * extent.height * image_layers(desc);
+}

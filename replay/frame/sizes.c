@@ -1,0 +1,203 @@
+/* Sizes of images: from the capture, from tables, or from what is read instead of computed. */
+#include "frame_plan.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "shared/tile_list.h"
+
+/* Width and height of an image whose contents already exist; false for one that will be made on the device. */
+static bool existing_size(const struct frame_plan *plan, const struct graph_image *image, uint32_t size[2]) {
+    const struct glint_table *table = tables_find(plan->tables, image->name);
+    size[0] = size[1] = 0;
+    if (image->source == SOURCE_MADE && table) size[0] = table->width, size[1] = table->height;
+    else if (image->source == SOURCE_RUN) {
+        const struct glint_run_image *info = plan_given(plan, image, image->name);
+        size[0] = info->width, size[1] = info->height;
+    } else if (image->source == SOURCE_ENGINE) {
+        char name[128];
+        snprintf(name, sizeof name, "engine.%.48s.%.48s", image->pass->slot, image->name);
+        const struct glint_part_info *part = glint_capture_find(plan->source->capture, name);
+        size[0] = part->width, size[1] = part->height;
+    } else return false;
+    return true;
+}
+
+/* The list of active cube maps, from the table or from the run that replaces it. */
+static bool read_active(struct frame_plan *plan, const struct graph_image *image, struct glint_error *err) {
+    const struct glint_table *table = tables_find(plan->tables, image->name);
+    uint32_t size[2];
+    if (!existing_size(plan, image, size) || !size[0]) return true;
+    plan->active = calloc((size_t)size[0] * size[1], sizeof *plan->active);
+    if (!plan->active) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (image->source == SOURCE_RUN)
+        return glint_run_read(plan->inputs, glint_run_find(plan->inputs, image->name), GLINT_U32, plan->active, err);
+    if (table && table->texels.u && glint_format_is_uint(image->row->format))
+        memcpy(plan->active, table->texels.u, (size_t)size[0] * sizeof *plan->active);
+    else
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: expected a table of a pass or of a run",
+                          image->name);
+    return true;
+}
+
+uint32_t tile_wide(const struct frame_sizes *sizes, const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if ((row_is_sampled(row) && strstr(row->glsl, "textureCube")) ||
+            (glint_row_is_output(row) && row->size == GLINT_SIZE_TILES))
+            return sizes->tile_wide;
+    }
+    return TILE_WIDE;
+}
+
+uint32_t block_width(const struct frame_sizes *sizes, const struct glint_pass *pass) {
+    const struct glint_row *row = glint_pass_row(pass, GLINT_ROW_BLOCKS, NULL);
+    return row && sizes->tile_wide == STRIP_WIDE ? (uint32_t)row->first : 1;
+}
+
+struct extent tile_extent(const struct frame_sizes *sizes, const struct image_desc *over, uint32_t wide) {
+    const uint32_t scale = over->width == sizes->full[0] ? 1 : 2;
+    return (struct extent){wide / scale, TILE_HIGH / scale};
+}
+static uint32_t parts_of(uint32_t length, uint32_t part) {
+    return (length + part - 1) / part;
+}
+uint32_t tile_count(const struct frame_sizes *sizes, uint32_t wide) {
+    return parts_of(sizes->full[0], wide) * parts_of(sizes->full[1], TILE_HIGH);
+}
+static uint32_t tile_words(const struct frame_sizes *sizes, uint32_t wide) {
+    const uint32_t regions =
+        parts_of(sizes->full[0], REGION_WIDE * STRIP_WIDE) * parts_of(sizes->full[1], REGION_HIGH * TILE_HIGH);
+    return TILE_WORDS(regions, wide);
+}
+uint32_t tile_begin(const struct frame_sizes *sizes, uint32_t wide) {
+    return wide == TILE_WIDE ? 0 : tile_words(sizes, TILE_WIDE);
+}
+uint32_t list_blocks(const struct frame_sizes *sizes) {
+    return parts_of(sizes->half[0], LIST_BLOCK) * parts_of(sizes->half[1], LIST_BLOCK);
+}
+uint32_t list_capacity(const struct frame_sizes *sizes) {
+    return LIST_BLOCK * LIST_BLOCK * list_blocks(sizes) + 2 * LIST_ITEMS;
+}
+
+bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
+    struct glint_capture *capture = plan->source->capture;
+    struct frame_sizes *sizes = &plan->sizes;
+    const char *order = cubemap_order_image();
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER),
+                                 *sky = glint_capture_find(capture, GLINT_PART_SKY),
+                                 *planar = glint_capture_find(capture, GLINT_PART_MIRROR);
+    if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
+    *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
+                                  .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
+                                  .sky_face = sky ? sky->width : 0,
+                                  .tile_wide = plan->tile_wide};
+    if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
+    if (pipeline_traces_all_pixels(plan->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
+    const struct glint_part_info **parts;
+    size_t count;
+    if (!cubemap_parts(capture, &parts, &count, err)) return false;
+    for (size_t i = 0; i < count; i++)
+        if (parts[i]->width > sizes->cube_face) sizes->cube_face = parts[i]->width;
+    free(parts);
+    for (size_t i = 0; i < plan->graph.image_count; i++) {
+        const struct graph_image *image = &plan->graph.images[i];
+        uint32_t size[2];
+        if (!existing_size(plan, image, size)) continue;
+        if (image->row->size == GLINT_SIZE_CHAIN) sizes->chain = size[0], sizes->active = size[1];
+        if (image->row->size == GLINT_SIZE_ACTIVE) sizes->active = size[0];
+        if (order && strcmp(image->name, order) == 0 && !read_active(plan, image, err)) return false;
+    }
+    for (uint32_t i = 0; plan->active && i < sizes->active; i++)
+        if (plan->active[i] >= count)
+            return glint_fail(err, GLINT_ERROR_FORMAT, "image %s: place %u names cube map %u, but %s has %zu", order, i,
+                              plan->active[i], glint_capture_path(capture), count);
+    return true;
+}
+
+bool plan_describe(const struct frame_plan *plan, const struct graph_image *image, struct image_desc *desc,
+                   struct glint_error *err) {
+    const struct frame_sizes *sizes = &plan->sizes;
+    const struct glint_row *row = image->row;
+    const bool cube = size_is_cube(row->size);
+    const uint32_t layers = cube ? 6 : row->size == GLINT_SIZE_PARABOLOIDS_MIPS ? 2 : 0;
+    *desc = (struct image_desc){.format = row->format,
+                                .width = 1,
+                                .height = 1,
+                                .layers = layers,
+                                .cube = cube,
+                                .levels = 1,
+                                .buffer = size_is_buffer(row->size)};
+    if (plan->options->float_precision) desc->format = format_widened(row->format);
+    if (image->source == SOURCE_NOTHING && !image->blank) {
+        if (desc->buffer) desc->width = LIST_WIDTH; /* the header is there */
+        return true;
+    }
+    uint32_t expected[2] = {0, 0}, found[2];
+    switch (row->size) {
+    case GLINT_SIZE_FULL:
+    case GLINT_SIZE_FULL_MIPS:
+        expected[0] = sizes->full[0], expected[1] = sizes->full[1];
+        break;
+    case GLINT_SIZE_HALF:
+    case GLINT_SIZE_HALF_MIPS:
+    case GLINT_SIZE_HALF_MIPS3:
+        expected[0] = sizes->half[0], expected[1] = sizes->half[1];
+        break;
+    case GLINT_SIZE_EIGHTH:
+        for (int i = 0; i < 2; i++) expected[i] = sizes->half[i] / 4 ? sizes->half[i] / 4 : 1;
+        break;
+    case GLINT_SIZE_CUBEMAPS:
+    case GLINT_SIZE_CUBEMAPS_MIPS:
+    case GLINT_SIZE_PARABOLOIDS_MIPS:
+        expected[0] = expected[1] = sizes->cube_face;
+        desc->layers = layers * (sizes->active ? sizes->active : 1);
+        break;
+    case GLINT_SIZE_COCOON:
+        expected[0] = expected[1] = sizes->active ? COCOON_SIZE : 0;
+        desc->layers = layers * (sizes->active ? sizes->active : 1);
+        break;
+    case GLINT_SIZE_SKY:
+    case GLINT_SIZE_SKY_MIPS:
+        expected[0] = expected[1] = sizes->sky_face;
+        break;
+    case GLINT_SIZE_ACTIVE:
+        expected[0] = sizes->active, expected[1] = 1;
+        break;
+    case GLINT_SIZE_CHAIN:
+        expected[0] = sizes->chain, expected[1] = sizes->active;
+        break;
+    case GLINT_SIZE_VOLUME:
+        if (existing_size(plan, image, found)) expected[0] = found[0], expected[1] = sizes->active;
+        break;
+    case GLINT_SIZE_FIGURES:
+        expected[0] = FIGURES, expected[1] = 1;
+        break;
+    case GLINT_SIZE_PLANAR:
+        expected[0] = sizes->planar[0], expected[1] = sizes->planar[1];
+        break;
+    case GLINT_SIZE_TILES:
+        expected[0] = LIST_WIDTH;
+        expected[1] = parts_of(tile_begin(sizes, sizes->tile_wide) + tile_words(sizes, sizes->tile_wide), LIST_WIDTH);
+        break;
+    case GLINT_SIZE_LIST:
+        expected[0] = LIST_WIDTH; /* behind the items a maker notes marks and a count of each block (compact.glsl) */
+        expected[1] = 1 + (list_capacity(sizes) + 65 * list_blocks(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
+        break;
+    }
+    if (existing_size(plan, image, found) && !(layers && !expected[0]) &&
+        (found[0] != expected[0] || found[1] != expected[1] * image_layers(desc)))
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u, found %u x %u",
+                          image->source == SOURCE_RUN ? plan->options->inputs
+                                                      : glint_capture_path(plan->source->capture),
+                          image->name, expected[0], expected[1] * image_layers(desc), found[0], found[1]);
+    if (!expected[0] || !expected[1]) desc->layers = layers; /* nothing is active: a stand-in */
+    else desc->width = expected[0], desc->height = expected[1];
+    if (size_has_levels(row->size)) desc->levels = level_count(desc->width, desc->height);
+    if (row->size == GLINT_SIZE_HALF_MIPS3 && desc->levels > 3) desc->levels = 3;
+    if (desc->levels > LEVELS_MAX)
+        return glint_fail(err, GLINT_ERROR_LIMIT, "image %s: %u levels, expected at most %d", image->name, desc->levels,
+                          LEVELS_MAX);
+    return true;
+}

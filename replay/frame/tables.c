@@ -1,0 +1,129 @@
+/* Host passes: small tables made from the capture's attributes. */
+#include "tables.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "format.h"
+#include "timing.h"
+
+struct host_run {
+    struct tables *tables;
+    const struct pipeline_pass *entry;
+};
+
+static double value_of(const struct glint_host_context *context, const char *parameter) {
+    const struct host_run *run = context->user;
+    const double *value = pipeline_value(run->entry, parameter);
+    return value ? *value : 0;
+}
+
+static struct glint_table *make_table(struct glint_host_context *context, const char *image, uint32_t width,
+                                      uint32_t height, struct glint_error *err) {
+    struct host_run *run = context->user;
+    const struct glint_pass *pass = run->entry->pass;
+    struct tables *tables = run->tables;
+    const struct glint_row *row = glint_pass_output(pass, image);
+    if (!row || tables_find(tables, image) || tables->count == TABLES_MAX) {
+        glint_fail(err, GLINT_ERROR_USAGE, "%s/%s: cannot make table %s: not declared, or made already", pass->slot,
+                   pass->variant, image);
+        return NULL;
+    }
+    if (width > 4096 || height > 4096) {
+        glint_fail(err, GLINT_ERROR_LIMIT, "%s/%s: table %s of %u x %u, expected at most 4096 x 4096", pass->slot,
+                   pass->variant, image, width, height);
+        return NULL;
+    }
+    uint32_t components = format_components(row->format);
+    uint32_t *texels = calloc((size_t)width * height * components + 1, sizeof *texels);
+    if (!texels) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "table %s: out of memory", image);
+        return NULL;
+    }
+    struct glint_table *table = &tables->tables[tables->count];
+    *table = (struct glint_table){.name = row->name, .width = width, .height = height, .components = components};
+    if (glint_format_is_uint(row->format)) table->texels.u = texels;
+    else table->texels.f = (float *)texels;
+    tables->makers[tables->count++] = pass;
+    return table;
+}
+
+static int by_number(const void *a, const void *b) {
+    const struct glint_part_info *const *left = a, *const *right = b;
+    return ((*left)->index > (*right)->index) - ((*left)->index < (*right)->index);
+}
+
+bool cubemap_parts(const struct glint_capture *capture, const struct glint_part_info ***parts, size_t *count,
+                   struct glint_error *err) {
+    size_t part_count = glint_capture_part_count(capture);
+    *count = 0;
+    *parts = calloc(part_count + 1, sizeof **parts);
+    if (!*parts) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < part_count; i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        if (part->has_cubemap && !part->previous) (*parts)[(*count)++] = part;
+    }
+    qsort(*parts, *count, sizeof **parts, by_number);
+    return true;
+}
+
+static bool check_all_made(const struct tables *tables, const struct glint_pass *pass, struct glint_error *err) {
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (glint_row_is_output(&pass->rows[i]) && !tables_find(tables, pass->rows[i].name))
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s did not make its table %s", pass->slot, pass->variant,
+                              pass->rows[i].name);
+    return true;
+}
+
+static bool are_made(const struct tables *tables, const struct glint_pass *pass) {
+    for (size_t i = 0; i < tables->count; i++)
+        if (tables->makers[i] == pass) return true;
+    return false;
+}
+
+bool tables_fill(struct tables *tables, const struct graph *graph, const struct glint_capture *capture,
+                 struct glint_error *err) {
+    const struct glint_part_info **parts = NULL;
+    struct glint_cubemap *cubemaps = NULL;
+    size_t count = 0;
+    bool ok = cubemap_parts(capture, &parts, &count, err);
+    if (ok && !(cubemaps = calloc(count + 1, sizeof *cubemaps)))
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; ok && i < count; i++) cubemaps[i] = parts[i]->cubemap;
+    for (size_t i = 0; ok && i < graph->pass_count; i++) {
+        const struct graph_pass *pass = &graph->passes[i];
+        if (!pass->runs || !pass->pass->host || are_made(tables, pass->pass)) continue;
+        struct host_run run = {tables, pass->entry};
+        struct glint_host_context context = {.frame = glint_capture_frame(capture),
+                                             .cubemaps = cubemaps,
+                                             .cubemap_count = count,
+                                             .value = value_of,
+                                             .table = make_table,
+                                             .user = &run};
+        glint_camera_position(&context.frame->camera, context.eye);
+        const double start = glint_now_seconds();
+        const size_t first = tables->count;
+        ok = pass->pass->host(&context, err) && check_all_made(tables, pass->pass, err);
+        for (size_t k = first; k < tables->count; k++) tables->seconds[k] = glint_now_seconds() - start;
+    }
+    free(parts);
+    free(cubemaps);
+    return ok;
+}
+
+double tables_seconds(const struct tables *tables, const struct glint_pass *pass) {
+    for (size_t i = 0; i < tables->count; i++)
+        if (tables->makers[i] == pass) return tables->seconds[i];
+    return 0;
+}
+
+void tables_finish(struct tables *tables) {
+    for (size_t i = 0; i < tables->count; i++) free(tables->tables[i].texels.u);
+    *tables = (struct tables){0};
+}
+
+const struct glint_table *tables_find(const struct tables *tables, const char *image) {
+    for (size_t i = 0; i < tables->count; i++)
+        if (strcmp(tables->tables[i].name, image) == 0) return &tables->tables[i];
+    return NULL;
+}

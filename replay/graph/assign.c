@@ -1,0 +1,149 @@
+/* Assignments to a pipeline, as --set, --use and --shader write them: each is parsed and checked here, once. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "faults.h"
+#include "pipeline.h"
+#include "row.h"
+
+bool glint_pipeline_set_value(struct glint_pipeline *pipeline, const struct glint_pass *pass,
+                              const struct glint_row *row, double value, struct glint_error *err) {
+    const struct pipeline_pass *entry = pipeline_find(pipeline, pass->slot);
+    if (!entry || entry->pass != pass)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s is not part of the pipeline %s", pass->slot, pass->variant,
+                          pipeline->name);
+    const bool within = value >= row->lowest && value <= row->highest;
+    if (!within || (row->type != GLINT_VALUE_FLOAT && value != floor(value)))
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s%g to %g (%s), found %g", pass->slot, row->name,
+                          within ? "a whole number from " : "", row->lowest, row->highest, row->unit, value);
+    entry->values[row - pass->rows] = value;
+    return true;
+}
+
+/* What a parameter's text stands for; its range is not looked at. */
+static bool read_value(const char *slot, const struct glint_row *row, const char *text, double *value,
+                       struct glint_error *err) {
+    char known[512] = "", *end;
+    for (size_t c = 0; row->choices && row->choices[c]; c++) {
+        *value = (double)c;
+        if (strcmp(row->choices[c], text) == 0) return true;
+        text_list(known, sizeof known, row->choices[c]);
+    }
+    if (row->choices)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected one of %s, found '%s'", slot, row->name, known,
+                          text);
+    const bool flag = row->type == GLINT_VALUE_BOOL;
+    const bool on = flag && (strcmp(text, "true") == 0 || strcmp(text, "on") == 0),
+               off = flag && (strcmp(text, "false") == 0 || strcmp(text, "off") == 0);
+    *value = on || off ? on : strtod(text, &end);
+    if (on || off || (end != text && !*end)) return true;
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s from %g to %g (%s), found '%s'", slot, row->name,
+                      flag ? "true, false or a number" : "a number", row->lowest, row->highest, row->unit, text);
+}
+
+static bool set_in_slot(struct glint_pipeline *pipeline, const char *slot, const char *parameter, const char *text,
+                        struct glint_error *err) {
+    const struct glint_pass *pass = glint_pipeline_find(pipeline, slot);
+    char known[512] = "";
+    double value = 0;
+    if (!pass && !pipeline_slot_exists(slot)) return pipeline_unknown_slot(slot, err);
+    if (!pass)
+        return glint_fail(err, GLINT_ERROR_USAGE, "slot %s is not part of the pipeline %s", slot, pipeline->name);
+    const struct glint_row *row = glint_pass_parameter(pass, parameter);
+    if (row)
+        return read_value(slot, row, text, &value, err) && glint_pipeline_set_value(pipeline, pass, row, value, err);
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (glint_row_is_parameter(&pass->rows[r])) text_list(known, sizeof known, pass->rows[r].name);
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s has no parameter '%s'; known: %s", slot, pass->variant, parameter,
+                      known[0] ? known : "none at all");
+}
+
+static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, const char *text,
+                     struct glint_error *err) {
+    const bool first = strcmp(parameter, "first_ray") == 0;
+    const int lowest = first ? 0 : 1, highest = first ? FIRST_RAY_MAX : RAYS_MAX;
+    char *end;
+    const double value = strtod(text, &end);
+    if (end == text || *end || !(value >= lowest && value <= highest) || value != floor(value))
+        return glint_fail(err, GLINT_ERROR_USAGE, "pipeline.%s: expected a whole number from %d to %d, found '%s'",
+                          parameter, lowest, highest, text);
+    *(first ? &pipeline->first_ray : &pipeline->rays) = (uint32_t)value;
+    return true;
+}
+
+/* pipeline.rays and pipeline.first_ray are the pipeline's own. Any other name is set in each pass that has it, which may
+   be none of this pipeline: a switch that is off in all of them is off. */
+static bool set_everywhere(struct glint_pipeline *pipeline, const char *parameter, const char *text,
+                           struct glint_error *err) {
+    size_t count;
+    const struct glint_pass *all = glint_passes(&count);
+    bool known = false;
+    if (!strcmp(parameter, "rays") || !strcmp(parameter, "first_ray")) return set_rays(pipeline, parameter, text, err);
+    for (size_t i = 0; i < count && !known; i++) known = glint_pass_parameter(&all[i], parameter) != NULL;
+    if (!known)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "pipeline has no parameter '%s'; known: rays, first_ray, and those that any pass has",
+                          parameter);
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (glint_pass_parameter(pipeline->passes[i].pass, parameter) &&
+            !set_in_slot(pipeline, pipeline->passes[i].pass->slot, parameter, text, err))
+            return false;
+    return true;
+}
+
+/* Splits "left=right" (and, for `dotted`, "slot.parameter=right") into a copy that the caller frees. */
+static char *split_assignment(const char *assignment, bool dotted, const char *form, char **parameter, char **right,
+                              struct glint_error *err) {
+    char *copy = strdup(assignment);
+    if (!copy) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        return NULL;
+    }
+    char *equals = strchr(copy, '='), *dot = dotted ? strchr(copy, '.') : NULL;
+    if (!equals || equals == copy || !equals[1] ||
+        (dotted && (!dot || dot > equals || dot == copy || dot + 1 == equals))) {
+        glint_fail(err, GLINT_ERROR_USAGE, "expected %s, found '%s'", form, assignment);
+        free(copy);
+        return NULL;
+    }
+    *equals = 0;
+    *right = equals + 1;
+    if (dotted) *dot = 0, *parameter = dot + 1;
+    return copy;
+}
+
+bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err) {
+    char *variant, *slot = split_assignment(assignment, false, "slot=variant", NULL, &variant, err);
+    bool ok = slot && pipeline_use(pipeline, slot, variant, err);
+    free(slot);
+    return ok;
+}
+
+bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err) {
+    char *parameter, *value,
+        *slot = split_assignment(assignment, true, "slot.parameter=value", &parameter, &value, err);
+    bool ok = slot && (strcmp(slot, "pipeline") == 0 ? set_everywhere(pipeline, parameter, value, err)
+                                                     : set_in_slot(pipeline, slot, parameter, value, err));
+    free(slot);
+    return ok;
+}
+
+bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err) {
+    char *path, *slot = split_assignment(assignment, false, "slot=file.comp", NULL, &path, err), *copy = NULL;
+    struct pipeline_pass *entry = slot ? (struct pipeline_pass *)pipeline_find(pipeline, slot) : NULL;
+    bool ok = false;
+    if (!slot) return false;
+    if (!entry) glint_fail(err, GLINT_ERROR_USAGE, "slot '%s' is not part of the pipeline %s", slot, pipeline->name);
+    else if (entry->pass->host)
+        glint_fail(err, GLINT_ERROR_USAGE, "%s/%s runs on the host and has no shader to replace", slot,
+                   entry->pass->variant);
+    else if (!(copy = strdup(path))) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    else {
+        free(entry->shader);
+        entry->shader = copy;
+        ok = true;
+    }
+    free(slot);
+    return ok;
+}

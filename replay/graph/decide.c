@@ -1,0 +1,210 @@
+/* Which passes of a graph run, and why each other one does not. */
+#include "graph.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void check_slots(const struct graph *graph, const char *option, const char *const *slots,
+                        struct faults *faults) {
+    char known[400] = "";
+    for (size_t i = 0; i < graph->pass_count; i++) text_list(known, sizeof known, graph->passes[i].pass->slot);
+    for (; slots && *slots; slots++) {
+        size_t i = 0;
+        while (i < graph->pass_count && strcmp(graph->passes[i].pass->slot, *slots) != 0) i++;
+        if (i == graph->pass_count)
+            faults_add(faults, GLINT_ERROR_USAGE, "%s: no slot '%s' in the pipeline; it has: %s", option, *slots,
+                       known);
+    }
+}
+
+static const double *value_of(const struct graph_pass *pass, const char *parameter) {
+    return parameter_value(pass->pass, pass->entry->values, parameter);
+}
+
+/* A fact as the survey is asked for it: with that value. */
+static const char *fact_of(const struct graph_pass *pass, const struct glint_row *row, char text[128]) {
+    const double *value = value_of(pass, row->image);
+    if (!value) return row->name;
+    snprintf(text, 128, "%.64s %.17g", row->name, *value);
+    return text;
+}
+
+/* Whether the parameter has the pass read what the row READS_LEVELS names. */
+static bool reads_levels(const struct graph_pass *pass, const struct glint_row *row) {
+    const double *value = value_of(pass, row->name);
+    return !value || *value != 0 || pass->entry->shader;
+}
+
+/* A pass that runs and reads levels of what this one makes, though no ray has a cone. */
+static const struct graph_pass *reader_of_levels(const struct graph *graph, const struct glint_pass *maker) {
+    for (size_t i = 0; i < graph->pass_count; i++)
+        for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++) {
+            const struct glint_row *row = &graph->passes[i].pass->rows[r];
+            if (row->kind == GLINT_ROW_READS_LEVELS && glint_pass_output(maker, row->image) &&
+                reads_levels(&graph->passes[i], row))
+                return &graph->passes[i];
+        }
+    return NULL;
+}
+
+/* Whether an image has to be made: a pass that runs reads it, or somebody asks for it; what a user's shader writes is not known. */
+static bool is_read(const struct graph *graph, const struct graph_pass *maker, const char *image,
+                    const struct glint_replay_options *options) {
+    bool read = maker->entry->shader || list_has(options->outputs, image);
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        const struct graph_pass *pass = &graph->passes[i];
+        const struct glint_row *row = glint_pass_row(pass->pass, GLINT_ROW_READS_LEVELS, image);
+        read |= pass->runs && glint_pass_row(pass->pass, GLINT_ROW_READ, image) && (!row || reads_levels(pass, row));
+    }
+    return read;
+}
+
+/* A pass with nothing to do may leave an image as it is, unless its shader is the user's: what that makes is not known. */
+static void take_instead(struct graph_pass *pass) {
+    const struct glint_row *row = glint_pass_row(pass->pass, GLINT_ROW_ALIAS, NULL);
+    char text[128];
+    if (!row) return;
+    pass->runs = pass->entry->shader != NULL;
+    pass->instead = pass->runs ? NULL : row;
+    if (pass->runs) snprintf(text, sizeof text, "but the shader is the user's");
+    else snprintf(text, sizeof text, "%s is %s", row->image, row->name);
+    text_list(pass->reason, sizeof pass->reason, text);
+}
+
+/* Whether the frame gives the pass something to do, and which of its facts do not hold; the reason states the figures. */
+static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct graph_inputs *inputs,
+                            struct faults *faults, struct glint_error *err) {
+    const struct facts *facts = &inputs->facts;
+    char reason[192], text[128];
+    uint32_t fact = 0;
+    pass->runs = true;
+    for (size_t r = 0; r < pass->pass->row_count; r++) {
+        const struct glint_row *row = &pass->pass->rows[r];
+        if (row->kind != GLINT_ROW_NEEDS && row->kind != GLINT_ROW_FACT) continue;
+        struct glint_error own = {0};
+        if (row->kind == GLINT_ROW_FACT && glint_pass_output(pass->pass, row->name)) {
+            const bool read = is_read(graph, pass, row->name, inputs->options);
+            pass->lacks |= (uint32_t)!read << fact++;
+            snprintf(reason, sizeof reason, "%s is read by none", row->name);
+            if (!read && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
+            continue;
+        }
+        const enum fact_about about = facts->about(fact_of(pass, row, text));
+        if (about == FACT_UNKNOWN) {
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s needs an unknown fact '%s'", pass->pass->slot,
+                       pass->pass->variant, row->name);
+            continue;
+        }
+        bool holds = facts->holds(facts->user, fact_of(pass, row, text), reason, sizeof reason, &own);
+        if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
+        const struct graph_pass *reader = !holds && about == FACT_CONES ? reader_of_levels(graph, pass->pass) : NULL;
+        if (reader) {
+            snprintf(reason, sizeof reason, "%s/%s reads its levels", reader->pass->slot, reader->pass->variant);
+            holds = true;
+        }
+        if (row->kind == GLINT_ROW_FACT) pass->lacks |= (uint32_t)!holds << fact++;
+        else if (!holds && pass->runs) pass->reason[0] = 0, pass->runs = false;
+        const bool told = strstr(pass->reason, reason) != NULL; /* several facts may have the same figure */
+        if (row->kind == GLINT_ROW_NEEDS && holds == pass->runs && !told)
+            text_list(pass->reason, sizeof pass->reason, reason);
+    }
+    if (!pass->runs) take_instead(pass);
+    if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
+    return true;
+}
+
+/* Whether the pass works on cube maps, which the capture has not. */
+static bool lacks_cubemaps(const struct glint_pass *pass, const struct facts *facts) {
+    char reason[192];
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_NEEDS && facts->about(pass->rows[r].name) == FACT_CUBEMAPS)
+            return !facts->holds(facts->user, pass->rows[r].name, reason, sizeof reason, NULL);
+    return false;
+}
+
+static bool makes_list(const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (glint_row_is_output(&pass->rows[r]) && size_is_buffer(pass->rows[r].size)) return true;
+    return false;
+}
+
+/* Readers before what they read, so that it is known which of them run. */
+static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
+                          struct glint_error *err) {
+    const struct glint_replay_options *options = inputs->options;
+    for (size_t i = graph->pass_count; i-- > 0;) {
+        struct graph_pass *pass = &graph->passes[i];
+        const char *slot = pass->pass->slot, *why = NULL;
+        if (options->passes && !list_has(options->passes, slot)) why = GLINT_REASON_NOT_ASKED;
+        else if (list_has(options->skip, slot)) why = GLINT_REASON_SKIPPED;
+        else if (list_has(options->force, slot)) why = "forced on request", pass->runs = true;
+        else if (options->all && !options->passes && makes_list(pass->pass)) /* unless it was asked for by name */
+            why = "all pixels were asked for, and a list leaves some out";
+        else if (options->all && !lacks_cubemaps(pass->pass, &inputs->facts))
+            why = "all passes were asked for", pass->runs = true;
+        else if (options->all) why = "the capture has no cube maps";
+        else if (!decide_by_facts(graph, pass, inputs, faults, err)) return false;
+        if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
+    }
+    return true;
+}
+
+/* Drops what no wanted image depends on. */
+static void cull(struct graph *graph, const struct glint_replay_options *options, struct faults *faults) {
+    if (!options->outputs) return;
+    bool *needed = calloc(graph->pass_count + 1, sizeof *needed);
+    if (!needed) {
+        faults_add(faults, GLINT_ERROR_MEMORY, "out of memory");
+        return;
+    }
+    for (const char *const *name = options->outputs; *name; name++) {
+        size_t maker = graph_maker(graph, *name);
+        if (maker == graph->pass_count) {
+            char known[600] = "";
+            for (size_t i = 0; i < graph->pass_count; i++)
+                for (size_t r = 0; r < graph->passes[i].pass->row_count; r++)
+                    if (glint_row_is_output(&graph->passes[i].pass->rows[r]))
+                        text_list(known, sizeof known, graph->passes[i].pass->rows[r].name);
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: no pass makes '%s'; made are: %s", *name, known);
+        } else if (glint_pass_output(graph->passes[maker].pass, *name)->kind == GLINT_ROW_DIAGNOSTIC &&
+                   !options->diagnostics)
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is a diagnostic image, and diagnostics are off", *name);
+        else if (options->passes && !list_has(options->passes, graph->passes[maker].pass->slot))
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is made by %s, which is not among the passes asked for",
+                       *name, graph->passes[maker].pass->slot);
+        else needed[maker] = true;
+    }
+    for (bool more = true; more;) { /* again for what history asks of passes further back */
+        more = false;
+        for (size_t i = graph->pass_count; i-- > 0;)
+            for (size_t j = 0; j < graph->pass_count && !needed[i]; j++)
+                more |= needed[i] = needed[j] && graph->passes[j].runs &&
+                                    (glint_pass_depends(graph->passes[j].pass, graph->passes[i].pass) ||
+                                     pass_remembers(graph->passes[j].pass, graph->passes[i].pass));
+    }
+    for (size_t i = graph->pass_count; i-- > 0;) {
+        if (!needed[i]) graph->passes[i].instead = NULL;
+        if (graph->passes[i].runs && !needed[i]) {
+            graph->passes[i].runs = false;
+            snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason,
+                     "nothing that is wanted reads its images");
+        }
+    }
+    free(needed);
+}
+
+bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct glint_error *err) {
+    const struct glint_replay_options *options = inputs->options;
+    struct faults *faults = &graph->faults;
+    *faults = graph->declared;
+    for (size_t i = 0; i < graph->pass_count; i++)
+        graph->passes[i] = (struct graph_pass){
+            .entry = graph->passes[i].entry, .pass = graph->passes[i].pass, .rank = graph->passes[i].rank};
+    check_slots(graph, "passes", options->passes, faults);
+    check_slots(graph, "skip", options->skip, faults);
+    check_slots(graph, "force", options->force, faults);
+    if (!decide_passes(graph, inputs, faults, err)) return false;
+    cull(graph, options, faults);
+    return true;
+}

@@ -1,0 +1,219 @@
+/* Builds a graph: links passes by image name, and finds each image's source. */
+#include "graph.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "faults.h"
+
+static bool capture_has(struct glint_capture *capture, const struct glint_row *row) {
+    char part[64];
+    if (!capture) return false;
+    if (!size_is_array(row->size)) return glint_capture_find(capture, row->role) != NULL;
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *info = glint_capture_part(capture, i);
+        snprintf(part, sizeof part, "%s.", row->role);
+        if (strncmp(info->name, part, strlen(part)) == 0) return true;
+    }
+    return false;
+}
+
+/* "a, b": the variants of a slot that make an image. */
+static void name_makers(const char *slot, const char *image, char *text, size_t size) {
+    size_t count, length = 0;
+    const struct glint_pass *all = glint_passes(&count);
+    text[0] = 0;
+    for (size_t i = 0; i < count && length < size; i++)
+        if (!strcmp(all[i].slot, slot) && glint_pass_output(&all[i], image))
+            length += (size_t)snprintf(text + length, size - length, "%s%s", length ? ", " : "", all[i].variant);
+}
+
+/* `left_out`: the pipeline has no such slot; else it was not asked for. */
+static void complain_missing(const struct graph_pass *reader, const char *image, const struct glint_pass *maker,
+                             bool left_out, const struct glint_replay_options *options, struct faults *faults) {
+    const char *inputs = options->inputs ? options->inputs : "no run was given as inputs";
+    char makers[200], without[280] = "it does not run";
+    if (maker && left_out) {
+        name_makers(maker->slot, image, makers, sizeof makers);
+        snprintf(without, sizeof without, "the pipeline leaves that slot out (it may be %s)", makers);
+    }
+    if (maker)
+        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which %s makes; %s, and %s%s", reader->pass->slot,
+                   reader->pass->variant, image, maker->slot, without, inputs,
+                   options->inputs ? " does not hold it" : "");
+    else
+        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which no known pass makes", reader->pass->slot,
+                   reader->pass->variant, image);
+}
+
+/* Where an image that pass `reader` reads comes from; adds it to the graph's images. `optional`: the row that says what
+   it is when no pass makes it, or NULL. */
+static void link_read(struct graph *graph, size_t reader, const char *name, const struct glint_row *optional,
+                      const struct graph_inputs *inputs, struct faults *faults) {
+    struct graph_image *image = graph_find(graph, name);
+    if (image) {
+        image->last_use = reader;
+        if (!optional && image->row->optional)
+            complain_missing(&graph->passes[reader], name, image->pass, false, inputs->options, faults);
+        return;
+    }
+    struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader};
+    const size_t maker = graph_maker(graph, name);
+    /* Dropped by the plan, it gets nothing; one merely not asked for has to come from somewhere. */
+    const bool dropped =
+        maker < graph->pass_count &&
+        (!inputs->options->passes || list_has(inputs->options->passes, graph->passes[maker].pass->slot));
+    if (!optional || maker < graph->pass_count) fresh.row = graph_row(graph, name, &fresh.pass);
+    char part[128];
+    snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
+    if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    else if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, false, inputs->options, faults);
+    else if (!fresh.pass) {
+        fresh.source = capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_NOTHING;
+        if (fresh.source == SOURCE_NOTHING && fresh.row->required)
+            faults_add(faults, GLINT_ERROR_FORMAT, "%s: part %s: missing, but %s/%s reads its channels %s",
+                       inputs->capture ? glint_capture_path(inputs->capture) : "no capture", fresh.row->role,
+                       graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, fresh.row->source);
+    } else if (dropped) fresh.source = SOURCE_NOTHING;
+    else if (optional && fresh.row->size == GLINT_SIZE_TILES) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    else if (inputs->run && glint_run_find(inputs->run, name)) fresh.source = SOURCE_RUN;
+    else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
+    else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    else
+        complain_missing(&graph->passes[reader], name, fresh.pass, maker >= graph->pass_count, inputs->options, faults);
+    const bool given = fresh.source == SOURCE_RUN || fresh.source == SOURCE_ENGINE;
+    if (given && glint_pipeline_rays(graph->pipeline) > 1 && graph->passes[reader].rank == RANK_RAY &&
+        glint_pass_row(fresh.pass, GLINT_ROW_PER_RAY, NULL))
+        faults_add(faults, GLINT_ERROR_USAGE,
+                   "%s/%s reads %s, which %s makes anew for each of %u rays: it must be among the passes too",
+                   graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, name, fresh.pass->slot,
+                   glint_pipeline_rays(graph->pipeline));
+    if (fresh.row) graph->images[graph->image_count++] = fresh;
+}
+
+/* What an image held at the end of the frame before. The image itself is kept for the next one. */
+static void link_history(struct graph *graph, size_t reader, const struct glint_row *row,
+                         const struct graph_inputs *inputs, struct faults *faults) {
+    struct graph_image *image = graph_find(graph, row->image), *known = graph_bound(graph, row);
+    const bool given = inputs->run && glint_run_find(inputs->run, row->image);
+    if (capture_row(row->image)) {
+        faults_add(faults, GLINT_ERROR_USAGE,
+                   "%s/%s remembers %s, an image of the capture: a capture's own previous parts hold it",
+                   graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, row->image);
+        return;
+    }
+    if (!image && given) {
+        link_read(graph, reader, row->image, NULL, inputs, faults);
+        image = graph_find(graph, row->image);
+    }
+    if (image) image->kept = true;
+    if (known) {
+        known->last_use = reader > known->last_use ? reader : known->last_use;
+        return;
+    }
+    struct graph_image fresh = {.source = SOURCE_HISTORY, .history = true, .first_use = reader, .last_use = reader};
+    struct graph_image *place = &graph->images[graph->image_count];
+    fresh.row = graph_row(graph, row->image, &fresh.pass);
+    if (!fresh.row) {
+        complain_missing(&graph->passes[reader], row->image, NULL, false, inputs->options, faults);
+        return;
+    }
+    snprintf(fresh.history_name, sizeof fresh.history_name, HISTORY_PREFIX "%s", row->image);
+    *place = fresh;
+    place->name = place->history_name;
+    graph->image_count++;
+    graph_check_kind(graph->passes[reader].pass, row, fresh.row, faults);
+}
+
+/* What a dropped pass would have passed on as it is stands for what it would have made, for the next frame. */
+static void link_passed_on(struct graph *graph, const struct glint_pass *dropped) {
+    for (size_t r = 0; r < dropped->row_count; r++) {
+        const struct glint_row *row = &dropped->rows[r];
+        struct graph_image *image = row->kind == GLINT_ROW_BYPASS ? graph_find(graph, row->name) : NULL;
+        if (!image || image->source != SOURCE_MADE || image->kept) continue;
+        image->kept = true;
+        image->kept_as = row->image;
+        return;
+    }
+}
+
+/* What would have been made of the capture's image as it is, is that image. */
+static void link_instead(struct graph *graph, size_t dropped, const struct graph_inputs *inputs,
+                         struct faults *faults) {
+    const struct graph_pass *pass = &graph->passes[dropped];
+    if (!pass->instead) return;
+    link_read(graph, dropped, pass->instead->name, NULL, inputs, faults);
+    struct graph_image *image = graph_find(graph, pass->instead->name);
+    if (!image) return;
+    image->instead = glint_pass_output(pass->pass, pass->instead->image);
+    image->instead_of = pass->pass;
+    image->wanted = !inputs->options->outputs || list_has(inputs->options->outputs, pass->instead->image);
+}
+
+/* Whether a row FACT is about the image, and does not hold. */
+static bool is_left_out(const struct graph_pass *pass, const char *image) {
+    uint32_t fact = 0;
+    for (size_t r = 0; r < pass->pass->row_count; r++) {
+        if (pass->pass->rows[r].kind != GLINT_ROW_FACT) continue;
+        if (strcmp(pass->pass->rows[r].name, image) == 0) return pass->lacks >> fact & 1;
+        fact++;
+    }
+    return false;
+}
+
+static void link_images(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults) {
+    const struct glint_replay_options *options = inputs->options;
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        const struct graph_pass *pass = &graph->passes[i];
+        link_instead(graph, i, inputs, faults);
+        for (size_t r = 0; pass->runs && r < pass->pass->row_count; r++) {
+            const struct glint_row *row = &pass->pass->rows[r];
+            const char *names[2];
+            for (size_t n = glint_row_reads(row, names); n-- > 0;)
+                link_read(graph, i, names[n], row->optional && n == 0 ? row : NULL, inputs, faults);
+            const struct graph_image *read = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
+            if (read && read->source == SOURCE_RUN && size_is_array(read->row->size))
+                link_read(graph, i, cubemap_order_image(), NULL, inputs, faults); /* how many cube maps there are */
+            if (read) graph_check_kind(pass->pass, row, read->row, faults);
+            const struct graph_image *list = row->kind == GLINT_ROW_DISPATCH_LIST ? graph_find(graph, row->name) : NULL;
+            if (list && list->row->size != GLINT_SIZE_LIST)
+                faults_add(faults, GLINT_ERROR_USAGE, "%s/%s dispatches over %s, which is no list", pass->pass->slot,
+                           pass->pass->variant, row->name);
+            if (!glint_row_is_output(row)) continue;
+            const bool diagnostic = row->kind == GLINT_ROW_DIAGNOSTIC;
+            const bool made = diagnostic ? options->diagnostics : !is_left_out(pass, row->name);
+            graph->images[graph->image_count++] = (struct graph_image){
+                .name = row->name,
+                .row = row,
+                .pass = pass->pass,
+                .source = made ? SOURCE_MADE : SOURCE_NOTHING,
+                .wanted = made && (diagnostic || !options->outputs || list_has(options->outputs, row->name)),
+                .maker = i,
+                .first_use = i,
+                .last_use = i};
+        }
+    }
+    for (size_t i = 0; i < graph->pass_count; i++) /* once it is known what is made */
+        for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++)
+            if (graph->passes[i].pass->rows[r].kind == GLINT_ROW_HISTORY)
+                link_history(graph, i, &graph->passes[i].pass->rows[r], inputs, faults);
+    for (size_t i = 0; i < graph->pass_count; i++)
+        if (!graph->passes[i].runs) link_passed_on(graph, graph->passes[i].pass);
+}
+
+bool graph_init(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err) {
+    if (!graph_allocate(graph, pipeline, err)) return false;
+    for (size_t i = 0; i < pipeline->count; i++)
+        graph->passes[i] = (struct graph_pass){.entry = &pipeline->passes[i], .pass = pipeline->passes[i].pass};
+    graph_check(graph, &graph->declared);
+    graph_sort(graph);
+    graph->faults = graph->declared;
+    return true;
+}
+
+bool graph_link(struct graph *graph, const struct graph_inputs *inputs, struct glint_error *err) {
+    link_images(graph, inputs, &graph->faults);
+    if (graph->faults.count == 0) graph_find_cached_work(graph);
+    graph_find_loop(graph, glint_pipeline_rays(graph->pipeline));
+    return faults_none(&graph->faults, graph->pipeline->name, err);
+}

@@ -1,0 +1,138 @@
+/* Presets: JSON files by path, in $GLINT_PRESETS, and built into the library. */
+#include "pipeline.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "faults.h"
+#include "text_file.h"
+
+struct builtin_preset {
+    const char *name, *text;
+};
+#include "builtin_presets.h"
+enum { BUILTIN = sizeof builtin_presets / sizeof builtin_presets[0] };
+
+const char *glint_preset(size_t i) {
+    return i < BUILTIN ? builtin_presets[i].name : NULL;
+}
+
+static char *copy(const char *text, struct glint_error *err) {
+    char *result = strdup(text);
+    if (!result) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    return result;
+}
+
+/* The JSON text by name or path; *where names the place. The caller frees both. */
+static char *preset_text(const char *preset, char **where, struct glint_error *err) {
+    enum { LIMIT = 1 << 20 };
+    char path[4096];
+    size_t length = strlen(preset);
+    *where = NULL;
+    if (strchr(preset, '/') || (length > 5 && strcmp(preset + length - 5, ".json") == 0)) {
+        if (!(*where = copy(preset, err))) return NULL;
+        return file_text(preset, LIMIT, err);
+    }
+    const char *folder = getenv("GLINT_PRESETS");
+    if (folder && folder[0] && snprintf(path, sizeof path, "%s/%s.json", folder, preset) < (int)sizeof path) {
+        FILE *file = fopen(path, "rb");
+        if (file) {
+            fclose(file);
+            if (!(*where = copy(path, err))) return NULL;
+            return file_text(path, LIMIT, err);
+        }
+    }
+    char known[512] = "";
+    for (size_t i = 0; i < BUILTIN; i++) {
+        if (strcmp(builtin_presets[i].name, preset) == 0) {
+            if (!(*where = copy(preset, err))) return NULL;
+            return copy(builtin_presets[i].text, err);
+        }
+        text_list(known, sizeof known, builtin_presets[i].name);
+    }
+    glint_fail(err, GLINT_ERROR_USAGE, "unknown preset '%s'; built in: %s; others by path or in $GLINT_PRESETS", preset,
+               known);
+    return NULL;
+}
+
+/* "set": {"slot.parameter": value} */
+static bool apply_set(struct glint_pipeline *pipeline, const char *key, const json_t *value, struct glint_error *err) {
+    char text[64], *assignment = NULL;
+    if (json_is_string(value)) {
+        size_t size = strlen(key) + json_string_length(value) + 2;
+        if (!(assignment = malloc(size))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        snprintf(assignment, size, "%s=%s", key, json_string_value(value));
+    } else if (json_is_number(value) || json_is_boolean(value)) {
+        if (json_is_boolean(value)) snprintf(text, sizeof text, "%s", json_is_true(value) ? "1" : "0");
+        else snprintf(text, sizeof text, "%.17g", json_number_value(value));
+        size_t size = strlen(key) + strlen(text) + 2;
+        if (!(assignment = malloc(size))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        snprintf(assignment, size, "%s=%s", key, text);
+    } else return glint_fail(err, GLINT_ERROR_USAGE, "set: %s: expected a number, true, false or a name", key);
+    bool ok = glint_pipeline_set(pipeline, assignment, err);
+    free(assignment);
+    return ok;
+}
+
+static void apply_preset(struct glint_pipeline *pipeline, json_t *root, struct faults *faults) {
+    const char *key;
+    json_t *value, *slots = json_object_get(root, "slots"), *set = json_object_get(root, "set");
+    struct glint_error one;
+    if (!json_is_object(root)) {
+        faults_add(faults, GLINT_ERROR_FORMAT, "expected an object");
+        return;
+    }
+    json_object_foreach(root, key, value) {
+        bool text = strcmp(key, "name") == 0 || strcmp(key, "title") == 0 || strcmp(key, "source") == 0;
+        /* provenance: where a tuned preset comes from; nothing of it is read here */
+        bool object = strcmp(key, "slots") == 0 || strcmp(key, "set") == 0 || strcmp(key, "provenance") == 0;
+        if (!text && !object)
+            faults_add(faults, GLINT_ERROR_FORMAT,
+                       "unknown key '%s'; known: name, title, source, slots, set, provenance", key);
+        else if (text ? !json_is_string(value) : !json_is_object(value))
+            faults_add(faults, GLINT_ERROR_FORMAT, "%s: expected %s", key, text ? "a string" : "an object");
+    }
+    if (!slots) faults_add(faults, GLINT_ERROR_FORMAT, "expected 'slots'");
+    json_object_foreach(slots, key, value) if (!json_is_string(value))
+        faults_add(faults, GLINT_ERROR_FORMAT, "slots: %s: expected the name of a variant", key);
+    else if (!pipeline_use(pipeline, key, json_string_value(value), &one))
+        faults_add(faults, one.code, "%s", one.message);
+    json_object_foreach(set, key, value) if (!apply_set(pipeline, key, value, &one))
+        faults_add(faults, one.code, "%s", one.message);
+}
+
+struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err) {
+    char *where = NULL, *text = preset_text(preset, &where, err);
+    struct glint_pipeline *pipeline = text ? calloc(1, sizeof *pipeline) : NULL;
+    json_t *root = NULL;
+    bool ok = false;
+    if (!text) goto done;
+    if (!pipeline) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        goto done;
+    }
+    json_error_t fault;
+    root = json_loads(text, JSON_REJECT_DUPLICATES, &fault);
+    if (!root) {
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s:%d:%d: %s", where, fault.line, fault.column, fault.text);
+        goto done;
+    }
+    const char *name = json_string_value(json_object_get(root, "name"));
+    pipeline->name = strdup(name ? name : preset);
+    if (!pipeline->name) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        goto done;
+    }
+    struct faults faults = {0};
+    apply_preset(pipeline, root, &faults);
+    ok = faults_none(&faults, where, err);
+done:
+    json_decref(root);
+    free(text);
+    free(where);
+    if (!ok) glint_pipeline_destroy(&pipeline);
+    return pipeline;
+}

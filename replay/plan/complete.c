@@ -1,0 +1,40 @@
+/* A plan whose passes are decided: its images, tables, sizes, and the block of figures that shaders see. */
+#include <math.h>
+#include <string.h>
+
+#include "planner.h"
+#include "shared/tile_list.h"
+
+void plan_begin(struct frame_plan *plan, const struct planner *planner, const struct glint_pipeline *pipeline,
+                const struct glint_replay_options *options) {
+    *plan = (struct frame_plan){.pipeline = pipeline,
+                                .options = options,
+                                .source = planner->source,
+                                .tables = &plan->own_tables,
+                                .tile_wide = planner->engine ? planner->engine->gpu->info.tile_wide : STRIP_WIDE};
+}
+
+static void fill_block(struct frame_plan *plan) {
+    const struct glint_frame *frame = glint_capture_frame(plan->source->capture);
+    const struct glint_part_info *mirror = glint_capture_find(plan->source->capture, GLINT_PART_MIRROR);
+    float classes[2];
+    frame_block_fill(&plan->block, frame, &plan->sizes);
+    plan->block.flags.w = plan->pipeline->first_ray;
+    plan->block.up.w = plan->options->float_precision ? INFINITY : HALF_LARGEST;
+    plan->block.work = (uvec4){plan->options->all, pipeline_shows_all(plan->pipeline), 0, 0};
+    pipeline_classes(plan->pipeline, &classes[0], &classes[1]);
+    memcpy(&plan->block.work.z, classes, sizeof classes);
+    if (mirror) frame_block_mirror(&plan->block, frame, &mirror->planar);
+}
+
+bool plan_complete(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,
+                   struct glint_error *err) {
+    const struct glint_replay_options *options = plan->options;
+    if (!graph_link(&plan->graph, inputs, err) ||
+        !tables_fill(plan->tables, &plan->graph, plan->source->capture, err) || !plan_find_sizes(plan, err) ||
+        !plan_history(plan, planner->pool, err) || !plan_reach(plan, &planner->survey.figures, err))
+        return false;
+    fill_block(plan);
+    if (options->cache && !frame_source_hash(plan->source, plan->content, NULL)) plan->content[0] = 0;
+    return true;
+}

@@ -1,0 +1,79 @@
+/* What a frame holds: shares of sky and of reflecting surfaces, ranges. */
+#include "survey.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <Imath/half.h>
+
+static const char *const surveyed[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
+
+bool channels_add_survey(struct channels *channels, struct glint_error *err) {
+    for (size_t i = 0; i < sizeof surveyed / sizeof surveyed[0]; i++)
+        if (!channels_add(channels, surveyed[i], strlen(surveyed[i]), err)) return false;
+    return true;
+}
+
+static void widen_range(float range[2], float value) {
+    if (value < range[0]) range[0] = value;
+    if (value > range[1]) range[1] = value;
+}
+
+static void count_pixel(struct glint_survey_pixels *pixels, float roughness) {
+    const int bin = (int)(roughness * GLINT_SURVEY_BINS);
+    pixels->count++;
+    widen_range(pixels->roughness, roughness);
+    pixels->by_roughness[bin < GLINT_SURVEY_BINS ? bin : GLINT_SURVEY_BINS - 1]++;
+}
+
+static float as_stored(float roughness) {
+    const float held = imath_half_to_float(imath_float_to_half(roughness));
+    return held > 0 ? fminf(held, 1) : 0; /* NaN is 0 */
+}
+
+void survey_channels(const struct channels *channels, struct glint_survey *survey) {
+    size_t at[4];
+    for (size_t i = 0; i < 4; i++) at[i] = channels_find(channels, surveyed[i], strlen(surveyed[i]));
+    survey->surfaces = survey->reflecting = (struct glint_survey_pixels){.roughness = {INFINITY, -INFINITY}};
+    survey->depth_m[0] = INFINITY, survey->depth_m[1] = -INFINITY;
+    survey->pixels = (uint64_t)channels->part->width * channels->part->height;
+    for (uint64_t p = 0; p < survey->pixels; p++) {
+        const float *pixel = channels->data + p * channels->count;
+        if (!(pixel[at[0]] < INFINITY)) {
+            survey->sky++;
+            continue;
+        }
+        const float roughness = as_stored(pixel[at[1]]);
+        widen_range(survey->depth_m, fmaxf(pixel[at[0]], 0));
+        count_pixel(&survey->surfaces, roughness);
+        /* As shared/shown.glsl has it: a value that is none counts. */
+        if (!(pixel[at[2]] == 0 && pixel[at[3]] == 0)) count_pixel(&survey->reflecting, roughness);
+    }
+}
+
+void survey_capture_parts(const struct glint_capture *capture, struct glint_survey *survey) {
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        survey->cubemaps += part->has_cubemap;
+        survey->volumes += part->has_cubemap && part->cubemap.inner != GLINT_VOLUME_NONE;
+    }
+#define SURVEY_PART(member, name) survey->member = glint_capture_find(capture, name) != NULL;
+#include "survey_parts.h"
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
+    survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
+    survey->has_previous = glint_capture_frame(capture)->has_previous;
+    survey->has_fog = glint_capture_frame(capture)->has_fog;
+}
+
+bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err) {
+    *survey = (struct glint_survey){0};
+    struct channels channels = {.part = glint_capture_find(capture, GLINT_PART_GBUFFER)};
+    bool ok =
+        channels.part || glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
+    ok = ok && channels_add_survey(&channels, err) && channels_read(&channels, capture, err);
+    if (ok) survey_channels(&channels, survey);
+    if (ok) survey_capture_parts(capture, survey);
+    channels_finish(&channels);
+    return ok;
+}

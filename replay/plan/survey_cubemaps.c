@@ -1,0 +1,150 @@
+/* The survey of the active cube maps: what they show. Made once for as long as they stay the same. */
+#include "planner.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <xxhash.h>
+
+/* Whether a pass that runs asks for what cube maps show. */
+static bool asks_about_faces(const struct graph *graph) {
+    for (size_t i = 0; i < graph->pass_count; i++)
+        for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++) {
+            const struct glint_row *row = &graph->passes[i].pass->rows[r];
+            if (row->kind != GLINT_ROW_FACT && row->kind != GLINT_ROW_NEEDS) continue;
+            const enum fact_about about = survey_fact_about(row->name);
+            if (about == FACT_FACES || about == FACT_FACES_AND_PIXELS) return true;
+        }
+    return false;
+}
+
+/* Of what the active cube maps hold: their files', or this load's. */
+static bool find_cubemaps_key(const struct frame_source *source, const struct glint_table *active, uint64_t *key,
+                              struct glint_error *err) {
+    const struct glint_part_info **parts;
+    size_t count;
+    if (!cubemap_parts(source->capture, &parts, &count, err)) return false;
+    *key = 1 + glint_capture_perturbed(source->capture);
+    for (uint32_t i = 0; i < active->width; i++) {
+        const char *hash = active->texels.u[i] < count ? parts[active->texels.u[i]]->sibling_hash : "";
+        *key = XXH3_64bits_withSeed(&active->texels.u[i], sizeof active->texels.u[i], *key);
+        *key = hash[0] ? XXH3_64bits_withSeed(hash, strlen(hash), *key)
+                       : XXH3_64bits_withSeed(&source->serial, sizeof source->serial, *key);
+    }
+    free(parts);
+    return true;
+}
+
+enum { SQUARES = 6 * COCOON_SIZE * COCOON_SIZE /* of a cube map */, NEARBY_WORDS = 4 /* where they begin */ };
+
+static uint8_t faces_of(const uint32_t *squares) {
+    uint8_t faces = 0;
+    for (uint32_t i = 0; i < SQUARES; i++)
+        if (squares[i]) faces |= (uint8_t)(1u << 6 * i / SQUARES);
+    return faces;
+}
+
+/* Whether all rays that the picture shows are mirrors', whose ways are known before they are traced. */
+static bool are_all_mirrors(const struct survey_state *state, const struct graph *graph) {
+    const struct glint_survey *figures = &state->figures;
+    const char *image;
+    const struct glint_pass *pass = glint_pass_with_role(GLINT_ROLE_SURVEY_OPEN_FACES, &image);
+    const struct glint_row *colors = glint_pass_row(pass, GLINT_ROW_ALONG_RAYS, NULL);
+    return graph_follows_rays(graph, colors->name) && state->done && figures->whole && !figures->has_transparent &&
+           !pipeline_shows_all(graph->pipeline) && figures->reflecting.count > 0 &&
+           !(figures->reflecting.roughness[1] > 0);
+}
+
+static uint8_t six_bits(const uint32_t *words, uint32_t place) {
+    uint8_t faces = 0;
+    for (uint32_t bit = 6 * place, i = 0; i < 6; bit++, i++) faces |= (uint8_t)((words[bit / 32] >> bit % 32 & 1) << i);
+    return faces;
+}
+
+/* What the ways of rays are known from. */
+static uint64_t rays_key(const struct frame_source *source, const struct glint_table *active) {
+    const uint64_t key = XXH3_64bits_withSeed(&source->serial, sizeof source->serial, 1);
+    return XXH3_64bits_withSeed(active->texels.u, active->width * sizeof *active->texels.u, key);
+}
+
+/* What a look at the cube maps goes by. */
+struct looking {
+    struct planner *planner;
+    struct frame_plan *plan;
+    const struct pipeline_pass *maker; /* of the order of cube maps */
+    const struct glint_table *active;
+};
+
+static bool look_at_faces(const struct looking *l, struct glint_error *err) {
+    static const enum glint_pass_role figures[] = {GLINT_ROLE_SURVEY_OPEN_FACES, GLINT_ROLE_SURVEY_SKY_FACES};
+    struct cube_survey *cubes = &l->planner->survey.cubes;
+    const uint32_t count = l->active->width;
+    uint32_t *texels =
+        survey_run(l->planner, l->maker, l->plan->tables, figures, 2, 0, l->plan->options, &cubes->time, err);
+    for (uint32_t i = 0; texels && i < count; i++) {
+        cubes->active[i].open = faces_of(texels + (size_t)i * SQUARES);
+        cubes->active[i].sky = faces_of(texels + (size_t)(count + i) * SQUARES);
+    }
+    free(texels);
+    return texels != NULL;
+}
+
+static bool follow_rays(const struct looking *l, struct glint_error *err) {
+    static const enum glint_pass_role figures[] = {GLINT_ROLE_SURVEY_REACHED_FACES};
+    struct survey_state *state = &l->planner->survey;
+    uint32_t *words =
+        survey_run(l->planner, l->maker, l->plan->tables, figures, 1, 0, l->plan->options, &state->followed_time, err);
+    if (!words) return false;
+    for (uint32_t i = 0; i < l->active->width; i++) {
+        state->figures.active[i].crossed = six_bits(words, i);
+        state->figures.active[i].nearby = six_bits(words + NEARBY_WORDS, i);
+    }
+    free(words);
+    state->figures.followed = l->active->width;
+    return true;
+}
+
+static bool look_at_cubemaps(const struct looking *l, bool mirrors, uint32_t before, struct glint_error *err) {
+    struct survey_state *state = &l->planner->survey;
+    struct glint_survey *figures = &state->figures;
+    const uint32_t count = l->active->width;
+    uint64_t key = 0, rays = mirrors ? rays_key(l->planner->source, l->active) : 0;
+    if (mirrors && before == count && state->followed_key == rays) figures->followed = count;
+    else if (mirrors && !follow_rays(l, err)) return false;
+    state->followed_key = rays;
+    if (!find_cubemaps_key(l->planner->source, l->active, &key, err)) return false;
+    for (uint32_t i = 0; i < count; i++) key = key * 31 + (figures->followed ? figures->active[i].crossed : 63);
+    for (uint32_t i = 0; i < count; i++) key = key * 31 + (figures->followed ? figures->active[i].nearby : 63);
+    if (state->cubes.key != key) {
+        state->cubes.key = 0;
+        if (!look_at_faces(l, err)) return false;
+        state->cubes.key = key;
+        before = 0;
+    }
+    for (uint32_t i = 0; i < count && before != count; i++) {
+        figures->active[i].number = l->active->texels.u[i];
+        figures->active[i].open = state->cubes.active[i].open;
+        figures->active[i].sky = state->cubes.active[i].sky;
+    }
+    figures->looked_at = count;
+    return true;
+}
+
+/* Where pixels show the sky, cube maps do as a rule, and then no pass is spared by knowing it: only a whole survey asks. */
+static bool is_outdoors(const struct glint_survey *figures) {
+    return figures->brief && figures->sky > 0;
+}
+
+bool survey_cubemaps(struct planner *planner, struct frame_plan *plan, uint32_t before, struct glint_error *err) {
+    const struct graph *graph = &plan->graph;
+    const char *order = cubemap_order_image();
+    const size_t maker = graph_maker(graph, order);
+    const bool mirrors = are_all_mirrors(&planner->survey, graph);
+    if (!planner->engine || !asks_about_faces(graph) || (is_outdoors(&planner->survey.figures) && !mirrors) ||
+        maker == graph->pass_count || !graph->passes[maker].runs)
+        return true;
+    if (!tables_fill(plan->tables, graph, planner->source->capture, err)) return false;
+    const struct glint_table *active = tables_find(plan->tables, order);
+    if (!active || !active->texels.u || active->width > GLINT_SURVEY_CUBEMAPS) return true;
+    return look_at_cubemaps(&(struct looking){planner, plan, graph->passes[maker].entry, active}, mirrors, before, err);
+}

@@ -1,0 +1,109 @@
+/* A survey as run.json and glint info --json say it. */
+#include "survey.h"
+
+#include <math.h>
+
+static json_t *numbers_record(const uint64_t *values, size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_integer((json_int_t)values[i]));
+    return list;
+}
+
+/* null where there is none: nothing was counted, or it has no end. */
+static json_t *number_record(float value) {
+    return isfinite(value) ? json_real((double)value) : json_null();
+}
+
+static json_t *range_record(const float values[2]) {
+    return json_pack("[oo]", number_record(values[0]), number_record(values[1]));
+}
+
+static json_t *pixels_record(const struct glint_survey_pixels *p) {
+    uint64_t binned = 0;
+    for (int b = 0; b < GLINT_SURVEY_BINS; b++) binned += p->by_roughness[b];
+    return json_pack("{sIsoso}", "count", (json_int_t)p->count, "roughness", range_record(p->roughness), "by_roughness",
+                     binned == p->count ? numbers_record(p->by_roughness, GLINT_SURVEY_BINS) : json_null());
+}
+
+bool glint_survey_class(const struct glint_survey *survey, const struct glint_stencil_class *class, uint64_t *count) {
+    for (unsigned bit = 0; bit < 8; bit++)
+        if (class->value == 1u << bit && class->mask == 1u << bit) {
+            *count = survey->stencil_bits[bit];
+            return true;
+        }
+    return false;
+}
+
+static json_t *stencil_record(const struct glint_survey *survey, const struct glint_frame *frame) {
+    json_t *classes = json_object();
+    uint64_t count;
+    for (uint32_t i = 0; i < frame->class_count; i++)
+        if (glint_survey_class(survey, &frame->classes[i], &count))
+            json_object_set_new(classes, frame->classes[i].name, json_integer((json_int_t)count));
+    return classes;
+}
+
+const char *glint_survey_motion(const struct glint_survey *survey) {
+    return survey->moving ? "objects" : survey->moved ? "camera" : "none";
+}
+
+static json_t *time_record(const struct glint_time *time) {
+    return json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
+                     (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns);
+}
+
+uint32_t glint_survey_faces(const struct glint_survey *survey, enum glint_survey_face kind) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < survey->looked_at; i++) {
+        const struct glint_survey_cubemap *map = &survey->active[i];
+        const uint8_t faces[] = {map->open, map->sky, survey->followed ? map->crossed : 63,
+                                 survey->followed ? map->nearby : 63};
+        for (uint32_t left = faces[kind]; left; left &= left - 1) count++;
+    }
+    return count;
+}
+
+/* Numbers of faces as bits. */
+static json_t *cubemaps_record(const struct survey_state *state) {
+    const struct glint_survey *survey = &state->figures;
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < survey->looked_at; i++) {
+        const struct glint_survey_cubemap *map = &survey->active[i];
+        json_t *entry = json_pack("{sIsisi}", "number", (json_int_t)map->number, "open", map->open, "sky", map->sky);
+        if (survey->followed) json_object_set_new(entry, "crossed", json_integer(map->crossed));
+        if (survey->followed) json_object_set_new(entry, "nearby", json_integer(map->nearby));
+        json_array_append_new(list, entry);
+    }
+    json_t *record = json_pack("{sisisisisiso}", "faces", (int)(6 * survey->looked_at), "open",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list);
+    json_object_set_new(record, "time_ns",
+                        time_record(&state->cubes.time)); /* once for as long as they stay the same */
+    if (survey->followed) json_object_set_new(record, "ways_time_ns", time_record(&state->followed_time));
+    return record;
+}
+
+json_t *survey_record(const struct survey_state *state, const struct glint_frame *frame) {
+    const struct glint_survey *survey = &state->figures;
+    json_t *json =
+        json_pack("{sIsIsosososIsIsbsb}", "pixels", (json_int_t)survey->pixels, "sky", (json_int_t)survey->sky,
+                  "surfaces", pixels_record(&survey->surfaces), "reflecting", pixels_record(&survey->reflecting),
+                  "depth_m", range_record(survey->depth_m), "cubemaps", (json_int_t)survey->cubemaps, "volumes",
+                  (json_int_t)survey->volumes, "planar", survey->has_planar, "previous", survey->has_previous);
+    json_object_set_new(json, "counted_on", json_string(survey->whole ? "device" : "host"));
+    if (json && survey->whole) json_object_set_new(json, "time_ns", time_record(&state->time));
+    if (json && survey->looked_at) json_object_set_new(json, "active_cubemaps", cubemaps_record(state));
+    if (!json || !survey->whole || survey->brief) return json;
+    json_object_set_new(json, "metalness", numbers_record(survey->metalness, GLINT_SURVEY_BINS));
+    json_object_set_new(json, "weight", numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS));
+    json_object_set_new(json, "water", json_integer((json_int_t)survey->water));
+    json_object_set_new(json, "transparent", json_integer((json_int_t)survey->transparent));
+    json_object_set_new(json, "motion", json_string(glint_survey_motion(survey)));
+    json_object_set_new(json, "moved", json_integer((json_int_t)survey->moved));
+    json_object_set_new(json, "moving", json_integer((json_int_t)survey->moving));
+    json_object_set_new(json, "stencil", stencil_record(survey, frame));
+    json_object_set_new(json, "light", range_record(survey->light));
+    return json;
+}

@@ -1,0 +1,35 @@
+/* What is left of the frame before: images that change their name when the next frame of a shot is loaded. */
+#include "pool.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void pool_age(struct pool *pool, const struct glint_frame *next) {
+    const bool follows = pool->loaded && pool->ran && next->number == pool->number + 1;
+    for (struct pooled *image = pool->images; image; image = image->next) image->transient |= pooled_is_history(image);
+    pool_drop(pool, false);
+    for (struct pooled *image = pool->images; image; image = image->next) {
+        char name[sizeof image->image.name];
+        const bool remembered = follows && image->kept && image->key;
+        image->kept = false;
+        if (!remembered) continue;
+        snprintf(name, sizeof name, HISTORY_PREFIX "%.64s", image->kept_as ? image->kept_as : image->image.name);
+        pooled_rename(image, name);
+    }
+    pool->number = next->number;
+    pool->loaded = true;
+    pool->ran = false;
+}
+
+bool pool_has_history(const struct pool *pool) {
+    for (const struct pooled *image = pool->images; image; image = image->next)
+        if (pooled_is_history(image)) return true;
+    return false;
+}
+
+bool pool_remembers(const struct pool *pool, const char *name, uint32_t lineage, const struct image_desc *desc) {
+    for (const struct pooled *image = pool->images; image; image = image->next)
+        if (strcmp(image->image.name, name) == 0 && image->lineage == lineage)
+            return image->key && image_desc_equal(&image->image.desc, desc);
+    return false;
+}

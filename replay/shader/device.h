@@ -1,0 +1,15 @@
+/* A device as callers have it: Vulkan's, what was compiled for it, and the programs that all of its replays share. */
+#ifndef GLINT_REPLAY_DEVICE_H
+#define GLINT_REPLAY_DEVICE_H
+
+#include "gpu.h"
+#include "program.h"
+#include "shader.h"
+
+struct glint_device {
+    struct gpu gpu;
+    struct shaders shaders;
+    struct programs programs;
+};
+
+#endif

@@ -1,0 +1,187 @@
+/* Puts includes in place, since glslang's C interface has no callback for them. #line directives keep what the author
+   sees: a message names their file and line, and a declaration row's __LINE__ stays its binding. */
+#include "shader.h"
+#include "text_file.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { DEPTH_MAX = 16, TEXT_MAX = 1 << 22, PATH_SIZE = 1024 };
+
+struct flatten {
+    char *text;
+    size_t size, capacity;
+    const char *pass_folder; /* the pass's own under passes/, "reflection/blur" */
+    const char *folder;
+    bool versioned; /* #version, which must come first, has been seen */
+    bool foreign;   /* something came from the folder */
+};
+
+static bool append(struct flatten *out, const char *text, size_t length, struct glint_error *err) {
+    if (out->size + length + 1 > out->capacity) {
+        size_t capacity = (out->size + length + 1) * 2;
+        char *larger = capacity <= TEXT_MAX ? realloc(out->text, capacity) : NULL;
+        if (!larger)
+            return glint_fail(err, GLINT_ERROR_LIMIT, "shader: more than %d bytes with its includes", TEXT_MAX / 2);
+        out->text = larger;
+        out->capacity = capacity;
+    }
+    memcpy(out->text + out->size, text, length);
+    out->size += length;
+    out->text[out->size] = 0;
+    return true;
+}
+
+static bool append_line_directive(struct flatten *out, size_t line, const char *file, struct glint_error *err) {
+    char directive[PATH_SIZE + 64];
+    int length = snprintf(directive, sizeof directive, "#line %zu \"%s\"\n", line, file);
+    for (int i = 0; i < length; i++)
+        if (directive[i] == '\\') directive[i] = '/';
+    return append(out, directive, (size_t)length, err);
+}
+
+/* The file name of an #include line, or an empty string. */
+static void parse_include(const char *line, size_t length, char *name) {
+    size_t i = 0, n = 0;
+    name[0] = 0;
+    while (i < length && (line[i] == ' ' || line[i] == '\t')) i++;
+    if (i >= length || line[i++] != '#') return;
+    while (i < length && (line[i] == ' ' || line[i] == '\t')) i++;
+    if (length - i < 7 || strncmp(line + i, "include", 7) != 0) return;
+    for (i += 7; i < length && (line[i] == ' ' || line[i] == '\t');) i++;
+    if (i >= length || (line[i] != '"' && line[i] != '<')) return;
+    const char close = line[i++] == '"' ? '"' : '>';
+    while (i < length && line[i] != close && n + 1 < PATH_SIZE / 2) name[n++] = line[i++];
+    name[i < length && line[i] == close ? n : 0] = 0;
+}
+
+/* What `#line N` calls the next line; 0 when the line is none. */
+static size_t renumbered(const char *line, size_t length) {
+    size_t i = 0, number = 0;
+    while (i < length && isspace((unsigned char)line[i])) i++;
+    if (length - i < 6 || strncmp(line + i, "#line ", 6) != 0) return 0;
+    for (i += 6; i < length && isdigit((unsigned char)line[i]) && number < TEXT_MAX; i++)
+        number = 10 * number + (size_t)(line[i] - '0');
+    return number;
+}
+
+static bool is_version(const char *line, size_t length) {
+    size_t i = 0;
+    while (i < length && isspace((unsigned char)line[i])) i++;
+    if (i >= length || line[i++] != '#') return false;
+    while (i < length && isspace((unsigned char)line[i])) i++;
+    return length - i >= 7 && strncmp(line + i, "version", 7) == 0;
+}
+
+/* A path beside another: its folder, then the name, with "x/../" taken out. */
+static bool beside(char *path, const char *file, const char *name) {
+    const char *slash = strrchr(file, '/');
+    int folder = slash ? (int)(slash - file + 1) : 0;
+    if (snprintf(path, PATH_SIZE, "%.*s%s", folder, file, name) >= PATH_SIZE) return false;
+    for (char *up; (up = strstr(path, "/../")) && up > path && strncmp(path, "..", 2) != 0;) {
+        char *start = up;
+        while (start > path && start[-1] != '/') start--;
+        memmove(start, up + 4, strlen(up + 4) + 1);
+    }
+    return true;
+}
+
+static bool flatten_text(struct flatten *out, const char *file, const char *text, bool on_disk, int depth,
+                         struct glint_error *err);
+
+static bool flatten_disk(struct flatten *out, const char *path, int depth, struct glint_error *err) {
+    char *text = file_text(path, TEXT_MAX / 4, err);
+    bool ok = text && flatten_text(out, path, text, true, depth, err);
+    free(text);
+    return ok;
+}
+
+/* A file of passes/: the folder's, else the one that is built in. */
+static bool is_pass_file(const struct flatten *out, const char *path) {
+    char own[PATH_SIZE];
+    return glint_pass_text(path) ||
+           (out->folder && snprintf(own, sizeof own, "%s/%s", out->folder, path) < PATH_SIZE && access(own, R_OK) == 0);
+}
+
+static bool flatten_pass_file(struct flatten *out, const char *path, int depth, struct glint_error *err) {
+    char own[PATH_SIZE];
+    if (!out->folder || snprintf(own, sizeof own, "%s/%s", out->folder, path) >= PATH_SIZE || access(own, R_OK) != 0)
+        return flatten_text(out, path, glint_pass_text(path), false, depth, err);
+    char *text = file_text(own, TEXT_MAX / 4, err);
+    bool ok = text && flatten_text(out, path, text, false, depth, err);
+    out->foreign = true;
+    free(text);
+    return ok;
+}
+
+static bool flatten_include(struct flatten *out, const char *file, size_t line, const char *name, bool on_disk,
+                            int depth, struct glint_error *err) {
+    char path[PATH_SIZE], in_slot[PATH_SIZE];
+    if (depth >= DEPTH_MAX)
+        return glint_fail(err, GLINT_ERROR_LIMIT, "%s:%zu: includes nest deeper than %d", file, line, DEPTH_MAX);
+    if (on_disk && (name[0] == '/' ? snprintf(path, sizeof path, "%s", name) < PATH_SIZE : beside(path, file, name)) &&
+        access(path, R_OK) == 0)
+        return flatten_disk(out, path, depth + 1, err);
+    if (!on_disk && beside(path, file, name) && is_pass_file(out, path))
+        return flatten_pass_file(out, path, depth + 1, err);
+    if (on_disk && snprintf(in_slot, sizeof in_slot, "%s/", out->pass_folder) < PATH_SIZE &&
+        beside(path, in_slot, name) && is_pass_file(out, path))
+        return flatten_pass_file(out, path, depth + 1, err);
+    if (is_pass_file(out, name)) return flatten_pass_file(out, name, depth + 1, err);
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s:%zu: include \"%s\" not found beside the file nor among the passes",
+                      file, line, name);
+}
+
+static bool flatten_text(struct flatten *out, const char *file, const char *text, bool on_disk, int depth,
+                         struct glint_error *err) {
+    static const char names_in_lines[] = "#extension GL_GOOGLE_cpp_style_line_directive : require\n";
+    if (out->versioned && !append_line_directive(out, 1, file, err)) return false;
+    for (size_t line = 1; *text; line++) {
+        const char *end = strchr(text, '\n');
+        size_t length = end ? (size_t)(end - text) : strlen(text);
+        char name[PATH_SIZE / 2];
+        parse_include(text, length, name);
+        if (name[0]) {
+            if (!flatten_include(out, file, line, name, on_disk, depth, err) ||
+                !append_line_directive(out, line + 1, file, err))
+                return false;
+        } else if (!append(out, text, length, err) || !append(out, "\n", 1, err)) return false;
+        if (!out->versioned && is_version(text, length)) {
+            out->versioned = true;
+            if (!append(out, names_in_lines, sizeof names_in_lines - 1, err) ||
+                !append_line_directive(out, line + 1, file, err))
+                return false;
+        }
+        const size_t next = renumbered(text, length);
+        if (next) line = next - 1;
+        text += length + (end != NULL);
+    }
+    return true;
+}
+
+static char *finished(struct flatten *out, bool ok, const char *path, struct glint_error *err) {
+    if (ok && out->text && out->versioned) return out->text;
+    if (ok) glint_fail(err, GLINT_ERROR_FORMAT, out->text ? "%s:1: expected #version 460 first" : "%s: empty", path);
+    free(out->text);
+    return NULL;
+}
+
+char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err) {
+    struct flatten out = {.pass_folder = pass->folder ? pass->folder : "", .folder = folder};
+    return finished(&out, flatten_disk(&out, path, 0, err), path, err);
+}
+
+char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, struct glint_error *err) {
+    struct flatten out = {.pass_folder = pass->folder, .folder = folder};
+    char path[PATH_SIZE];
+    if (!folder || !pass->folder) return NULL;
+    snprintf(path, sizeof path, "%s/%s.comp", pass->folder, pass->variant);
+    if (!is_pass_file(&out, path)) return NULL;
+    const bool ok = flatten_pass_file(&out, path, 0, err);
+    if (!ok || out.foreign) return finished(&out, ok, path, err);
+    free(out.text);
+    return NULL;
+}

@@ -1,0 +1,220 @@
+/* Compute programs, made from a pass's rows: a row's line number is its binding or constant id. */
+#include "program.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <xxhash.h>
+
+static uint32_t value_bits(const struct glint_row *row, double value) {
+    uint32_t bits;
+    if (row->type == GLINT_VALUE_FLOAT) {
+        float f = (float)value;
+        memcpy(&bits, &f, sizeof bits);
+    } else if (row->type == GLINT_VALUE_UINT) bits = (uint32_t)value;
+    else bits = (uint32_t)(int32_t)value;
+    return bits;
+}
+
+static bool add_constant(struct constants *constants, uint32_t id, uint32_t bits) {
+    uint32_t i = constants->count;
+    if (i == CONSTANTS_MAX) return false;
+    constants->entries[i] = (VkSpecializationMapEntry){id, i * (uint32_t)sizeof bits, sizeof bits};
+    constants->data[i] = bits;
+    constants->count++;
+    return true;
+}
+
+struct workgroup pass_workgroup(const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_WORKGROUP)
+            return (struct workgroup){(uint32_t)pass->rows[r].first, (uint32_t)pass->rows[r].last};
+    return (struct workgroup){8, 8};
+}
+
+bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
+                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t tile_wide,
+                    uint32_t block, bool by_hand, struct glint_error *err) {
+    *constants = (struct constants){.push_count = 1, .probed = spirv->probes && options->probe_count > 0};
+    const struct glint_pass *pass = graph_pass->pass;
+    const double *values = graph_pass->entry->values;
+    uint32_t facts = 0;
+    const struct workgroup group = pass_workgroup(pass);
+    const uint32_t place = (uint32_t)(graph_pass - graph->passes) + 1;
+    bool fits = add_constant(constants, 0, options->diagnostics) &&
+                add_constant(constants, CONSTANT_PROBE, constants->probed ? place : 0) &&
+                add_constant(constants, 1, group.width) && add_constant(constants, 2, group.height) &&
+                add_constant(constants, CONSTANT_PHASE, 0) && add_constant(constants, 3, !options->float_precision) &&
+                add_constant(constants, CONSTANT_TILES, ALL_TILES) && add_constant(constants, CONSTANT_WORKS, true) &&
+                add_constant(constants, CONSTANT_TILE_WIDE, tile_wide) &&
+                add_constant(constants, CONSTANT_FILTER, by_hand);
+    for (size_t i = 0; i < pass->row_count && fits; i++) {
+        uint32_t bits = glint_row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], values[i]) : 0;
+        if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
+            fits = add_constant(constants, pass->rows[i].id, bits);
+        else if (pass->rows[i].kind == GLINT_ROW_FACT)
+            fits = add_constant(constants, pass->rows[i].id, !(graph_pass->lacks >> facts++ & 1));
+        else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
+        else if (pass->rows[i].optional) /* has_NAME, of OPTIONAL_READ */
+            fits = add_constant(constants, 1000 + pass->rows[i].id,
+                                graph_bound(graph, &pass->rows[i])->source != SOURCE_NOTHING);
+        else if (pass->rows[i].kind == GLINT_ROW_PUSH && (fits = constants->push_count < PUSH_BYTES_MAX / 4))
+            constants->push[constants->push_count++] = bits;
+    }
+    return fits || glint_fail(err, GLINT_ERROR_LIMIT, "%s/%s: more than %d constants or %d bytes of push constants",
+                              pass->slot, pass->variant, CONSTANTS_MAX - 10, PUSH_BYTES_MAX);
+}
+
+static VkResult create_sampler(struct gpu *gpu, VkFilter filter, const char *name, VkSampler *sampler) {
+    const VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                      .magFilter = filter,
+                                      .minFilter = filter,
+                                      .mipmapMode = filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                                               : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                      .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                      .maxLod = VK_LOD_CLAMP_NONE};
+    VkResult result = vkCreateSampler(gpu->device, &info, NULL, sampler);
+    if (result == VK_SUCCESS) device_set_name(gpu, VK_OBJECT_TYPE_SAMPLER, (uint64_t)(uintptr_t)*sampler, name);
+    return result;
+}
+
+static void program_destroy(struct program *program, struct gpu *gpu) {
+    vkDestroyPipeline(gpu->device, program->pipeline, NULL);
+    vkDestroyPipelineLayout(gpu->device, program->layout, NULL);
+    vkDestroyDescriptorSetLayout(gpu->device, program->images, NULL);
+    free(program);
+}
+
+void programs_finish(struct programs *programs, struct gpu *gpu) {
+    for (struct program *program = programs->first, *next; program; program = next) {
+        next = program->next;
+        program_destroy(program, gpu);
+    }
+    if (gpu->device) {
+        vkDestroyDescriptorSetLayout(gpu->device, programs->frame, NULL);
+        vkDestroySampler(gpu->device, programs->linear, NULL);
+        vkDestroySampler(gpu->device, programs->nearest, NULL);
+    }
+    *programs = (struct programs){0};
+}
+
+bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_error *err) {
+    VkResult result = create_sampler(gpu, VK_FILTER_LINEAR, "linear_clamp", &programs->linear);
+    if (result == VK_SUCCESS) result = create_sampler(gpu, VK_FILTER_NEAREST, "nearest_clamp", &programs->nearest);
+    const VkDescriptorSetLayoutBinding bindings[] = {
+        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
+        {1, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->linear},
+        {2, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->nearest},
+        {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
+    };
+    const VkDescriptorSetLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
+    if (result == VK_SUCCESS) result = vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame);
+    if (result != VK_SUCCESS) return vk_fail(err, "creating the samplers", result);
+    device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
+    return true;
+}
+
+VkDescriptorType row_descriptor(const struct glint_row *row) {
+    if (strstr(row->glsl, "Buffer"))
+        return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+}
+
+static VkResult create_layouts(struct program *program, struct gpu *gpu, VkDescriptorSetLayout frame,
+                               const struct glint_pass *pass, const struct constants *constants, const char *name) {
+    VkDescriptorSetLayoutBinding bindings[PASS_IMAGES_MAX];
+    uint32_t count = 0;
+    for (size_t i = 0; i < pass->row_count && count < PASS_IMAGES_MAX; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (!row_is_image(row)) continue;
+        bindings[count++] =
+            (VkDescriptorSetLayoutBinding){row->id, row_descriptor(row), 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    }
+    const VkDescriptorSetLayoutCreateInfo set = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
+    VkResult result = vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &program->images);
+    if (result != VK_SUCCESS) return result;
+    device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)program->images, name);
+    const VkDescriptorSetLayout sets[] = {program->images, frame};
+    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, constants->push_count * 4};
+    const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                               .setLayoutCount = 2,
+                                               .pSetLayouts = sets,
+                                               .pushConstantRangeCount = 1,
+                                               .pPushConstantRanges = &push};
+    result = vkCreatePipelineLayout(gpu->device, &layout, NULL, &program->layout);
+    if (result != VK_SUCCESS) return result;
+    device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE_LAYOUT, (uint64_t)(uintptr_t)program->layout, name);
+    return VK_SUCCESS;
+}
+
+static VkResult create_pipeline(struct program *program, struct gpu *gpu, const struct spirv *spirv,
+                                const struct constants *constants, bool some_layers, const char *name) {
+    const VkShaderModuleCreateInfo module_info = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv->bytes, .pCode = spirv->words};
+    VkShaderModule module;
+    VkResult result = vkCreateShaderModule(gpu->device, &module_info, NULL, &module);
+    if (result != VK_SUCCESS) return result;
+    device_set_name(gpu, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)(uintptr_t)module, name);
+    const VkSpecializationInfo values = {constants->count, constants->entries, constants->count * sizeof(uint32_t),
+                                         constants->data};
+    const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .flags = some_layers ? VK_PIPELINE_CREATE_DISPATCH_BASE : 0,
+                                              .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                        .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                        .module = module,
+                                                        .pName = "main",
+                                                        .pSpecializationInfo = &values},
+                                              .layout = program->layout};
+    result = vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline);
+    vkDestroyShaderModule(gpu->device, module, NULL);
+    if (result == VK_SUCCESS)
+        device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)program->pipeline, name);
+    return result;
+}
+
+struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,
+                             const struct spirv *spirv, const struct constants *constants, struct glint_error *err) {
+    enum { KEPT = 256 };
+    char name[128];
+    snprintf(name, sizeof name, "%s/%s", pass->slot, pass->variant);
+    uint64_t key = XXH3_64bits_withSeed(constants->data, constants->count * sizeof(uint32_t), spirv->hash);
+    key ^= XXH3_64bits(name, strlen(name));
+    size_t count = 0;
+    for (struct program **at = &programs->first; *at; at = &(*at)->next, count++) {
+        struct program *found = *at;
+        if (found->key == key) { /* to the front, so that the end is what was not used for longest */
+            *at = found->next;
+            found->next = programs->first;
+            return programs->first = found;
+        }
+        if (count == KEPT) {
+            for (struct program *old = found->next, *next; old; old = next) {
+                next = old->next;
+                program_destroy(old, gpu);
+            }
+            found->next = NULL;
+        }
+    }
+    struct program *program = calloc(1, sizeof *program);
+    if (!program) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", name);
+        return NULL;
+    }
+    program->key = key;
+    VkResult result = create_layouts(program, gpu, programs->frame, pass, constants, name);
+    if (result == VK_SUCCESS)
+        result =
+            create_pipeline(program, gpu, spirv, constants, glint_pass_row(pass, GLINT_ROW_RAY_MARGIN, NULL), name);
+    if (result != VK_SUCCESS) {
+        vk_fail(err, name, result);
+        program_destroy(program, gpu);
+        return NULL;
+    }
+    program->next = programs->first;
+    return programs->first = program;
+}

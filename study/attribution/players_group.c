@@ -1,0 +1,151 @@
+/* Which slots cannot be exchanged one without the other, by their declarations. */
+#include <stdio.h>
+#include <string.h>
+
+#include "exchange.h"
+
+const struct exchange *players_slot(const struct glint_players *players, const char *slot) {
+    for (size_t i = 0; i < players->slot_count; i++)
+        if (strcmp(players->slots[i].slot, slot) == 0) return &players->slots[i];
+    return NULL;
+}
+
+const struct exchange *players_with_role(const struct glint_players *players, enum glint_pass_role role) {
+    for (size_t i = 0; i < players->slot_count; i++)
+        for (int mode = 0; mode < MODES; mode++)
+            if (players->slots[i].pass[mode] && glint_pass_role(players->slots[i].pass[mode], role))
+                return &players->slots[i];
+    return NULL;
+}
+
+static bool makes(const struct exchange *slot, int mode, const char *image) {
+    const struct glint_pass *pass = slot->pass[mode];
+    return pass && glint_pass_output(pass, image);
+}
+
+static size_t rows_of(const struct exchange *slot, int mode) {
+    const struct glint_pass *pass = slot->pass[mode];
+    return pass ? pass->row_count : 0;
+}
+
+/* A reason for which two slots go together; `text` may be NULL. */
+static bool needs_image(const struct exchange *reader, const struct exchange *maker, char *text, size_t size) {
+    for (int mode = 0; mode < MODES; mode++)
+        for (size_t r = 0; r < rows_of(reader, mode); r++) {
+            const struct glint_row *row = &reader->pass[mode]->rows[r];
+            const char *names[2];
+            for (size_t n = row->optional ? 0 : glint_row_reads(row, names); n-- > 0;) {
+                const bool own = makes(maker, MODE_OWN, names[n]), theirs = makes(maker, MODE_REFERENCE, names[n]);
+                if (own == theirs) continue;
+                const struct glint_pass *pass = reader->pass[mode], *by = maker->pass[own ? MODE_OWN : MODE_REFERENCE];
+                if (text)
+                    snprintf(text, size, "%s/%s reads %s, which only %s/%s makes", pass->slot, pass->variant, names[n],
+                             by->slot, by->variant);
+                return true;
+            }
+        }
+    return false;
+}
+
+static bool makes_the_same(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
+    for (int mode = 0; mode < MODES; mode++)
+        for (size_t r = 0; r < rows_of(a, mode); r++) {
+            const struct glint_row *row = &a->pass[mode]->rows[r];
+            if (!glint_row_is_output(row) || !makes(b, !mode, row->name)) continue;
+            if (text) snprintf(text, size, "%s and %s both make %s", a->slot, b->slot, row->name);
+            return true;
+        }
+    return false;
+}
+
+/* What the pipeline does without has nothing that goes with another slot. */
+static bool declared(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
+    if (!a->pass[MODE_OWN]) return false;
+    for (int mode = 0; mode < MODES; mode++)
+        for (size_t r = 0; r < rows_of(a, mode); r++) {
+            const struct glint_row *row = &a->pass[mode]->rows[r];
+            if (row->kind != GLINT_ROW_REFERENCE_WITH || strcmp(row->name, b->slot) != 0) continue;
+            if (text) snprintf(text, size, "%s: %s", a->slot, row->help);
+            return true;
+        }
+    return false;
+}
+
+static bool go_together(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
+    return declared(a, b, text, size) || needs_image(a, b, text, size) || makes_the_same(a, b, text, size);
+}
+
+static void join(struct glint_players *players, size_t a, size_t b) {
+    const size_t from = players->slots[a].group, to = players->slots[b].group;
+    for (size_t i = 0; i < players->slot_count; i++)
+        if (players->slots[i].group == (from > to ? from : to)) players->slots[i].group = from > to ? to : from;
+}
+
+/* What `slot` reads in either mode, it may read of `maker`. */
+static bool follows(const struct exchange *slot, const struct exchange *maker) {
+    for (int mode = 0; mode < MODES; mode++)
+        for (int other = 0; other < MODES; other++)
+            if (slot->pass[mode] && maker->pass[other] && slot != maker &&
+                glint_pass_depends(slot->pass[mode], maker->pass[other]))
+                return true;
+    return false;
+}
+
+static bool makes_reflection(const struct exchange *slot, const struct exchange *compose) {
+    for (int mode = 0; mode < MODES; mode++)
+        for (size_t r = 0; r < rows_of(slot, mode); r++) {
+            const struct glint_row *row = &slot->pass[mode]->rows[r];
+            if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance") != 0)
+                continue;
+            for (int reader = 0; reader < MODES; reader++)
+                if (compose->pass[reader] && glint_pass_row(compose->pass[reader], GLINT_ROW_READ, row->name))
+                    return true;
+        }
+    return false;
+}
+
+static void find_what_matters(struct glint_players *players) {
+    const struct exchange *compose = players_with_role(players, GLINT_ROLE_COMPOSED);
+    for (size_t i = 0; i < players->slot_count; i++)
+        players->slots[i].matters = !compose || makes_reflection(&players->slots[i], compose);
+    for (bool more = true; more;) {
+        more = false;
+        for (size_t i = 0; i < players->slot_count; i++)
+            for (size_t j = 0; j < players->slot_count && players->slots[i].matters; j++)
+                if (!players->slots[j].matters && follows(&players->slots[i], &players->slots[j]))
+                    players->slots[j].matters = more = true;
+    }
+}
+
+static void find_depths(struct glint_players *players) {
+    for (size_t round = 0; round < players->slot_count; round++) /* enough for the longest chain */
+        for (size_t i = 0; i < players->slot_count; i++)
+            for (size_t j = 0; j < players->slot_count; j++)
+                if (follows(&players->slots[i], &players->slots[j]) &&
+                    players->slots[i].depth <= players->slots[j].depth)
+                    players->slots[i].depth = players->slots[j].depth + 1;
+}
+
+void players_find_groups(struct glint_players *players) {
+    find_what_matters(players);
+    find_depths(players);
+    for (size_t i = 0; i < players->slot_count; i++) players->slots[i].group = i;
+    for (size_t i = 0; i < players->slot_count; i++)
+        for (size_t j = 0; j < players->slot_count; j++) {
+            const struct exchange *a = &players->slots[i], *b = &players->slots[j];
+            if (i != j && a->differs && b->differs && a->matters && b->matters && go_together(a, b, NULL, 0))
+                join(players, i, j);
+        }
+}
+
+void players_explain(const struct glint_players *players, struct player *player) {
+    for (size_t i = 0; i < players->slot_count; i++)
+        for (size_t j = 0; j < players->slot_count; j++) {
+            const struct exchange *a = &players->slots[i], *b = &players->slots[j];
+            char text[300];
+            const size_t length = strlen(player->why);
+            if (i != j && a->group == player->group && b->group == player->group && a->differs && b->differs &&
+                a->matters && b->matters && go_together(a, b, text, sizeof text))
+                snprintf(player->why + length, sizeof player->why - length, "%s%s", length ? "; " : "", text);
+        }
+}

@@ -1,0 +1,267 @@
+/* Judges pipelines on one capture, all on one replay. */
+#include "glint/judge.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "answers.h"
+
+/* A pass's time in this round. */
+struct measured {
+    uint64_t key, ns;
+};
+
+struct glint_judge {
+    struct glint_device *device;
+    struct glint_judge_options options;
+    struct glint_replay *replay;
+    struct glint_capture *capture;
+    uint8_t *surfaces;
+    size_t pixels;
+    struct answer *answers;
+    uint32_t round;
+    struct measured *measured;
+    size_t measured_count, measured_room;
+};
+
+const char *glint_answer_name(enum glint_answer answer) {
+    static const char *const names[GLINT_ANSWER_COUNT] = {"reference", "truth"};
+    return answer < GLINT_ANSWER_COUNT ? names[answer] : NULL;
+}
+
+struct glint_judge *glint_judge_create(struct glint_device *device, const struct glint_judge_options *options,
+                                       struct glint_error *err) {
+    const uint64_t most = (uint64_t)4 << 30, quarter = glint_device_get_info(device)->memory_bytes / 4;
+    struct glint_judge *judge = calloc(1, sizeof *judge);
+    if (!judge) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        return NULL;
+    }
+    judge->device = device;
+    judge->options = *options;
+    if (!judge->options.keep_bytes) judge->options.keep_bytes = quarter < most ? quarter : most;
+    judge->round = 1;
+    if (!(judge->replay = glint_replay_create(device, err))) glint_judge_destroy(&judge);
+    return judge;
+}
+
+static void unload(struct glint_judge *judge) {
+    answers_finish(&judge->answers);
+    free(judge->surfaces);
+    judge->surfaces = NULL;
+    judge->capture = NULL;
+    judge->measured_count = 0;
+}
+
+void glint_judge_destroy(struct glint_judge **pointer) {
+    struct glint_judge *judge = *pointer;
+    *pointer = NULL;
+    if (!judge) return;
+    unload(judge);
+    free(judge->measured);
+    if (judge->replay) glint_replay_destroy(&judge->replay);
+    free(judge);
+}
+
+bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, struct glint_error *err) {
+    unload(judge);
+    if (!glint_replay_load(judge->replay, capture, err)) return false;
+    if (!capture) return true;
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
+    judge->capture = capture;
+    judge->pixels = (size_t)gbuffer->width * gbuffer->height;
+    return (judge->surfaces = glint_study_surfaces(capture, err)) != NULL;
+}
+
+struct glint_replay *glint_judge_replay(struct glint_judge *judge) {
+    return judge->replay;
+}
+struct glint_capture *glint_judge_capture(const struct glint_judge *judge) {
+    return judge->capture;
+}
+const uint8_t *glint_judge_surfaces(const struct glint_judge *judge) {
+    return judge->surfaces;
+}
+
+static const struct answer *get_answer(struct glint_judge *judge, enum glint_answer kind,
+                                       const struct glint_pipeline *pipeline, glint_progress progress, void *user,
+                                       struct glint_error *err) {
+    const struct asking ask = {&judge->options, judge->replay, judge->capture, pipeline, progress, user};
+    return answers_get(&judge->answers, kind, &ask, err);
+}
+
+const struct glint_pixels *glint_judge_answer(struct glint_judge *judge, enum glint_answer kind,
+                                              const struct glint_pipeline *pipeline, const float **error,
+                                              glint_progress progress, void *user, struct glint_error *err) {
+    const struct answer *answer = get_answer(judge, kind, pipeline, progress, user, err);
+    if (!answer) return NULL;
+    *error = answer->error;
+    return &answer->pixels;
+}
+
+void glint_verdict_finish(struct glint_verdict *verdict) {
+    for (int k = 0; k < GLINT_ANSWER_COUNT; k++) glint_metric_table_finish(&verdict->errors[k]);
+    glint_pixels_finish(&verdict->reflection);
+    free(verdict->given);
+    free(verdict->passes);
+    *verdict = (struct glint_verdict){0};
+}
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+/* The last reflection, and where it is one. Without any, because its passes have nothing to do, nothing is given. */
+static bool read_reflection(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
+    const struct glint_part_info *gbuffer = glint_capture_find(judge->capture, GLINT_PART_GBUFFER);
+    struct glint_error own = {0};
+    if (glint_study_reflection(judge->replay, &verdict->reflection, &own))
+        return (verdict->given = glint_study_given(judge->replay, &verdict->reflection, err)) != NULL;
+    if (own.code != GLINT_ERROR_USAGE) return glint_fail(err, own.code, "%s", own.message);
+    verdict->reflection =
+        (struct glint_pixels){gbuffer->width, gbuffer->height, 3, calloc(3 * judge->pixels, sizeof(float))};
+    verdict->given = calloc(judge->pixels, 1);
+    return (verdict->reflection.values && verdict->given) || no_memory(err);
+}
+
+static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(judge->replay, &count);
+    if (!(verdict->passes = calloc(count + 1, sizeof *verdict->passes))) return no_memory(err);
+    for (size_t i = 0; i < count; i++) {
+        struct glint_verdict_pass *pass = &verdict->passes[verdict->pass_count++];
+        *pass = (struct glint_verdict_pass){.pass = results[i].pass,
+                                            .ran = results[i].ran,
+                                            .cached_work = results[i].cached_work,
+                                            .executed = results[i].ran && !results[i].cached && !results[i].pass->host};
+        memcpy(pass->reason, results[i].reason, sizeof pass->reason);
+    }
+    return true;
+}
+
+static bool compare(struct glint_judge *judge, const struct answer *answer, struct glint_verdict *verdict,
+                    struct glint_error *err) {
+    const struct glint_classes classes = glint_surface_classes(judge->surfaces);
+    const struct glint_metric_options options = {.metrics = judge->options.metrics,
+                                                 .found_channels = "R G B",
+                                                 .truth_channels = "R G B",
+                                                 .mask = judge->surfaces,
+                                                 .classes = &classes,
+                                                 .class_sets = 1,
+                                                 .truth_error = answer->error,
+                                                 .resamples = judge->options.resamples,
+                                                 .seed = judge->options.seed,
+                                                 .keep_resampled = judge->options.keep_resampled};
+    return glint_metrics_compare(&verdict->reflection, &answer->pixels, &options, &verdict->errors[answer->kind], err);
+}
+
+/* Why rays ended, with the errors of their pixels by the truth, or by the reference without one. */
+static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *pipeline, const struct answer *answer,
+                       struct glint_verdict *verdict, struct glint_error *err) {
+    uint8_t *compared = answer ? malloc(judge->pixels + 1) : NULL;
+    if (answer && !compared) return no_memory(err);
+    for (size_t i = 0; compared && i < judge->pixels; i++)
+        compared[i] = verdict->given[i] && judge->surfaces[i] != GLINT_SURFACE_NONE &&
+                      !(answer->error && isinf(answer->error[i])); /* not known there */
+    bool ok = glint_study_ends(judge->replay, judge->surfaces, &verdict->reflection, answer ? &answer->pixels : NULL,
+                               compared, &verdict->ends, err);
+    const double rays = (double)verdict->ends.rays * glint_pipeline_rays(pipeline) / (double)judge->pixels;
+    verdict->steps_px = verdict->ends.steps * rays;
+    verdict->fetches_px = verdict->ends.fetches * rays;
+    free(compared);
+    return ok;
+}
+
+/* A capture without a truth leaves the verdict without one. */
+static bool get_answers(struct glint_judge *judge, const struct glint_pipeline *pipeline, struct glint_verdict *verdict,
+                        const struct answer *answers[GLINT_ANSWER_COUNT], glint_progress progress, void *user,
+                        struct glint_error *err) {
+    if (judge->options.truth &&
+        !(answers[GLINT_ANSWER_TRUTH] =
+              get_answer(judge, GLINT_ANSWER_TRUTH, pipeline, progress, user, &verdict->no_truth)) &&
+        verdict->no_truth.code != GLINT_ERROR_FORMAT)
+        return glint_fail(err, verdict->no_truth.code, "%s", verdict->no_truth.message);
+    return !judge->options.reference || (answers[GLINT_ANSWER_REFERENCE] = get_answer(
+                                             judge, GLINT_ANSWER_REFERENCE, pipeline, progress, user, err)) != NULL;
+}
+
+bool glint_judge_look(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage,
+                      struct glint_verdict *verdict, glint_progress progress, void *user, struct glint_error *err) {
+    const struct glint_replay_options options = {
+        .diagnostics = true, .all = judge->options.all, .keep_bytes = judge->options.keep_bytes, .lineage = lineage};
+    const struct answer *answers[GLINT_ANSWER_COUNT] = {NULL};
+    *verdict = (struct glint_verdict){0};
+    if (!judge->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
+    bool ok = get_answers(judge, pipeline, verdict, answers, progress, user, err);
+    const double start = glint_now_seconds();
+    ok = ok && glint_replay_run(judge->replay, pipeline, &options, progress, user, err) &&
+         read_reflection(judge, verdict, err) && read_passes(judge, verdict, err);
+    const double ran = glint_now_seconds();
+    for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++) ok = !answers[k] || compare(judge, answers[k], verdict, err);
+    const struct answer *best = answers[answers[GLINT_ANSWER_TRUTH] ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE];
+    ok = ok && count_rays(judge, pipeline, best, verdict, err);
+    verdict->run_seconds = ran - start;
+    verdict->metric_seconds = glint_now_seconds() - ran;
+    if (!ok) glint_verdict_finish(verdict);
+    return ok;
+}
+
+void glint_judge_next_round(struct glint_judge *judge) {
+    judge->round++;
+    judge->measured_count = 0;
+}
+
+static const struct measured *find_measured(const struct glint_judge *judge, uint64_t key) {
+    for (size_t i = 0; i < judge->measured_count; i++)
+        if (judge->measured[i].key == key) return &judge->measured[i];
+    return NULL;
+}
+
+static bool add_measured(struct glint_judge *judge, const struct glint_pass_result *result, struct glint_error *err) {
+    if (judge->measured_count == judge->measured_room) {
+        const size_t room = 2 * judge->measured_room + 64;
+        struct measured *larger = realloc(judge->measured, room * sizeof *larger);
+        if (!larger) return no_memory(err);
+        judge->measured = larger;
+        judge->measured_room = room;
+    }
+    judge->measured[judge->measured_count++] = (struct measured){result->key, result->time.median_ns};
+    return true;
+}
+
+void glint_cost_finish(struct glint_cost *cost) {
+    free(cost->passes);
+    *cost = (struct glint_cost){0};
+}
+
+static bool add_cost(struct glint_judge *judge, const struct glint_pass_result *result, struct glint_cost *cost,
+                     struct glint_error *err) {
+    const struct measured *measured = result->cached ? find_measured(judge, result->key) : NULL;
+    if (result->cached && !measured)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s was neither run nor measured in this round",
+                          result->pass->slot, result->pass->variant);
+    const uint64_t ns = measured ? measured->ns : result->time.median_ns;
+    cost->passes[cost->pass_count++] = (struct glint_pass_cost){result->pass, result->cached_work, ns};
+    *(result->cached_work ? &cost->cubemaps_ns : &cost->frame_ns) += ns;
+    return !result->key || result->cached || add_measured(judge, result, err);
+}
+
+bool glint_judge_time(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage, bool whole,
+                      struct glint_cost *cost, glint_progress progress, void *user, struct glint_error *err) {
+    const struct glint_replay_options options = {.all = judge->options.all,
+                                                 .repeat = 1,
+                                                 .warmup = 1,
+                                                 .no_cache = whole,
+                                                 .round = judge->round,
+                                                 .keep_bytes = judge->options.keep_bytes,
+                                                 .lineage = lineage};
+    size_t count = 0;
+    *cost = (struct glint_cost){0};
+    if (!glint_replay_run(judge->replay, pipeline, &options, progress, user, err)) return false;
+    const struct glint_pass_result *results = glint_replay_results(judge->replay, &count);
+    bool ok = (cost->passes = calloc(count + 1, sizeof *cost->passes)) != NULL || no_memory(err);
+    for (size_t i = 0; ok && i < count; i++) ok = !results[i].ran || add_cost(judge, &results[i], cost, err);
+    if (!ok) glint_cost_finish(cost);
+    return ok;
+}

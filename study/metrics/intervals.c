@@ -1,0 +1,134 @@
+/* Confidence intervals: bootstrap over tiles of pixels, because neighbours do not err independently, and percentiles of the
+   resampled figures (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapters 8 and 13). */
+#include "comparison.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "glint/sort.h"
+#include "threads.h"
+
+static const double TAIL = 0.025; /* on either side of a 95 % interval */
+
+/* A tile's sums of one row of the table, where there are any. */
+struct entry {
+    size_t tile, row;
+};
+
+struct bootstrap {
+    const struct comparison *c;
+    struct entry *entries;
+    size_t count, tiles, rows;
+    double *values;  /* [row][metric][resample] */
+    double *sums;    /* [worker][row][quantity] */
+    uint32_t *drawn; /* [worker][tile] */
+};
+
+/* splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014). */
+static uint64_t next_random(uint64_t *state) {
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+}
+
+/* How often each tile is drawn. A resample has a stream of its own, whichever thread it runs on. */
+static void draw_tiles(const struct bootstrap *b, size_t resample, uint32_t *drawn) {
+    uint64_t state = (uint64_t)b->c->options->seed << 32 | resample;
+    state = next_random(&state);
+    memset(drawn, 0, b->tiles * sizeof *drawn);
+    for (size_t i = 0; i < b->tiles; i++) drawn[(next_random(&state) >> 32) * b->tiles >> 32]++;
+}
+
+static bool resample(void *user, uint32_t worker, size_t index) {
+    const struct bootstrap *b = user;
+    uint32_t *drawn = b->drawn + worker * b->tiles;
+    double *sums = b->sums + worker * b->rows * SUM_COUNT;
+    draw_tiles(b, index, drawn);
+    memset(sums, 0, b->rows * SUM_COUNT * sizeof *sums);
+    for (size_t i = 0; i < b->count; i++) {
+        const struct entry *e = &b->entries[i];
+        const double *from = sums_of(b->c, e->tile, e->row), times = drawn[e->tile];
+        double *to = sums + e->row * SUM_COUNT;
+        if (times > 0)
+            for (int k = 0; k < b->c->quantities; k++) to[k] += times * from[k];
+    }
+    for (size_t row = 0; row < b->rows; row++)
+        for (size_t k = 0; k < GLINT_METRIC_COUNT; k++)
+            b->values[(row * GLINT_METRIC_COUNT + k) * b->c->options->resamples + index] =
+                figure_of(b->c, (enum glint_metric)k, sums + row * SUM_COUNT);
+    return true;
+}
+
+/* The ends of the interval, of `values`, which are moved. A resample that drew none of a class's tiles has no value for it. */
+static void set_interval(struct glint_figure *figure, double *values, size_t resamples) {
+    size_t n = 0;
+    for (size_t i = 0; i < resamples; i++)
+        if (!isnan(values[i])) values[n++] = values[i];
+    if (n == 0 || isnan(figure->value)) return;
+    glint_sort_doubles(values, n);
+    figure->low = values[(size_t)(TAIL * (double)n)];
+    figure->high = values[n - 1 - (size_t)(TAIL * (double)n)];
+}
+
+static void list_entries(struct bootstrap *b, uint32_t *tiles_of_row) {
+    for (size_t tile = 0; tile < b->tiles; tile++)
+        for (size_t row = 0; row < b->rows; row++)
+            if (sums_of(b->c, tile, row)[SUM_PIXELS] > 0) {
+                b->entries[b->count++] = (struct entry){tile, row};
+                tiles_of_row[row]++;
+            }
+}
+
+bool find_intervals(struct comparison *c, struct glint_error *err) {
+    const size_t resamples = c->options->resamples;
+    struct bootstrap b = {.c = c, .tiles = (size_t)c->across * c->down, .rows = c->table->count};
+    const uint32_t workers = glint_loop_workers(resamples, 0);
+    b.entries = malloc(b.tiles * b.rows * sizeof *b.entries);
+    b.values = malloc(b.rows * GLINT_METRIC_COUNT * resamples * sizeof *b.values);
+    b.sums = malloc(workers * b.rows * SUM_COUNT * sizeof *b.sums);
+    b.drawn = malloc(workers * b.tiles * sizeof *b.drawn);
+    uint32_t *tiles_of_row = calloc(b.rows, sizeof *tiles_of_row);
+    double *sorted = malloc(resamples * sizeof *sorted);
+    bool ok = (b.entries && b.values && b.sums && b.drawn && tiles_of_row && sorted) ||
+              glint_fail(err, GLINT_ERROR_MEMORY, "confidence intervals: out of memory");
+    if (ok) {
+        list_entries(&b, tiles_of_row);
+        glint_loop(resamples, workers, resample, &b);
+    }
+    /* A single tile cannot say how much tiles differ. */
+    for (size_t row = 0; ok && row < b.rows; row++)
+        for (size_t k = 0; tiles_of_row[row] > 1 && k < GLINT_METRIC_COUNT; k++) {
+            memcpy(sorted, b.values + (row * GLINT_METRIC_COUNT + k) * resamples, resamples * sizeof *sorted);
+            set_interval(&c->table->rows[row].of[k], sorted, resamples);
+        }
+    if (ok && c->options->keep_resampled) {
+        c->table->resampled = b.values;
+        b.values = NULL;
+    }
+    free(sorted);
+    free(b.entries);
+    free(b.values);
+    free(b.sums);
+    free(b.drawn);
+    free(tiles_of_row);
+    return ok;
+}
+
+bool glint_metrics_difference(const struct glint_metric_table *a, const struct glint_metric_table *b, size_t row,
+                              enum glint_metric metric, struct glint_figure *difference, struct glint_error *err) {
+    const size_t n = a->resamples, first = (row * GLINT_METRIC_COUNT + metric) * n;
+    *difference = (struct glint_figure){NAN, NAN, NAN};
+    if (!a->resampled || !b->resampled || a->count != b->count || row >= a->count || b->resamples != n ||
+        a->seed != b->seed || a->tiles != b->tiles || a->tile_px != b->tile_px)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "difference of two comparisons: expected the same size, classes, resamples and seed, kept");
+    double *values = malloc(n * sizeof *values);
+    if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "difference of two comparisons: out of memory");
+    difference->value = b->rows[row].of[metric].value - a->rows[row].of[metric].value;
+    for (size_t i = 0; i < n; i++) values[i] = b->resampled[first + i] - a->resampled[first + i];
+    if (!isnan(a->rows[row].of[metric].low) && !isnan(b->rows[row].of[metric].low)) set_interval(difference, values, n);
+    free(values);
+    return true;
+}

@@ -1,0 +1,182 @@
+/* The reference: created or resumed, traced round by round, kept. */
+#include "reference.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double SAVE_SECONDS = 5; /* what an end without warning may cost */
+
+static bool any_reflects(const struct glint_reference *reference) {
+    const struct glint_part_info *part = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
+    for (size_t i = 0; i < (size_t)part->width * part->height; i++)
+        if (reference->surfaces[i] != GLINT_SURFACE_NONE) return true;
+    return false;
+}
+
+struct glint_reference *glint_reference_create(struct glint_replay *replay, struct glint_capture *capture,
+                                               const struct glint_pipeline *pipeline,
+                                               const struct glint_reference_options *options, struct glint_error *err) {
+    struct glint_reference *reference = calloc(1, sizeof *reference);
+    if (!reference) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
+        return NULL;
+    }
+    reference->replay = replay;
+    reference->capture = capture;
+    reference->all = options && options->all;
+    reference->keep_bytes = options ? options->keep_bytes : 0;
+    reference->at_once = options ? options->at_once : 0;
+    bool ok = (reference->pipeline = glint_pipeline_copy(pipeline, err)) != NULL &&
+              (reference->surfaces = glint_study_surfaces(capture, err)) != NULL;
+    if (ok && !any_reflects(reference))
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: nothing in it reflects, so there is no reflection to trace",
+                        glint_capture_path(capture));
+    if (ok && options && options->folder) {
+        reference->folder = strdup(options->folder);
+        ok = (reference->folder || glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory")) &&
+             reference_settings(reference, err) && reference_resume(reference, options->anew, err);
+    }
+    if (!ok) glint_reference_destroy(&reference);
+    return reference;
+}
+
+void glint_reference_destroy(struct glint_reference **pointer) {
+    struct glint_reference *reference = *pointer;
+    *pointer = NULL;
+    if (!reference) return;
+    halves_finish(&reference->halves);
+    glint_pipeline_destroy(&reference->pipeline);
+    json_decref(reference->settings);
+    json_decref(reference->sensitivity);
+    json_decref(reference->record);
+    free(reference->surfaces);
+    free(reference->folder);
+    free(reference);
+}
+
+static uint32_t all_rays(const struct glint_reference_state *state) {
+    return state->rays + state->begun;
+}
+
+/* How many rays it will take: noise falls with the root of their number. */
+static double rays_expected(const struct glint_reference_state *state, uint32_t rays, double noise) {
+    const double now = state->noise[0].relative;
+    if (!(noise > 0) || state->rays == 0) return rays;
+    return fmin(rays, state->rays * fmax(1, now * now / (noise * noise)));
+}
+
+static bool reached(const struct glint_reference_state *state, uint32_t rays, double noise) {
+    return state->rays >= rays || (noise > 0 && state->rays > 0 && state->noise[0].relative <= noise);
+}
+
+/* Some rays, as the caller sees all that this call has to do. */
+struct part {
+    glint_progress progress;
+    void *user;
+    char text[64];
+    double done, share;
+};
+static bool report_part(void *user, const char *what, double done) {
+    struct part *part = user;
+    (void)what;
+    return !part->progress || part->progress(part->user, part->text, part->done + part->share * done);
+}
+
+static void describe_part(struct part *part, const struct glint_reference_state *state, uint32_t first,
+                          double expected) {
+    const double todo = fmax(expected - first, 1);
+    const int length = snprintf(part->text, sizeof part->text, "%u of %.0f rays", all_rays(state),
+                                ceil(expected / GLINT_REFERENCE_ROUND) * GLINT_REFERENCE_ROUND);
+    if (state->rays)
+        snprintf(part->text + length, sizeof part->text - (size_t)length, ", noise %.3g %%",
+                 100 * state->noise[0].relative);
+    part->done = (all_rays(state) - first) / todo;
+    part->share = 1 / todo;
+}
+
+/* The next rays, and what follows when they complete a round. */
+static bool trace_part(struct glint_reference *reference, struct part *part, struct glint_error *err) {
+    struct glint_reference_state *state = &reference->state;
+    struct halves *halves = &reference->halves;
+    const uint32_t before = halves->rays;
+    const double start = glint_now_seconds();
+    part->share *= halves_next(halves, reference);
+    bool ok = halves_run(halves, reference, reference->pipeline, report_part, part, err);
+    state->begun = halves->batched[0] + halves->batched[1];
+    if (ok) state->seconds += glint_now_seconds() - start;
+    if (ok && halves->rays != before)
+        ok = reference_measure(reference, err) && (!reference->folder || reference_note(reference, err));
+    return ok;
+}
+
+/* `kept`: the rays of the complete reference in the folder, which what is under way goes on from. */
+static bool save(struct glint_reference *reference, uint32_t *kept, struct glint_error *err) {
+    const uint32_t rays = reference->state.rays;
+    if (rays != *kept && !reference_save(reference, err)) return false;
+    *kept = rays;
+    return !reference->state.begun || reference_save_round(reference, err);
+}
+
+bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, double noise, glint_progress progress,
+                           void *user, struct glint_error *err) {
+    struct glint_reference_state *state = &reference->state;
+    struct part part = {.progress = progress, .user = user};
+    const uint32_t first = all_rays(state);
+    uint32_t kept = state->rays;
+    double saved = glint_now_seconds();
+    bool unsaved = false;
+    bool ok = rays <= GLINT_REFERENCE_RAYS_MAX ||
+              glint_fail(err, GLINT_ERROR_USAGE, "rays: expected at most %d, found %u", GLINT_REFERENCE_RAYS_MAX, rays);
+    while (ok && !reached(state, rays, noise)) {
+        const uint32_t before = all_rays(state);
+        describe_part(&part, state, first, rays_expected(state, rays, noise));
+        ok = trace_part(reference, &part, err);
+        unsaved = unsaved || (reference->folder && all_rays(state) != before);
+        if (!ok || !unsaved || glint_now_seconds() - saved < SAVE_SECONDS) continue;
+        ok = save(reference, &kept, err);
+        saved = glint_now_seconds();
+        unsaved = !ok;
+    }
+    if (!unsaved) return ok;
+    return save(reference, &kept, ok ? err : NULL) && ok;
+}
+
+const struct glint_reference_state *glint_reference_state(const struct glint_reference *reference) {
+    return &reference->state;
+}
+
+bool glint_reference_pixels(const struct glint_reference *reference, struct glint_pixels *pixels, float **error,
+                            struct glint_error *err) {
+    *pixels = (struct glint_pixels){0};
+    if (error) *error = NULL;
+    if (reference->halves.rays == 0) return glint_fail(err, GLINT_ERROR_USAGE, "the reference has no rays yet");
+    return reference_mean(&reference->halves, pixels, error, err);
+}
+
+bool glint_study_missing(const struct glint_pixels *reference, const float *reference_error,
+                         const struct glint_pixels *truth, const float *truth_error, const uint8_t *surfaces,
+                         struct glint_image_errors *errors, struct glint_error *err) {
+    const size_t pixels = (size_t)truth->width * truth->height;
+    if (reference->width != truth->width || reference->height != truth->height)
+        return glint_study_image(reference, truth, 3, surfaces, truth_error, errors, err); /* which fails */
+    float *both = calloc(pixels + 1, sizeof *both);
+    if (!both) return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
+    for (size_t i = 0; i < pixels; i++) {
+        double truth2 = 0, own2 = 0;
+        for (uint32_t k = 0; k < 3; k++) {
+            const double t = (double)truth->values[i * truth->components + k],
+                         r = (double)reference->values[i * reference->components + k];
+            truth2 += t * t;
+            own2 += r * r;
+        }
+        const double of_truth = truth_error ? (double)truth_error[i] : 0,
+                     of_own = reference_error ? (double)reference_error[i] : 0;
+        if (isinf(of_truth)) both[i] = INFINITY; /* not known there */
+        else if (truth2 > 0) both[i] = (float)sqrt(of_truth * of_truth + of_own * of_own * own2 / truth2);
+    }
+    bool ok = glint_study_image(reference, truth, 3, surfaces, both, errors, err);
+    free(both);
+    return ok;
+}

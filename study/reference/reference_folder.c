@@ -1,0 +1,209 @@
+/* The folder of a reference: a run folder whose images are the mean, its noise and both halves. run.json names the file of
+   its images by their number of rays, so that replacing it is all that ever changes the folder's contents. */
+#include "reference.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "glint/exr.h"
+
+enum { IMAGES = 4 };
+/* The mean is the last one: the reflection of a run is. */
+static const struct {
+    const char *name, *channels, *unit, *meaning;
+} images[IMAGES] = {
+    {"reflection_a", "R G B A", "radiance", "mean of one half of the rays"},
+    {"reflection_b", "R G B A", "radiance", "mean of the other half, which shares no random number with the first"},
+    {"reflection_error", "error", "1",
+     "standard error of the mean of both halves, relative to it, by what they differ by"},
+    {NULL, "R G B A", "radiance", "mean of both halves"},
+};
+
+/* The mean goes by the name of the reflection itself. */
+static const char *image_name(int i) {
+    const char *name = images[i].name;
+    if (!name) glint_pass_with_role(GLINT_ROLE_COMPOSED, &name);
+    return name;
+}
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
+}
+
+/* ---- Reading ---- */
+
+static bool read_half(struct glint_run *run, const char *folder, const char *name, const struct glint_part_info *part,
+                      struct glint_pixels *pixels, struct glint_error *err) {
+    const struct glint_run_image *image = glint_run_find(run, name);
+    if (!image || image->width != part->width || image->height != part->height || image->components != 4)
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected R G B A of %u × %u", folder, name,
+                          part->width, part->height);
+    *pixels = (struct glint_pixels){part->width, part->height, 4, NULL};
+    pixels->values = malloc((size_t)part->width * part->height * 4 * sizeof *pixels->values);
+    return pixels->values ? glint_run_read(run, image, GLINT_F32, pixels->values, err) : no_memory(err);
+}
+
+static bool read_folder(struct glint_reference *reference, struct glint_run *run, struct glint_error *err) {
+    const char *folder = reference->folder;
+    const struct glint_part_info *part = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
+    reference->record = json_loads(glint_run_json(run), 0, NULL);
+    const json_t *own = json_object_get(reference->record, "reference");
+    const json_int_t rays = json_integer_value(json_object_get(own, "rays"));
+    struct glint_error differs = {0};
+    if (!own)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds a run that is no reference; expected another folder",
+                          folder);
+    if (!reference_same_settings("", json_object_get(own, "settings"), reference->settings, &differs))
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds another reference: %s", folder, differs.message);
+    if (rays < 1 || rays % GLINT_REFERENCE_ROUND || rays > GLINT_REFERENCE_RAYS_MAX)
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json: reference.rays: expected rounds of %d, found %lld",
+                          folder, GLINT_REFERENCE_ROUND, (long long)rays);
+    reference->halves.rays = (uint32_t)rays / 2;
+    reference->state.seconds = json_number_value(json_object_get(own, "seconds"));
+    reference->sensitivity = json_incref(json_object_get(own, "sensitivity"));
+    return read_half(run, folder, image_name(0), part, &reference->halves.of[0], err) &&
+           read_half(run, folder, image_name(1), part, &reference->halves.of[1], err) &&
+           reference_measure(reference, err);
+}
+
+/* Whether it can be written is known before anything is traced; an empty folder that was not there before is taken away
+   again until there is something to keep. */
+static bool probe_folder(const char *folder, struct glint_error *err) {
+    const bool there = access(folder, F_OK) == 0;
+    if (!glint_make_folder(folder, err)) return false;
+    if (access(folder, W_OK) != 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
+    if (!there) rmdir(folder);
+    return true;
+}
+
+bool reference_resume(struct glint_reference *reference, bool anew, struct glint_error *err) {
+    char path[4096];
+    if (!probe_folder(reference->folder, err)) return false;
+    if (snprintf(path, sizeof path, "%s/run.json", reference->folder) >= (int)sizeof path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
+    if (anew) return reference_remove_round(reference), glint_run_remove(reference->folder, err);
+    if (access(path, F_OK) != 0) return reference_resume_round(reference, err);
+    struct glint_run *run = glint_run_open(reference->folder, err);
+    bool ok = run && read_folder(reference, run, err);
+    glint_run_close(&run);
+    return ok && reference_resume_round(reference, err);
+}
+
+bool glint_study_run_error(struct glint_run *run, float **error, struct glint_error *err) {
+    const struct glint_run_image *image = glint_run_find(run, image_name(2));
+    *error = NULL;
+    if (!image) return true;
+    if (image->components != 1)
+        return glint_fail(err, GLINT_ERROR_FORMAT, "image %s: expected one channel, found %s", image->name,
+                          image->channels);
+    *error = malloc((size_t)image->width * image->height * sizeof **error);
+    return *error ? glint_run_read(run, image, GLINT_F32, *error, err) : no_memory(err);
+}
+
+/* ---- Writing ---- */
+
+/* The pass that made the reflection. */
+static json_t *last_that_ran(const json_t *record) {
+    json_t *pass, *last = NULL;
+    size_t p;
+    json_array_foreach(json_object_get(record, "passes"), p, pass) {
+        if (json_is_true(json_object_get(pass, "ran"))) last = pass;
+    }
+    return last;
+}
+
+/* The file that a record lists; "" for none. */
+static void file_of(const json_t *record, char file[64]) {
+    const json_t *image = json_array_get(json_object_get(last_that_ran(record), "images"), 0);
+    const char *name = json_string_value(json_object_get(image, "file"));
+    snprintf(file, 64, "%s", name && !strchr(name, '/') ? name : "");
+}
+
+bool reference_note(struct glint_reference *reference, struct glint_error *err) {
+    char *text = glint_replay_json(reference->replay, err);
+    json_t *record = text ? json_loads(text, 0, NULL) : NULL;
+    free(text);
+    if (!record) return text && no_memory(err);
+    json_t *own = reference_json(reference);
+    json_t *list = json_array(), *last = last_that_ran(record);
+    for (int i = 0; i < IMAGES; i++)
+        json_array_append_new(
+            list, json_pack("{ss ss* ss ss ss ss si si ss}", "name", image_name(i), "file", NULL, "part", image_name(i),
+                            "channels", images[i].channels, "unit", images[i].unit, "meaning", images[i].meaning,
+                            "width", (int)reference->halves.of[0].width, "height", (int)reference->halves.of[0].height,
+                            "format", i == 2 ? "R32F" : "RGBA32F"));
+    json_object_del(record, "first_ray");
+    bool ok = own && last && json_object_set_new(record, "rays", json_integer(reference->state.rays)) == 0 &&
+              json_object_set_new(record, "reference", own) == 0 && json_object_set_new(last, "images", list) == 0;
+    json_decref(reference->record);
+    reference->record = record;
+    return ok || no_memory(err);
+}
+
+static void fill_part(const struct glint_pixels *pixels, int i, struct glint_exr_channel channels[4],
+                      struct glint_exr_attribute attributes[3], struct glint_exr_part *part) {
+    static const char *const rgba[] = {"R", "G", "B", "A"};
+    const char *const texts[3][2] = {
+        {"glint.image", image_name(i)}, {"glint.unit", images[i].unit}, {"glint.meaning", images[i].meaning}};
+    for (uint32_t k = 0; k < pixels->components; k++)
+        channels[k] = (struct glint_exr_channel){.name = pixels->components == 4 ? rgba[k] : images[i].channels,
+                                                 .stored = GLINT_STORED_FLOAT,
+                                                 .data = pixels->values + k,
+                                                 .x_stride_bytes = pixels->components * sizeof(float)};
+    for (int t = 0; t < 3; t++)
+        attributes[t] = (struct glint_exr_attribute){
+            .name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
+    *part = (struct glint_exr_part){.name = image_name(i),
+                                    .width = pixels->width,
+                                    .height = pixels->height,
+                                    .channels = channels,
+                                    .channel_count = pixels->components,
+                                    .attributes = attributes,
+                                    .attribute_count = 3,
+                                    .compression = GLINT_ZIP};
+}
+
+static bool write_images(const struct glint_reference *reference, const char *path, struct glint_error *err) {
+    const struct halves *halves = &reference->halves;
+    struct glint_exr_channel channels[IMAGES][4];
+    struct glint_exr_attribute attributes[IMAGES][3];
+    struct glint_exr_part parts[IMAGES];
+    struct glint_pixels mean = {0}, error = {halves->of[0].width, halves->of[0].height, 1, NULL};
+    bool ok = reference_mean(halves, &mean, &error.values, err);
+    const struct glint_pixels *const pixels[IMAGES] = {&halves->of[0], &halves->of[1], &error, &mean};
+    for (int i = 0; ok && i < IMAGES; i++) fill_part(pixels[i], i, channels[i], attributes[i], &parts[i]);
+    ok = ok && glint_exr_write(path, parts, IMAGES, 0, err);
+    glint_pixels_finish(&mean);
+    glint_pixels_finish(&error);
+    return ok;
+}
+
+bool reference_save(struct glint_reference *reference, struct glint_error *err) {
+    char before[64] = "", file[64], path[4096];
+    struct glint_run *run = glint_run_open(reference->folder, NULL);
+    json_t *old = run ? json_loads(glint_run_json(run), 0, NULL) : NULL;
+    if (old) file_of(old, before);
+    glint_run_close(&run);
+    json_decref(old);
+    snprintf(file, sizeof file, "reference-%u.exr", reference->state.rays);
+    if (snprintf(path, sizeof path, "%s/%s", reference->folder, file) >= (int)sizeof path)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
+    if (!glint_make_folder(reference->folder, err)) return false;
+    if (strcmp(before, file) != 0 && !write_images(reference, path, err)) return false;
+    json_t *image;
+    size_t i;
+    json_array_foreach(json_object_get(last_that_ran(reference->record), "images"), i, image) {
+        json_object_set_new(image, "file", json_string(file));
+    }
+    char *text = json_dumps(reference->record, JSON_REAL_PRECISION(17));
+    const bool written = text ? glint_run_write_json(reference->folder, text, err) : no_memory(err);
+    free(text);
+    if (!written) return false;
+    if (!reference->state.begun) reference_remove_round(reference);
+    if (*before && strcmp(before, file) != 0 && snprintf(path, sizeof path, "%s/%s", reference->folder, before) > 0)
+        unlink(path);
+    return true;
+}

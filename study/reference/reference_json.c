@@ -1,0 +1,127 @@
+/* What run.json says of a reference: its rays, its noise, what it depends on and what they follow from. */
+#include "reference.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
+}
+
+static json_t *values_json(const struct glint_pipeline *pipeline, const struct glint_pass *pass) {
+    json_t *values = json_object();
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (!glint_row_is_parameter(row)) continue;
+        const double value = glint_pipeline_value(pipeline, pass, row);
+        json_object_set_new(values, row->name,
+                            row->choices ? json_string(row->choices[(size_t)value]) : json_real(value));
+    }
+    return values;
+}
+
+static json_t *pass_settings(const struct glint_reference *reference, const struct glint_pass *pass,
+                             struct glint_error *err) {
+    char shader[17] = "host";
+    uint64_t hash;
+    if (!pass->host) {
+        if (!glint_replay_shader_hash(reference->replay, reference->pipeline, pass, &hash, err)) return NULL;
+        snprintf(shader, sizeof shader, "%016" PRIx64, hash);
+    }
+    return json_pack("{ss so ss}", "variant", pass->variant, "values", values_json(reference->pipeline, pass), "shader",
+                     shader);
+}
+
+bool reference_settings(struct glint_reference *reference, struct glint_error *err) {
+    const struct glint_device_info *device = glint_device_get_info(glint_replay_device(reference->replay));
+    char hash[33];
+    json_t *passes = json_object();
+    bool ok = glint_replay_capture_hash(reference->replay, hash, err);
+    for (size_t i = 0; ok && i < glint_pipeline_pass_count(reference->pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(reference->pipeline, i);
+        json_t *settings = pass_settings(reference, pass, err);
+        ok = settings && json_object_set_new(passes, pass->slot, settings) == 0;
+    }
+    json_t *all = ok ? json_pack("{ss ss ss ss sb sO}", "capture", hash, "device", device->name, "driver",
+                                 device->driver_version, "tool", GLINT_VERSION, "all", reference->all, "passes", passes)
+                     : NULL;
+    /* As a file gives them back. */
+    char *text = all ? json_dumps(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    reference->settings = text ? json_loads(text, 0, NULL) : NULL;
+    free(text);
+    json_decref(all);
+    json_decref(passes);
+    return reference->settings || (ok && no_memory(err));
+}
+
+static json_t *noise_json(const struct glint_reference_state *state) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+        json_array_append_new(rows,
+                              json_pack("{ss sI sf sf sf}", "surfaces", glint_surface_name((enum glint_surface)k),
+                                        "pixels", (json_int_t)state->noise[k].pixels, "mean", state->noise[k].mean,
+                                        "error", state->noise[k].error, "relative", state->noise[k].relative));
+    return rows;
+}
+
+static json_t *changes_json(const struct glint_reference_assumption *row) {
+    json_t *rows = json_array();
+    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+        json_array_append_new(rows, json_pack("{ss sf sf sf sf}", "surfaces", glint_surface_name((enum glint_surface)k),
+                                              "mean", row->of[k].mean, "rmse", row->of[k].rmse, "noise",
+                                              row->of[k].noise, "relative", row->of[k].relative));
+    return rows;
+}
+
+json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity) {
+    json_t *rows = json_array();
+    for (size_t i = 0; i < sensitivity->count; i++) {
+        const struct glint_reference_assumption *row = &sensitivity->rows[i];
+        json_array_append_new(rows, json_pack("{ss ss sf sf sb so* ss*}", "slot", row->pass->slot, "parameter",
+                                              row->row->name, "value", row->value, "tried", row->tried, "ran", row->ran,
+                                              "change", row->ran ? changes_json(row) : NULL, "reason",
+                                              row->ran ? NULL : row->reason));
+    }
+    return json_pack("{si so}", "rays", (int)sensitivity->rays, "rows", rows);
+}
+
+json_t *reference_json(const struct glint_reference *reference) {
+    const struct glint_reference_state *state = &reference->state;
+    return json_pack("{si sf so sO* sO*}", "rays", (int)state->rays, "seconds", state->seconds, "noise",
+                     noise_json(state), "sensitivity", reference->sensitivity, "settings", reference->settings);
+}
+
+char *glint_reference_json(const struct glint_reference *reference) {
+    json_t *json = reference_json(reference);
+    char *text = json ? json_dumps(json, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    json_decref(json);
+    return text;
+}
+
+/* ---- Whether it is the same ---- */
+
+static void value_text(const json_t *value, char text[80]) {
+    char *dumped =
+        value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    snprintf(text, 80, "%.70s", dumped ? dumped : "nothing");
+    free(dumped);
+}
+
+bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err) {
+    const char *key;
+    json_t *value;
+    if (json_equal(there, here)) return true;
+    const json_t *more = json_object_size(there) > json_object_size(here) ? there : here;
+    json_object_foreach((json_t *)more, key, value) { /* the macro reads alone */
+        char path[256];
+        snprintf(path, sizeof path, "%s%s%s", where, *where ? "." : "", key);
+        if (!reference_same_settings(path, json_object_get(there, key), json_object_get(here, key), err)) return false;
+    }
+    if (json_is_object(there) && json_is_object(here)) return true; /* the other one's keys are the same number */
+    char texts[2][80];
+    value_text(there, texts[0]);
+    value_text(here, texts[1]);
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s is %s there and %s here", where, texts[0], texts[1]);
+}

@@ -1,0 +1,217 @@
+/* What a run gives, and why its rays ended: what its images say by themselves, without a truth. */
+#include "glint/probe.h"
+#include "glint/study.h"
+#include "roles.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { REASONS = GLINT_END_REASONS, TRACERS = 8 };
+
+static struct glint_probe_word reason_of(size_t group) {
+    return glint_probe_word("end reason", (float)(group % REASONS));
+}
+
+static void *read_image(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
+                        struct glint_error *err) {
+    void *values = malloc((size_t)image->width * image->height * image->components * sizeof(float));
+    if (!values) glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
+    else if (!glint_replay_read_image(replay, image, type, values, err)) {
+        free(values);
+        values = NULL;
+    }
+    return values;
+}
+
+/* The texel of an image of another size that a pixel falls into. */
+static size_t texel_of(const struct glint_image *image, size_t pixel, uint32_t width, uint32_t height) {
+    size_t x = pixel % width * image->width / width, y = pixel / width * image->height / height;
+    return y * image->width + x;
+}
+
+uint8_t *glint_study_given(struct glint_replay *replay, const struct glint_pixels *reflection,
+                           struct glint_error *err) {
+    const struct glint_image *image = study_image(replay, GLINT_ROLE_CONTRIBUTION);
+    size_t pixels = (size_t)reflection->width * reflection->height;
+    uint8_t *given = malloc(pixels);
+    float *contribution = NULL;
+    if (!given) glint_fail(err, GLINT_ERROR_MEMORY, "reflection: out of memory");
+    if (given && image && !(contribution = read_image(replay, image, GLINT_F32, err))) {
+        free(given);
+        return NULL;
+    }
+    for (size_t i = 0; given && i < pixels; i++) {
+        float part = reflection->components > 3 ? reflection->values[i * reflection->components + 3] : 1;
+        if (contribution)
+            part *= contribution[texel_of(image, i, reflection->width, reflection->height) * image->components];
+        given[i] = part >= 0.5F;
+    }
+    free(contribution);
+    return given;
+}
+
+/* One pass's images of diagnostics. */
+struct tracer {
+    char name[32];
+    const struct glint_image *end;
+    uint32_t *reasons;
+};
+
+static const struct glint_image *image_of(struct glint_replay *replay, const struct tracer *tracer, const char *what) {
+    char name[64];
+    snprintf(name, sizeof name, "%s_%s", tracer->name, what);
+    return glint_replay_find_image(replay, name);
+}
+
+/* Passes with end reasons, in the order in which they ran; those of another size trace other rays. */
+static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, size_t *count, struct glint_error *err) {
+    size_t passes = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &passes);
+    *count = 0;
+    for (size_t p = 0; p < passes; p++)
+        for (size_t r = 0; results[p].ran && r < results[p].pass->row_count; r++) {
+            const struct glint_row *row = &results[p].pass->rows[r];
+            if (row->kind != GLINT_ROW_DIAGNOSTIC || strcmp(row->unit, "end reason") || *count == TRACERS) continue;
+            struct tracer *t = &tracers[*count];
+            const struct glint_image *first = *count ? tracers[0].end : NULL;
+            t->end = glint_replay_find_image(replay, row->name);
+            if (!t->end || (first && (t->end->width != first->width || t->end->height != first->height))) continue;
+            const char *cut = strrchr(row->name, '_');
+            snprintf(t->name, sizeof t->name, "%.*s", cut ? (int)(cut - row->name) : 31, row->name);
+            if (!(t->reasons = read_image(replay, t->end, GLINT_U32, err))) return false;
+            ++*count;
+        }
+    return true;
+}
+
+/* Where a ray ended: tracer and reason of the last tracer that had it, or 0 without a ray. */
+static size_t group_of(const struct tracer *tracers, size_t count, size_t texel) {
+    for (size_t t = count; t-- > 0;) {
+        uint32_t reason = tracers[t].reasons[texel];
+        if (reason > 0 && reason < REASONS) return t * REASONS + reason;
+    }
+    return 0;
+}
+
+/* Takes the rays out that no reflecting surface sends: each starts at the pixel of its texel that was picked. */
+static bool forget_rays(struct glint_replay *replay, struct tracer *tracers, size_t count, const uint8_t *surfaces,
+                        const struct glint_pixels *full, struct glint_error *err) {
+    const struct glint_image *image = study_image(replay, GLINT_ROLE_RAY_PICK), *end = tracers[0].end;
+    uint32_t *pick = image ? read_image(replay, image, GLINT_U32, err) : NULL;
+    const uint32_t scale = end->width == full->width && end->height == full->height ? 1 : 2;
+    if (image && !pick) return false;
+    for (size_t i = 0; i < (size_t)end->width * end->height; i++) {
+        const uint32_t picked = pick ? pick[i] & 7 : 0, at = scale == 2 && picked < 4 ? picked : 0;
+        uint32_t x = scale * (uint32_t)(i % end->width) + (at & 1), y = scale * (uint32_t)(i / end->width) + (at >> 1);
+        if (x < full->width && y < full->height && surfaces[(size_t)y * full->width + x] != GLINT_SURFACE_NONE)
+            continue;
+        for (size_t t = 0; t < count; t++) tracers[t].reasons[i] = 0;
+    }
+    free(pick);
+    return true;
+}
+
+/* Sum of each tracer's image `what` over all rays. */
+static bool add_up(struct glint_replay *replay, const struct tracer *tracers, size_t count, const char *what,
+                   double *sum, struct glint_error *err) {
+    for (size_t t = 0; t < count; t++) {
+        const struct glint_image *image = image_of(replay, &tracers[t], what);
+        uint32_t *values = image ? read_image(replay, image, GLINT_U32, err) : NULL;
+        if (image && !values) return false;
+        for (size_t i = 0; image && i < (size_t)image->width * image->height; i++)
+            if (group_of(tracers, count, i)) *sum += (double)values[i * image->components];
+        free(values);
+    }
+    return true;
+}
+
+struct group {
+    uint64_t rays, pixels;
+    double error;
+};
+
+static double symmetric_error(const struct glint_pixels *found, const struct glint_pixels *truth, size_t i) {
+    double sum = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        double a = (double)found->values[i * found->components + k],
+               b = (double)truth->values[i * truth->components + k];
+        sum += fabs(a - b) / (fabs(a) + fabs(b) + GLINT_SYMMETRIC_EPSILON) / 3;
+    }
+    return sum;
+}
+
+static void summarize(const struct tracer *tracers, size_t count, const struct group *groups, struct glint_ends *ends) {
+    enum { ROWS = sizeof ends->rows / sizeof ends->rows[0] };
+    for (size_t g = 0; g < count * REASONS; g++) ends->rays += groups[g].rays;
+    for (size_t g = 0; g < count * REASONS && ends->count < ROWS; g++) {
+        if (groups[g].rays == 0) continue;
+        struct glint_end_row *row = &ends->rows[ends->count++];
+        const struct glint_probe_word reason = reason_of(g);
+        *row = (struct glint_end_row){.reason = reason.name,
+                                      .text = reason.text,
+                                      .rays = groups[g].rays,
+                                      .pixels = groups[g].pixels,
+                                      .share = (double)groups[g].rays / (double)ends->rays,
+                                      .error = groups[g].pixels ? groups[g].error / (double)groups[g].pixels : NAN};
+        memcpy(row->tracer, tracers[g / REASONS].name, sizeof row->tracer);
+    }
+}
+
+bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, const struct glint_pixels *found,
+                      const struct glint_pixels *truth, const uint8_t *compared, struct glint_ends *ends,
+                      struct glint_error *err) {
+    struct tracer tracers[TRACERS] = {0};
+    struct group groups[TRACERS * REASONS] = {0};
+    size_t count = 0;
+    double steps = 0, fetches = 0;
+    *ends = (struct glint_ends){0};
+    bool ok = find_tracers(replay, tracers, &count, err) &&
+              (!surfaces || !count || forget_rays(replay, tracers, count, surfaces, found, err)) &&
+              add_up(replay, tracers, count, "steps", &steps, err) &&
+              add_up(replay, tracers, count, "fetches", &fetches, err);
+    size_t texels = ok && count ? (size_t)tracers[0].end->width * tracers[0].end->height : 0;
+    for (size_t i = 0; i < texels; i++) {
+        size_t g = group_of(tracers, count, i);
+        if (g) groups[g].rays++;
+    }
+    for (size_t i = 0; texels && compared && i < (size_t)found->width * found->height; i++) {
+        size_t g = compared[i] ? group_of(tracers, count, texel_of(tracers[0].end, i, found->width, found->height)) : 0;
+        double error = g ? symmetric_error(found, truth, i) : NAN;
+        if (!isfinite(error)) continue;
+        groups[g].pixels++;
+        groups[g].error += error;
+    }
+    if (ok) summarize(tracers, count, groups, ends);
+    if (ends->rays) ends->steps = steps / (double)ends->rays;
+    if (ends->rays) ends->fetches = fetches / (double)ends->rays;
+    for (size_t t = 0; t < TRACERS; t++) free(tracers[t].reasons);
+    return ok;
+}
+
+enum { SOURCE_SCREEN = 1, SOURCE_CUBE_MAP, SOURCE_FALLBACK, SOURCE_SKY, SOURCE_NOTHING, SOURCES = SOURCE_NOTHING };
+static const char *const source_names[SOURCES] = {"screen", "cube map", "fallback", "sky", "nothing found"};
+
+static uint8_t source_of(const struct tracer *tracers, size_t group) {
+    if (group == 0) return 0;
+    const size_t reason = group % REASONS;
+    if (reason == GLINT_END_HIT)
+        return strcmp(tracers[group / REASONS].name, "screen") ? SOURCE_CUBE_MAP : SOURCE_SCREEN;
+    if (reason == GLINT_END_SKY) return SOURCE_SKY;
+    return reason == GLINT_END_FALLBACK ? SOURCE_FALLBACK : SOURCE_NOTHING;
+}
+
+bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t height, struct glint_classes *source,
+                        struct glint_error *err) {
+    struct tracer tracers[TRACERS] = {0};
+    size_t count = 0, pixels = (size_t)width * height;
+    *source = (struct glint_classes){"source", source_names, SOURCES, NULL};
+    bool ok = find_tracers(replay, tracers, &count, err);
+    if (ok && count && !(source->labels = malloc(pixels)))
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "sources of reflections: out of memory");
+    for (size_t i = 0; ok && count && i < pixels; i++)
+        source->labels[i] = source_of(tracers, group_of(tracers, count, texel_of(tracers[0].end, i, width, height)));
+    for (size_t t = 0; t < TRACERS; t++) free(tracers[t].reasons);
+    return ok;
+}

@@ -1,0 +1,71 @@
+/* The picture that a run ends with, and what lies over its opaque surfaces. */
+#include "glint/study.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct glint_image *picture_of(struct glint_replay *replay, const struct glint_pass *pass) {
+    const struct glint_image *last = NULL;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
+        const struct glint_image *image = glint_replay_find_image(replay, row->name);
+        if (image) last = image;
+    }
+    return last;
+}
+
+const struct glint_image *glint_study_picture(struct glint_replay *replay) {
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    const struct glint_image *last = NULL;
+    bool composed = false;
+    for (size_t i = 0; i < count; i++) {
+        composed = composed || glint_pass_role(results[i].pass, GLINT_ROLE_COMPOSED);
+        const struct glint_image *image = composed && results[i].shown ? picture_of(replay, results[i].pass) : NULL;
+        if (image) last = image;
+    }
+    return last;
+}
+
+static bool reads_part(const struct glint_pass *pass, const char *part) {
+    size_t count = 0;
+    const struct glint_row *images = glint_capture_images(&count);
+    for (size_t r = 0; r < pass->row_count; r++)
+        for (size_t i = 0; pass->rows[r].kind == GLINT_ROW_READ && i < count; i++)
+            if (!strcmp(images[i].name, pass->rows[r].name) && !strcmp(images[i].role, part)) return true;
+    return false;
+}
+
+bool glint_study_draws(struct glint_replay *replay, const char *part) {
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    for (size_t i = 0; i < count; i++)
+        if (results[i].ran && reads_part(results[i].pass, part)) return true;
+    return false;
+}
+
+bool glint_study_over(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
+                      struct glint_image_error *error, struct glint_error *err) {
+    static const char *const rgb[] = {"R", "G", "B"}, *const depth[] = {"depth.Z"};
+    const struct glint_part_info *scene = glint_capture_find(capture, GLINT_PART_SCENE),
+                                 *over = glint_capture_find(capture, part);
+    *error = (struct glint_image_error){0};
+    if (!scene || !over) return true;
+    size_t pixels = (size_t)scene->width * scene->height;
+    struct glint_pixels truth = {scene->width, scene->height, 3, malloc(pixels * 3 * sizeof(float))};
+    float *z = malloc(pixels * sizeof *z);
+    uint8_t *mask = calloc(pixels, 1);
+    struct glint_image_errors errors = {0};
+    bool ok = ((truth.values && z && mask) || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part)) &&
+              glint_capture_read(capture, scene, rgb, 3, GLINT_F32, truth.values, 0, err) &&
+              glint_capture_read(capture, over, depth, 1, GLINT_F32, z, 0, err);
+    for (size_t i = 0; ok && i < pixels; i++) mask[i] = z[i] < INFINITY ? GLINT_SURFACE_MIRROR : GLINT_SURFACE_NONE;
+    ok = ok && glint_study_image(picture, &truth, 3, mask, NULL, &errors, err);
+    *error = errors.of[0];
+    free(mask);
+    free(z);
+    glint_pixels_finish(&truth);
+    return ok;
+}

@@ -1,0 +1,194 @@
+/* What runs are compared with, and what of them: the last reflection, the truth, the class of each pixel. */
+#include "glint/study.h"
+#include "question.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool composes(const struct glint_pass *pass) {
+    return pass && glint_pass_role(pass, GLINT_ROLE_COMPOSED);
+}
+
+uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error *err) {
+    static const char *const channels[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
+    const struct glint_part_info *part = glint_capture_find(capture, GLINT_PART_GBUFFER);
+    if (!part) {
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
+        return NULL;
+    }
+    size_t pixels = (size_t)part->width * part->height;
+    uint8_t *surfaces = calloc(pixels, 1);
+    float *values = malloc(pixels * 4 * sizeof *values);
+    bool ok = (surfaces && values) || glint_fail(err, GLINT_ERROR_MEMORY, "part gbuffer: out of memory");
+    if (ok) ok = glint_capture_read(capture, part, channels, 4, GLINT_F32, values, 0, err);
+    for (size_t i = 0; ok && i < pixels; i++) {
+        const float *v = values + 4 * i;
+        if (v[0] < INFINITY && (v[2] > 0 || v[3] > 0)) surfaces[i] = (uint8_t)glint_surface_of((double)v[1]);
+    }
+    free(values);
+    if (ok) return surfaces;
+    free(surfaces);
+    return NULL;
+}
+
+static bool allocate(struct glint_pixels *pixels, uint32_t width, uint32_t height, uint32_t components,
+                     struct glint_error *err) {
+    *pixels = (struct glint_pixels){width, height, components, NULL};
+    pixels->values = malloc((size_t)width * height * components * sizeof *pixels->values);
+    return pixels->values || glint_fail(err, GLINT_ERROR_MEMORY, "reflection: no memory for %u × %u", width, height);
+}
+
+/* The last of the pass's images that holds a reflection at full resolution, of those that `compose` reads where the run
+   has it: water and glass are laid over the picture afterwards, and maps that only they read are no reflection of it. */
+static const struct glint_image *reflection_of(struct glint_replay *replay, const struct glint_pass *pass,
+                                               const struct glint_pass *compose) {
+    const struct glint_image *last = NULL;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
+        const struct glint_image *image = glint_replay_find_image(replay, row->name);
+        if (image && (!compose || glint_pass_row(compose, GLINT_ROW_READ, row->name))) last = image;
+    }
+    return last;
+}
+
+const struct glint_image *glint_study_reflection_image(struct glint_replay *replay) {
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    const struct glint_image *last = NULL;
+    const struct glint_pass *compose = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (results[i].shown && composes(results[i].pass)) compose = results[i].pass;
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_image *image =
+            results[i].ran && results[i].pass != compose ? reflection_of(replay, results[i].pass, compose) : NULL;
+        if (image) last = image;
+    }
+    return last;
+}
+
+bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err) {
+    const struct glint_image *last = glint_study_reflection_image(replay);
+    *pixels = (struct glint_pixels){0};
+    if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection at full resolution to compare");
+    return allocate(pixels, last->width, last->height, last->components, err) &&
+           glint_replay_read_image(replay, last, GLINT_F32, pixels->values, err);
+}
+
+bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err) {
+    const struct glint_run_image *last = NULL;
+    const struct glint_pass *compose = NULL;
+    uint32_t widest = 0;
+    *pixels = (struct glint_pixels){0};
+    for (size_t i = 0; i < glint_run_image_count(run); i++) {
+        const struct glint_run_image *image = glint_run_image(run, i);
+        const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
+        if (composes(pass)) compose = pass;
+    }
+    for (size_t i = 0; i < glint_run_image_count(run); i++) {
+        const struct glint_run_image *image = glint_run_image(run, i);
+        if (strcmp(image->unit, "radiance") || (compose && !strcmp(image->slot, compose->slot)) || image->integer)
+            continue;
+        if (image->cube || image->width < widest) continue; /* cubes; half resolution */
+        if (compose && !glint_pass_row(compose, GLINT_ROW_READ, image->name)) continue;
+        widest = image->width;
+        last = image;
+    }
+    if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection to compare with");
+    return allocate(pixels, last->width, last->height, last->components, err) &&
+           glint_run_read(run, last, GLINT_F32, pixels->values, err);
+}
+
+/* The value of a parameter as text, as glint_pipeline_set takes it; false when the pipeline has no such parameter. */
+static bool value_text(const struct glint_pipeline *pipeline, const char *slot, const char *name, char text[64]) {
+    const struct glint_pass *pass = glint_pipeline_find(pipeline, slot);
+    const struct glint_row *row = pass ? glint_pass_parameter(pass, name) : NULL;
+    if (!row) return false;
+    const double value = glint_pipeline_value(pipeline, pass, row);
+    if (row->choices) snprintf(text, 64, "%s", row->choices[(size_t)value]);
+    else snprintf(text, 64, "%.17g", value);
+    return true;
+}
+
+/* What is asked for, and not how well it is answered: the i-th row QUESTION of the pipeline's passes; NULL: no more. */
+static const struct glint_row *question_row(const struct glint_pipeline *pipeline, size_t i,
+                                            const struct glint_pass **pass) {
+    for (size_t p = 0; p < glint_pipeline_pass_count(pipeline); p++) {
+        *pass = glint_pipeline_pass(pipeline, p);
+        for (size_t r = 0; r < (*pass)->row_count; r++) {
+            const struct glint_row *row = &(*pass)->rows[r];
+            if (row->kind == GLINT_ROW_ROLE && row->first == GLINT_ROLE_QUESTION && i-- == 0) return row;
+        }
+    }
+    return NULL;
+}
+
+/* The lobe that the pipeline's rays are drawn from. */
+static void find_lobe(const struct glint_pipeline *pipeline, char lobe[64]) {
+    const char *name;
+    const struct glint_pass *any = glint_pass_with_role(GLINT_ROLE_LOBE, &name);
+    const struct glint_row *row = glint_pass_parameter(any, name);
+    if (!value_text(pipeline, any->slot, name, lobe)) snprintf(lobe, 64, "%s", row->choices[(size_t)row->initial]);
+}
+
+/* Of each pixel, 0 where the part declares none. Where no draw arrived nothing is known, of which that is said. */
+static bool truth_errors(struct glint_capture *capture, const struct glint_part_info *part, float **error,
+                         struct glint_error *err) {
+    const char *const channels[] = {glint_part_has_channel(part, "error") ? "error" : NULL, "weight"};
+    const size_t pixels = (size_t)part->width * part->height;
+    float *read = malloc(2 * pixels * sizeof *read);
+    if (!read) return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+    if (!glint_capture_read(capture, part, channels, 2, GLINT_F32, read, 0, err)) {
+        free(read);
+        return false;
+    }
+    for (size_t i = 0; i < pixels; i++) read[i] = read[2 * i + 1] > 0 ? read[2 * i] : INFINITY;
+    *error = read;
+    return true;
+}
+
+bool glint_study_truth(struct glint_capture *capture, const struct glint_pipeline *pipeline,
+                       struct glint_pixels *pixels, float **error, struct glint_error *err) {
+    static const char *const rgb[] = {"R", "G", "B"};
+    char name[96];
+    *pixels = (struct glint_pixels){0};
+    *error = NULL;
+    char lobe[64];
+    find_lobe(pipeline, lobe);
+    snprintf(name, sizeof name, "truth.reflection.%s", lobe);
+    const struct glint_part_info *part = glint_capture_find(capture, name);
+    if (!part) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
+    if (!allocate(pixels, part->width, part->height, 3, err) ||
+        !glint_capture_read(capture, part, rgb, 3, GLINT_F32, pixels->values, 0, err))
+        return false;
+    return truth_errors(capture, part, error, err);
+}
+
+void study_question(const struct glint_pipeline *pipeline, char question[QUESTION_SIZE]) {
+    const struct glint_pass *pass;
+    char value[64];
+    question[0] = 0;
+    const struct glint_row *row;
+    for (size_t i = 0; (row = question_row(pipeline, i, &pass)); i++) {
+        const size_t end = strlen(question);
+        if (value_text(pipeline, pass->slot, row->image, value))
+            snprintf(question + end, QUESTION_SIZE - end, "%s%s.%s=%s", end ? " " : "", pass->slot, row->image, value);
+    }
+}
+
+struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err) {
+    struct glint_pipeline *reference = glint_pipeline_create("reference", err);
+    const struct glint_pass *pass;
+    const struct glint_row *row;
+    for (size_t i = 0; reference && (row = question_row(pipeline, i, &pass)); i++) {
+        char value[64], unused[64], assignment[256];
+        if (!value_text(pipeline, pass->slot, row->image, value) ||
+            !value_text(reference, pass->slot, row->image, unused))
+            continue;
+        snprintf(assignment, sizeof assignment, "%s.%s=%s", pass->slot, row->image, value);
+        if (!glint_pipeline_set(reference, assignment, err)) glint_pipeline_destroy(&reference);
+    }
+    return reference;
+}

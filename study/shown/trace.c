@@ -1,0 +1,235 @@
+/* Compares where traced rays ended with the truth that the capture carries. */
+#include "glint/probe.h"
+#include "glint/study.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "distances.h"
+#include "roles.h"
+
+enum { REASONS = GLINT_END_REASONS, TRACERS = 2, GROUPS = TRACERS * REASONS };
+static const char *const tracers[TRACERS] = {"screen", "cube map"};
+
+/* One image of the run, or NULL when the run has none of that name and it may be missing. */
+struct pixels {
+    uint32_t width, height, components;
+    union {
+        float *f;
+        uint32_t *u;
+        void *any;
+    } data;
+};
+
+/* `required`: what the image is called where it is missed; NULL: it may be missing. */
+static bool get_image(struct glint_replay *replay, enum glint_pass_role role, enum glint_type type,
+                      const char *required, struct pixels *out, struct glint_error *err) {
+    const struct glint_image *image = study_image(replay, role);
+    if (!image && !required) return true;
+    if (!image)
+        return glint_fail(err, GLINT_ERROR_USAGE, "the run has no image of %s: expected one with diagnostics on",
+                          required);
+    *out = (struct pixels){image->width, image->height, image->components, {NULL}};
+    out->data.any = malloc((size_t)image->width * image->height * image->components * sizeof(float));
+    if (!out->data.any) return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
+    return glint_replay_read_image(replay, image, type, out->data.any, err);
+}
+
+/* Channels of a part of the truth, interleaved; NULL with an error. */
+static float *read_truth(struct glint_capture *capture, const char *name, const char *const *channels, size_t count,
+                         struct glint_error *err) {
+    const struct glint_part_info *part = glint_capture_find(capture, name);
+    if (!part) {
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
+        return NULL;
+    }
+    float *truth = malloc((size_t)part->width * part->height * count * sizeof *truth);
+    if (!truth) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
+        return NULL;
+    }
+    if (glint_capture_read(capture, part, channels, count, GLINT_F32, truth, 0, err)) return truth;
+    free(truth);
+    return NULL;
+}
+
+struct sample {
+    double error, radiance_error;
+    uint32_t group, truth;
+};
+
+static int by_error(const void *a, const void *b) {
+    double x = ((const struct sample *)a)->error, y = ((const struct sample *)b)->error;
+    return (x > y) - (x < y);
+}
+
+/* Samples are sorted by error, so that each group's are too. */
+static void summarize(const struct sample *samples, size_t count, uint32_t first, uint32_t last,
+                      struct glint_trace_row *row) {
+    size_t right = 0, seen = 0, lit = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (samples[i].group < first || samples[i].group > last) continue;
+        ++row->rays;
+        ++row->truth[samples[i].truth];
+        right += samples[i].error <= 0.05;
+        if (isnan(samples[i].radiance_error)) continue;
+        row->radiance_error += samples[i].radiance_error;
+        lit++;
+    }
+    if (row->rays == 0) return;
+    row->share = (double)row->rays / (double)count;
+    row->right = (double)right / (double)row->rays;
+    row->radiance_error = lit ? row->radiance_error / (double)lit : (double)NAN;
+    for (size_t i = 0; i < count; ++i) {
+        if (samples[i].group < first || samples[i].group > last) continue;
+        if (seen == row->rays / 2) row->median_error = samples[i].error;
+        if (seen == row->rays * 95 / 100) row->p95_error = samples[i].error;
+        ++seen;
+    }
+}
+
+static void fill(struct sample *samples, size_t count, struct glint_trace_table *table) {
+    qsort(samples, count, sizeof *samples, by_error);
+    for (uint32_t group = 0; group < GROUPS; ++group) {
+        const struct glint_probe_word reason = glint_probe_word("end reason", (float)(group % REASONS));
+        struct glint_trace_row row = {.tracer = tracers[group / REASONS], .reason = reason.name, .text = reason.text};
+        summarize(samples, count, group, group, &row);
+        if (row.rays > 0) table->rows[table->count++] = row;
+    }
+    struct glint_trace_row all = {.tracer = "all", .reason = "all", .text = "all rays"};
+    summarize(samples, count, 0, GROUPS - 1, &all);
+    table->rows[table->count++] = all;
+}
+
+/* What is compared: images of the run at its resolution, the truth at the capture's. */
+struct inputs {
+    struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, screen_fetches, cubemap_fetches,
+        reflection;
+    float *mirror, *radiance; /* distance, visible; R G B, weight */
+    uint32_t width, height;   /* of the truth */
+};
+
+static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct glint_capture *capture,
+                        struct glint_error *err) {
+    static const char *const radiance[] = {"R", "G", "B", "weight"}, *const mirror[] = {"distance.Z", "visible"};
+    in->mirror = read_truth(capture, "truth.mirror", mirror, 2, err);
+    if (!in->mirror) return false;
+    in->width = glint_capture_find(capture, "truth.mirror")->width;
+    in->height = glint_capture_find(capture, "truth.mirror")->height;
+    if (glint_capture_find(capture, "truth.reflection.ggx")) {
+        in->radiance = read_truth(capture, "truth.reflection.ggx", radiance, 4, err);
+        if (!in->radiance) return false;
+    }
+    return get_image(replay, GLINT_ROLE_RAY_NORMAL, GLINT_F32, "normals", &in->normal, err) &&
+           get_image(replay, GLINT_ROLE_RAY_PICK, GLINT_U32, "picked pixels", &in->pick, err) &&
+           get_image(replay, GLINT_ROLE_RAY_DISTANCE, GLINT_F32, "travelled distances", &in->travelled, err) &&
+           get_image(replay, GLINT_ROLE_SCREEN_FINISHED, GLINT_U32, NULL, &in->finished, err) &&
+           get_image(replay, GLINT_ROLE_SCREEN_END, GLINT_U32, NULL, &in->screen_end, err) &&
+           get_image(replay, GLINT_ROLE_CUBEMAP_END, GLINT_U32, NULL, &in->cubemap_end, err) &&
+           get_image(replay, GLINT_ROLE_SCREEN_FETCHES, GLINT_U32, NULL, &in->screen_fetches, err) &&
+           get_image(replay, GLINT_ROLE_CUBEMAP_FETCHES, GLINT_U32, NULL, &in->cubemap_fetches, err) &&
+           get_image(replay, GLINT_ROLE_RAY_RADIANCE, GLINT_F32, NULL, &in->reflection, err);
+}
+
+static void free_inputs(struct inputs *in) {
+    struct pixels *images[] = {&in->normal,     &in->pick,           &in->travelled,
+                               &in->finished,   &in->screen_end,     &in->cubemap_end,
+                               &in->reflection, &in->screen_fetches, &in->cubemap_fetches};
+    for (size_t i = 0; i < sizeof images / sizeof images[0]; ++i) free(images[i]->data.any);
+    free(in->mirror);
+    free(in->radiance);
+}
+
+/* Reasons of images that the run lacks are 0, not traced. */
+static uint32_t reason_at(const struct pixels *image, size_t i) {
+    uint32_t reason = image->data.u ? image->data.u[i] : 0;
+    return reason < REASONS ? reason : 0;
+}
+
+static double radiance_error(const struct inputs *in, size_t texel, size_t pixel) {
+    if (!in->reflection.data.f || !in->radiance || !(in->radiance[4 * pixel + 3] > 0)) return NAN;
+    double sum = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        double found = (double)in->reflection.data.f[4 * texel + k], truth = (double)in->radiance[4 * pixel + k];
+        sum += fabs(found - truth) / (found + truth + GLINT_SYMMETRIC_EPSILON) / 3;
+    }
+    return sum;
+}
+
+static uint32_t truth_end(const struct inputs *in, size_t pixel) {
+    if (isinf(in->mirror[2 * pixel])) return GLINT_TRUTH_SKY;
+    return in->mirror[2 * pixel + 1] > 0.5F ? GLINT_TRUTH_ON_SCREEN : GLINT_TRUTH_ELSEWHERE;
+}
+
+/* Rays of all surfaces: the arrays have room for one a texel. */
+struct rays {
+    float *found, *truth;
+    uint8_t *surfaces;
+    struct sample *samples; /* of surfaces up to max_roughness */
+    size_t count, sample_count;
+    double fetches[GLINT_SURFACE_COUNT]; /* sums */
+    double max_roughness;
+};
+
+static double fetches_at(const struct pixels *image, size_t i) {
+    return image->data.u ? (double)image->data.u[i] : 0;
+}
+
+/* One texel of the run, unless it has no ray to compare. */
+static void compare(const struct inputs *in, size_t i, struct rays *rays) {
+    uint32_t scale = in->travelled.width == in->width && in->travelled.height == in->height ? 1 : 2;
+    uint32_t pick = in->pick.data.u[i] < 4 && scale == 2 ? in->pick.data.u[i] : 0;
+    uint32_t x = scale * (uint32_t)(i % in->travelled.width) + (pick & 1);
+    uint32_t y = scale * (uint32_t)(i / in->travelled.width) + (pick >> 1);
+    if (x >= in->width || y >= in->height) return;
+    size_t pixel = (size_t)y * in->width + x;
+    bool on_screen = in->finished.data.u && in->finished.data.u[i] != 0;
+    bool by_screen = on_screen || !in->cubemap_end.data.u; /* nothing traces on where the screen ends */
+    uint32_t reason = reason_at(by_screen ? &in->screen_end : &in->cubemap_end, i);
+    float distance = in->mirror[2 * pixel], travelled = in->travelled.data.f[i],
+          roughness = in->normal.data.f[4 * i + 3];
+    if (reason == 0 || !(distance > 0)) return;
+    rays->found[rays->count] = travelled;
+    rays->truth[rays->count] = distance;
+    enum glint_surface surface = glint_surface_of((double)roughness);
+    rays->surfaces[rays->count++] = (uint8_t)surface;
+    rays->fetches[surface] += fetches_at(&in->screen_fetches, i) + fetches_at(&in->cubemap_fetches, i);
+    if (!(roughness <= (float)rays->max_roughness)) return;
+    rays->samples[rays->sample_count++] =
+        (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),
+                        (by_screen ? 0 : REASONS) + reason, truth_end(in, pixel)};
+}
+
+static bool allocate_rays(struct rays *rays, size_t texels, struct glint_error *err) {
+    rays->found = malloc(texels * sizeof *rays->found);
+    rays->truth = malloc(texels * sizeof *rays->truth);
+    rays->surfaces = malloc(texels);
+    rays->samples = malloc(texels * sizeof *rays->samples);
+    return (rays->found && rays->truth && rays->surfaces && rays->samples) ||
+           glint_fail(err, GLINT_ERROR_MEMORY, "trace table: out of memory");
+}
+
+bool glint_study_trace(struct glint_replay *replay, struct glint_capture *capture, double max_roughness,
+                       struct glint_trace_table *table, struct glint_error *err) {
+    struct inputs in = {0};
+    struct rays rays = {.max_roughness = max_roughness};
+    *table = (struct glint_trace_table){0};
+    bool ok = read_inputs(&in, replay, capture, err);
+    size_t texels = (size_t)in.travelled.width * in.travelled.height;
+    if (ok) ok = allocate_rays(&rays, texels, err);
+    for (size_t i = 0; ok && i < texels; ++i) compare(&in, i, &rays);
+    if (ok && rays.sample_count > 0) fill(rays.samples, rays.sample_count, table);
+    if (ok) ok = glint_study_distances(rays.found, rays.truth, rays.surfaces, rays.count, &table->surfaces, err);
+    for (size_t k = 1; ok && k < GLINT_SURFACE_COUNT; ++k) {
+        uint64_t all = table->surfaces.of[0].rays, here = table->surfaces.of[k].rays;
+        table->fetches[k] = here ? rays.fetches[k] / (double)here : 0;
+        table->fetches[0] += all ? rays.fetches[k] / (double)all : 0;
+    }
+    free(rays.found);
+    free(rays.truth);
+    free(rays.surfaces);
+    free(rays.samples);
+    free_inputs(&in);
+    return ok;
+}
