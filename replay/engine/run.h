@@ -105,7 +105,8 @@ void step_record(const struct run *run, struct step *step);
 bool run_count_tiles(struct run *run, struct glint_error *err);
 
 /* rays.c: sums and means over the rays of a frame. */
-bool rays_prepare(struct run *run, struct glint_error *err);
+uint32_t rays_sums(const struct run *run); /* how many */
+bool rays_prepare(struct run *run, uint32_t sums, struct glint_error *err);
 void rays_record(const struct run *run, uint32_t ray);
 void rays_release(struct run *run);
 
