@@ -18,10 +18,10 @@ static bool prepare_frame_set(struct run *run, struct glint_error *err) {
 }
 
 static bool prepare_queries(struct run *run, struct glint_error *err) {
-    if (!run->gpu->timestamp_mask || !run->plan->graph.pass_count) return true;
+    if (!run->gpu->timestamp_mask || !run->graph->pass_count) return true;
     const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                        .queryCount = (uint32_t)run->plan->graph.pass_count + 1};
+                                        .queryCount = (uint32_t)run->graph->pass_count + 1};
     return vk_ok(vkCreateQueryPool(run->gpu->device, &info, NULL, &run->queries), "creating timestamp queries", err);
 }
 
@@ -41,7 +41,7 @@ static bool find_programs(const struct run *run, struct step *step, struct glint
 }
 
 bool run_prepare(struct run *run, struct glint_error *err) {
-    const struct graph *graph = &run->plan->graph;
+    const struct graph *graph = run->graph;
     uint32_t sets = 1, images = 0;
     for (size_t p = 0; p < graph->pass_count; p++) {
         struct step *step = &run->steps[p];

@@ -56,7 +56,7 @@ static bool add_sum(struct run *run, struct image *of, struct glint_error *err) 
 
 /* The k-th image that passes of the loop accumulate; NULL: no more. */
 static const char *accumulated(const struct run *run, uint32_t k) {
-    const struct graph *graph = &run->plan->graph;
+    const struct graph *graph = run->graph;
     for (size_t p = graph->loop_first; p < graph->loop_end; p++)
         for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++) {
             const struct glint_row *row = &graph->passes[p].pass->rows[r];

@@ -59,6 +59,11 @@ struct step {
 struct run {
     struct engine *engine;
     const struct frame_plan *plan;
+    const struct graph *graph; /* the plan's, as are sizes and options */
+    const struct frame_sizes *sizes;
+    const struct glint_replay_options *options;
+    struct frame_source *source;
+    struct pool *pool;
     struct gpu *gpu;
     struct pooled **images; /* beside the graph's */
     uint64_t *keys;         /* what the images' contents will depend on */
