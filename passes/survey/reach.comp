@@ -12,7 +12,7 @@
 #include "shared/work_list.glsl"
 
 // How much larger a face is taken than it is: what of its neighbours lies within a texel of it, and within a tenth of its width,
-// counts as its own (replay/reach.c). Of a part e of the half width that is 1 / (1 - e) - 1, and something for rounded normals.
+// counts as its own (replay/frame/faces.c). Of a part e of the half width that is 1 / (1 - e) - 1, and something for rounded normals.
 const float ROUNDED = 0.0035, NEARBY = 0.26;
 float margin_of(float e) { return 1.0 / (1.0 - min(e, 0.9)) - 1.0 + ROUNDED; }
 shared uint faces[8];

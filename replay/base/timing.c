@@ -33,3 +33,9 @@ bool glint_report_progress(glint_progress progress, void *user, const char *what
     return !progress || progress(user, what, done) ||
            glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted at %s", what);
 }
+
+bool glint_report_part(void *user, const char *what, double done) {
+    const struct glint_progress_part *part = user;
+    return !part->progress ||
+           part->progress(part->user, part->text[0] ? part->text : what, part->done + part->share * done);
+}

@@ -16,33 +16,20 @@ static void write_descriptors(const struct run *run, const struct step *step, co
         if (!row_is_image(row)) continue;
         const struct image *image = &run_bound(run, row)->image;
         const uint32_t coarsest = image->desc.levels - 1;
-        const bool sampled = row_is_sampled(row);
-        const VkDescriptorImageInfo info = {
-            .imageView = sampled ? sampled_view(image, row->glsl)
+        descriptor_set_image(run->gpu, dispatch->set, row->id, row_descriptor(row),
+                             row_is_sampled(row)
+                                 ? sampled_view(image, row->glsl)
                                  : image->levels[dispatch->level < coarsest ? dispatch->level : coarsest],
-            .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
-        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = dispatch->set,
-                                            .dstBinding = row->id,
-                                            .descriptorCount = 1,
-                                            .descriptorType = row_descriptor(row),
-                                            .pImageInfo = &info,
-                                            .pTexelBufferView = &image->buffer_view};
-        vkUpdateDescriptorSets(run->gpu->device, 1, &write, 0, NULL);
+                             image->buffer_view);
     }
 }
 
 bool step_describe(const struct run *run, struct step *step, struct glint_error *err) {
-    struct gpu *gpu = run->gpu;
     for (size_t d = 0; d < step->dispatch_count; d++) {
         struct dispatch *dispatch = &step->dispatches[d];
-        const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                                  .descriptorPool = run->descriptors,
-                                                  .descriptorSetCount = 1,
-                                                  .pSetLayouts = &dispatch->program->images};
-        VkResult result = vkAllocateDescriptorSets(gpu->device, &info, &dispatch->set);
-        if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
-        device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)dispatch->set, step->pass->pass->slot);
+        if (!descriptors_allocate(run->gpu, run->descriptors, &dispatch->program->images, step->pass->pass->slot,
+                                  &dispatch->set, err))
+            return false;
         write_descriptors(run, step, dispatch);
     }
     return true;

@@ -8,12 +8,12 @@
 #include "tile_range.h"
 
 struct pooled *run_image(const struct run *run, const char *name) {
-    const struct graph_image *image = graph_find(&run->plan->graph, name);
-    return image ? run->images[image - run->plan->graph.images] : NULL;
+    const struct graph_image *image = graph_find(run->graph, name);
+    return image ? run->images[image - run->graph->images] : NULL;
 }
 
 struct pooled *run_bound(const struct run *run, const struct glint_row *binding) {
-    return run->images[graph_bound(&run->plan->graph, binding) - run->plan->graph.images];
+    return run->images[graph_bound(run->graph, binding) - run->graph->images];
 }
 
 static bool starts_dispatch(const struct glint_row *row) {
@@ -26,20 +26,20 @@ static struct face_run *needed_layers(const struct run *run, const struct step *
     uint8_t faces[GLINT_SURVEY_CUBEMAPS];
     if (!plan_dispatched_faces(run->plan, step->pass, row, level, faces)) return NULL;
     struct face_run *layers = calloc(FACE_RUNS_MAX, sizeof *layers);
-    if (layers) *count = face_runs(faces, run->plan->sizes.active, layers);
+    if (layers) *count = face_runs(faces, run->sizes->active, layers);
     return layers;
 }
 
 static void add_dispatch(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
                          const struct pooled *image, uint32_t level) {
-    const uint32_t *half = run->plan->sizes.half;
+    const uint32_t *half = run->sizes->half;
     struct extent extent = image_extent(&image->image.desc, level);
     struct workgroup group = pass_workgroup(step->pass->pass);
-    const uint32_t block = block_width(&run->plan->sizes, step->pass->pass);
+    const uint32_t block = block_width(run->sizes, step->pass->pass);
     group.width *= block, group.height *= block;
-    const enum glint_size_class size = graph_find(&run->plan->graph, image->image.name)->row->size;
+    const enum glint_size_class size = graph_find(run->graph, image->image.name)->row->size;
     if (size == GLINT_SIZE_TILES) {
-        extent = (struct extent){run->plan->sizes.full[0], run->plan->sizes.full[1]};
+        extent = (struct extent){run->sizes->full[0], run->sizes->full[1]};
         group = (struct workgroup){REGION_WIDE * STRIP_WIDE, REGION_HIGH * TILE_HIGH};
     } else if (image->image.desc.buffer) {
         extent = (struct extent){half[0], half[1]};
@@ -52,16 +52,16 @@ static void add_dispatch(const struct run *run, struct step *step, uint32_t phas
                                   .groups = {(extent.width + group.width - 1) / group.width,
                                              (extent.height + group.height - 1) / group.height,
                                              image_layers(&image->image.desc)}};
-    const uint64_t texels = dispatch_texels(&run->plan->sizes, &image->image.desc, size, level);
+    const uint64_t texels = dispatch_texels(run->sizes, &image->image.desc, size, level);
     dispatch->layers = needed_layers(run, step, row, level, &dispatch->layer_runs);
     if (!dispatch->layers) step->texels += texels;
     for (uint32_t i = 0; i < dispatch->layer_runs; i++)
         step->texels += texels / dispatch->groups[2] * dispatch->layers[i].count;
     if (size != GLINT_SIZE_TILES) return;
     dispatch->tile_wide = TILE_WIDE;
-    if (run->plan->sizes.tile_wide == TILE_WIDE) return;
+    if (run->sizes->tile_wide == TILE_WIDE) return;
     step->dispatches[step->dispatch_count] = *dispatch; /* the list of strips, from that of tiles */
-    step->dispatches[step->dispatch_count++].tile_wide = run->plan->sizes.tile_wide;
+    step->dispatches[step->dispatch_count++].tile_wide = run->sizes->tile_wide;
 }
 
 static void add_level_dispatches(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
@@ -79,7 +79,7 @@ static size_t lists_after(const struct run *run, const struct glint_pass *pass, 
         const struct glint_row *row = &pass->rows[r];
         if (row->kind != GLINT_ROW_DISPATCH_LIST && starts_dispatch(row)) break;
         if (row->kind != GLINT_ROW_DISPATCH_LIST) continue;
-        if (graph_find(&run->plan->graph, row->name)->source == SOURCE_NOTHING) return 0;
+        if (graph_find(run->graph, row->name)->source == SOURCE_NOTHING) return 0;
         lists[count++] = run_image(run, row->name);
     }
     return count;
@@ -88,7 +88,7 @@ static size_t lists_after(const struct run *run, const struct glint_pass *pass, 
 static struct pooled *tile_list(const struct run *run, const struct glint_pass *pass) {
     for (size_t r = 0; r < pass->row_count; r++)
         if (pass->rows[r].optional && pass->rows[r].size == GLINT_SIZE_TILES &&
-            graph_find(&run->plan->graph, pass->rows[r].name)->source == SOURCE_MADE)
+            graph_find(run->graph, pass->rows[r].name)->source == SOURCE_MADE)
             return run_image(run, pass->rows[r].name);
     return NULL;
 }
@@ -107,9 +107,9 @@ static const struct glint_row *tiles_after(const struct run *run, const struct s
 static bool add_tile_dispatches(const struct run *run, struct step *step, uint32_t phase, const struct pooled *image,
                                 const struct glint_row *row, struct glint_error *err) {
     const struct workgroup group = pass_workgroup(step->pass->pass);
-    const struct extent size = tile_extent(&run->plan->sizes, &image->image.desc, STRIP_WIDE);
+    const struct extent size = tile_extent(run->sizes, &image->image.desc, STRIP_WIDE);
     const uint32_t strips = group.width * group.height / (size.width * size.height),
-                   wide = tile_wide(&run->plan->sizes, step->pass->pass);
+                   wide = tile_wide(run->sizes, step->pass->pass);
     uint32_t range = 0;
     while (range < RANGES && strcmp(range_names[range], row->name) != 0) range += 2;
     if (range >= RANGES || (strips != 2 && strips != 4 && strips != 8))
@@ -121,7 +121,7 @@ static bool add_tile_dispatches(const struct run *run, struct step *step, uint32
         step->dispatches[step->dispatch_count++] = (struct dispatch){
             .phase = phase,
             .list = tile_list(run, step->pass->pass),
-            .from = 4 * (VkDeviceSize)(tile_begin(&run->plan->sizes, wide) + 12 * (range + rest) + 4 * (strips / 4)),
+            .from = 4 * (VkDeviceSize)(tile_begin(run->sizes, wide) + 12 * (range + rest) + 4 * (strips / 4)),
             .tiles = range + rest,
             .over = &image->image.desc,
             .tile_wide = wide,

@@ -17,7 +17,7 @@ void engine_finish(struct engine *engine) {
 }
 
 static bool allocate_run(struct run *run, struct glint_error *err) {
-    const size_t images = run->plan->graph.image_count + 1, passes = run->plan->graph.pass_count + 1;
+    const size_t images = run->graph->image_count + 1, passes = run->graph->pass_count + 1;
     run->images = calloc(images, sizeof *run->images);
     run->keys = calloc(images, sizeof *run->keys);
     run->needed = calloc(images, sizeof *run->needed);
@@ -28,35 +28,42 @@ static bool allocate_run(struct run *run, struct glint_error *err) {
 }
 
 static bool put_aside(struct run *run, struct glint_error *err) {
-    const size_t count = run->plan->graph.image_count;
+    const size_t count = run->graph->image_count;
     bool *written = calloc(count + 1, sizeof *written);
     bool ok = written || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; ok && i < count; i++) written[i] = run_writes(run, i);
-    ok = ok && pool_put_aside(run->engine->pool, run->plan, run->images, run->keys, written, err);
+    ok = ok && pool_put_aside(run->pool, run->plan, run->images, run->keys, written, err);
     free(written);
     return ok;
 }
 
 static bool compute_frame(struct run *run, struct glint_error *err) {
-    struct engine *engine = run->engine;
-    if (!allocate_run(run, err) || !probes_prepare(run, err) ||
-        !pool_allocate(engine->pool, run->plan, run->images, err))
+    if (!allocate_run(run, err) || !probes_prepare(run, err) || !pool_allocate(run->pool, run->plan, run->images, err))
         return false;
     run->touched = true;
     if (!run_keys(run, err)) return false;
-    pool_recall(engine->pool, run->plan, run->images, run->keys);
+    pool_recall(run->pool, run->plan, run->images, run->keys);
     run_decide(run);
     if (!put_aside(run, err) || !run_upload(run, err)) return false;
     const double start = glint_now_seconds();
     const bool ok =
         run_prepare(run, err) && run_execute(run, err) && run_count_tiles(run, err) && probes_finish(run, err);
-    engine->source->seconds[PHASE_PASSES] += glint_now_seconds() - start;
+    run->source->seconds[PHASE_PASSES] += glint_now_seconds() - start;
     return ok;
 }
 
 bool engine_run(struct run *run, struct engine *engine, const struct frame_plan *plan, glint_progress progress,
                 void *user, struct glint_error *err) {
-    *run = (struct run){.engine = engine, .plan = plan, .gpu = engine->gpu, .progress = progress, .user = user};
+    *run = (struct run){.engine = engine,
+                        .plan = plan,
+                        .graph = &plan->graph,
+                        .sizes = &plan->sizes,
+                        .options = plan->options,
+                        .source = engine->source,
+                        .pool = engine->pool,
+                        .gpu = engine->gpu,
+                        .progress = progress,
+                        .user = user};
     struct glint_error own = {0};
     if (compute_frame(run, &own)) return true;
     if (run->touched && own.code != GLINT_ERROR_INTERRUPTED)
@@ -69,12 +76,12 @@ void engine_release(struct run *run) {
     rays_release(run);
     vkDestroyQueryPool(run->gpu->device, run->queries, NULL);
     vkDestroyDescriptorPool(run->gpu->device, run->descriptors, NULL);
-    for (size_t p = 0; run->steps && p < run->plan->graph.pass_count; p++) {
+    for (size_t p = 0; run->steps && p < run->graph->pass_count; p++) {
         free(run->steps[p].ns);
         for (size_t d = 0; d < run->steps[p].dispatch_count; d++) free(run->steps[p].dispatches[d].layers);
         free(run->steps[p].dispatches);
     }
-    for (size_t i = 0; run->given && i < run->plan->graph.image_count; i++) free(run->given[i]);
+    for (size_t i = 0; run->given && i < run->graph->image_count; i++) free(run->given[i]);
     free(run->steps);
     free(run->images);
     free(run->keys);

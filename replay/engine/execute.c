@@ -14,7 +14,7 @@ static void write_stamp(struct run *run) {
 static bool begin_commands(struct run *run, struct glint_error *err) {
     struct gpu *gpu = run->gpu;
     if (!device_begin(gpu, err)) return false;
-    if (run->queries) vkCmdResetQueryPool(gpu->commands, run->queries, 0, (uint32_t)run->plan->graph.pass_count + 1);
+    if (run->queries) vkCmdResetQueryPool(gpu->commands, run->queries, 0, (uint32_t)run->graph->pass_count + 1);
     run->stamps = 0;
     write_stamp(run);
     return true;
@@ -34,7 +34,7 @@ static void record_step(struct run *run, struct step *step) {
 
 static bool read_times(struct run *run, struct glint_error *err) {
     const struct gpu *gpu = run->gpu;
-    for (size_t p = 0; run->queries && p < run->plan->graph.pass_count; p++) {
+    for (size_t p = 0; run->queries && p < run->graph->pass_count; p++) {
         struct step *step = &run->steps[p];
         uint64_t ticks[2];
         if (!step->stamp) continue;
@@ -72,7 +72,7 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
         recording = !apart;
         if (!recording && !submit_commands(run, slot, err)) return false;
     }
-    if (run->rays && first == run->plan->graph.loop_first && end == run->plan->graph.loop_end) {
+    if (run->rays && first == run->graph->loop_first && end == run->graph->loop_end) {
         if (!recording && !begin_commands(run, err)) return false;
         rays_record(run, ray);
         recording = true;
@@ -82,7 +82,7 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
 
 /* All passes; those that run for each ray in a loop, each ray submitted by itself. */
 static bool execute_round(struct run *run, bool apart, double done, double share, struct glint_error *err) {
-    const struct graph *graph = &run->plan->graph;
+    const struct graph *graph = run->graph;
     const size_t first = graph->loop_first, end = graph->loop_end;
     const uint32_t rays = glint_pipeline_rays(run->plan->pipeline);
     const double each = graph->pass_count ? share / (double)graph->pass_count : 0;
@@ -96,26 +96,26 @@ static bool execute_round(struct run *run, bool apart, double done, double share
 }
 
 bool run_execute(struct run *run, struct glint_error *err) {
-    const struct glint_replay_options *options = run->plan->options;
+    const struct glint_replay_options *options = run->options;
     const uint32_t warmup = options->repeat == 0 ? 0 : options->warmup ? options->warmup : 1;
     const uint32_t rounds = warmup + (options->repeat ? options->repeat : 1);
-    for (size_t p = 0; p < run->plan->graph.pass_count; p++) {
+    for (size_t p = 0; p < run->graph->pass_count; p++) {
         struct step *step = &run->steps[p];
         if (!step->execute) continue;
         if (!(step->ns = calloc(rounds, sizeof *step->ns))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        for (size_t i = 0; i < run->plan->graph.image_count; i++) /* until the new contents are complete */
-            if (run->plan->graph.images[i].source == SOURCE_MADE && run->plan->graph.images[i].maker == p)
+        for (size_t i = 0; i < run->graph->image_count; i++) /* until the new contents are complete */
+            if (run->graph->images[i].source == SOURCE_MADE && run->graph->images[i].maker == p)
                 run->images[i]->key = 0;
     }
     for (uint32_t round = 0; round < rounds; round++) {
-        for (size_t p = 0; p < run->plan->graph.pass_count; p++) run->steps[p].round_ns = 0;
+        for (size_t p = 0; p < run->graph->pass_count; p++) run->steps[p].round_ns = 0;
         const bool apart = run->progress && (round < warmup || rounds == 1);
         if (!execute_round(run, apart, (double)round / rounds, 1.0 / rounds, err)) return false;
-        for (size_t p = 0; p < run->plan->graph.pass_count && round >= warmup && run->queries; p++)
+        for (size_t p = 0; p < run->graph->pass_count && round >= warmup && run->queries; p++)
             if (run->steps[p].execute) run->steps[p].ns[run->steps[p].timed++] = run->steps[p].round_ns;
     }
-    for (size_t i = 0; i < run->plan->graph.image_count; i++) {
-        const struct graph_image *image = &run->plan->graph.images[i];
+    for (size_t i = 0; i < run->graph->image_count; i++) {
+        const struct graph_image *image = &run->graph->images[i];
         if (image->source != SOURCE_MADE || run->images[i]->transient || !run->steps[image->maker].execute) continue;
         run->images[i]->key = run->keys[i];
         run->images[i]->round = options->round;

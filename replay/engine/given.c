@@ -16,7 +16,7 @@ bool run_read_given(struct run *run, size_t i, size_t *bytes, struct glint_error
     for (uint32_t l = 0; l < desc->levels; l++) values += image_values(desc, l);
     uint32_t *at = run->given[i] = malloc(values * sizeof *at);
     if (!at) return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->image.name);
-    const struct graph_image *source = &run->plan->graph.images[i];
+    const struct graph_image *source = &run->graph->images[i];
     const double start = glint_now_seconds();
     for (uint32_t l = 0; l < desc->levels; at += image_values(desc, l++)) {
         const struct glint_image *level = &image->levels[l].info;
@@ -24,13 +24,13 @@ bool run_read_given(struct run *run, size_t i, size_t *bytes, struct glint_error
         if (!info || info->width != level->width || info->height != level->height || info->components != components ||
             info->integer != integer)
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %u x %u of %u %s channels, found %s",
-                              source->history ? run->plan->options->history : run->plan->options->inputs, level->name,
-                              level->width, level->height, components, integer ? "uint" : "float",
+                              source->history ? run->options->history : run->options->inputs, level->name, level->width,
+                              level->height, components, integer ? "uint" : "float",
                               info ? "another size or kind" : "nothing");
         if (!glint_run_read(plan_folder(run->plan, source), info, integer ? GLINT_U32 : GLINT_F32, at, err))
             return false;
     }
-    run->engine->source->seconds[PHASE_READ] += glint_now_seconds() - start;
+    run->source->seconds[PHASE_READ] += glint_now_seconds() - start;
     *bytes = values * sizeof(uint32_t);
     return true;
 }

@@ -26,13 +26,13 @@ static uint64_t table_key(const struct glint_table *table) {
 
 /* Cube maps in a file beside the capture: told apart by what the file holds. False when some are in the capture. */
 static bool sibling_key(const struct run *run, uint64_t *key) {
-    const struct glint_frame *frame = glint_capture_frame(run->engine->source->capture);
+    const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     const double scale[] = {frame->pre_exposure, frame->metres_per_unit};
     const struct glint_part_info **parts = NULL;
     size_t count = 0;
     uint64_t own = mix(*key, scale, sizeof scale);
-    bool siblings = cubemap_parts(run->engine->source->capture, &parts, &count, NULL);
-    for (uint32_t i = 0; siblings && i < run->plan->sizes.active; i++) {
+    bool siblings = cubemap_parts(run->source->capture, &parts, &count, NULL);
+    for (uint32_t i = 0; siblings && i < run->sizes->active; i++) {
         const struct glint_part_info *part = parts[run->plan->active[i]];
         siblings = part->sibling_hash[0] != 0;
         own = mix_text(mix_text(own, part->name), part->sibling_hash);
@@ -44,45 +44,44 @@ static bool sibling_key(const struct run *run, uint64_t *key) {
 
 /* The sky: told apart by its pixels, which are kept for the upload. */
 static bool sky_key(const struct run *run, const struct graph_image *image, uint64_t *key, struct glint_error *err) {
-    struct glint_capture *capture = run->engine->source->capture;
-    struct channels *sky = &run->engine->source->sky;
+    struct glint_capture *capture = run->source->capture;
+    struct channels *sky = &run->source->sky;
     const double start = glint_now_seconds();
-    if (run->engine->source->sky_hash) {
-        *key = mix_number(*key, run->engine->source->sky_hash);
+    if (run->source->sky_hash) {
+        *key = mix_number(*key, run->source->sky_hash);
         return true;
     }
     channels_finish(sky);
     sky->part = glint_capture_find(capture, image->row->role);
     if (!channels_add_row(sky, image->row, err) || !channels_read(sky, capture, err)) return false;
-    run->engine->source->seconds[PHASE_READ] += glint_now_seconds() - start;
-    run->engine->source->sky_hash =
+    run->source->seconds[PHASE_READ] += glint_now_seconds() - start;
+    run->source->sky_hash =
         mix(1, sky->data, (size_t)sky->part->width * sky->part->height * sky->count * sizeof *sky->data);
-    *key = mix_number(*key, run->engine->source->sky_hash);
+    *key = mix_number(*key, run->source->sky_hash);
     return true;
 }
 
 /* What a shot's frames may share keeps its key, so that work on it is done once. Everything else is another with every
    load, or where its work may be found again, with another capture. */
 static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
-    const struct graph_image *image = &run->plan->graph.images[i];
+    const struct graph_image *image = &run->graph->images[i];
     if (image->source == SOURCE_CAPTURE && image->row->size == GLINT_SIZE_SKY) return sky_key(run, image, key, err);
     if (image->source != SOURCE_CAPTURE || !size_is_array(image->row->size) || !sibling_key(run, key))
-        *key =
-            run->plan->content[0] ? mix_text(*key, run->plan->content) : mix_number(*key, run->engine->source->serial);
-    *key = mix_number(*key, glint_capture_perturbed(run->engine->source->capture));
+        *key = run->plan->content[0] ? mix_text(*key, run->plan->content) : mix_number(*key, run->source->serial);
+    *key = mix_number(*key, glint_capture_perturbed(run->source->capture));
     return true;
 }
 
 /* Of an image that no shader of this run makes. Images of a run folder are read, and told apart by their pixels. */
 static bool given_key(struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
-    const struct graph_image *image = &run->plan->graph.images[i];
+    const struct graph_image *image = &run->graph->images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->image.desc.format), image->name);
     if (image->source == SOURCE_NOTHING) *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
     else if (image->source != SOURCE_RUN && !capture_key(run, i, key, err)) return false;
     if (size_is_array(image->row->size) && run->plan->active)
-        *key = mix(*key, run->plan->active, run->plan->sizes.active * sizeof *run->plan->active);
+        *key = mix(*key, run->plan->active, run->sizes->active * sizeof *run->plan->active);
     uint8_t faces[GLINT_SURVEY_CUBEMAPS];
-    if (plan_captured_faces(run->plan, i, faces)) *key = mix(*key, faces, run->plan->sizes.active);
+    if (plan_captured_faces(run->plan, i, faces)) *key = mix(*key, faces, run->sizes->active);
     if (image->source != SOURCE_RUN) return true;
     size_t bytes = 0;
     if (!run_read_given(run, i, &bytes, err)) return false;
@@ -91,7 +90,7 @@ static bool given_key(struct run *run, size_t i, uint64_t *key, struct glint_err
 }
 
 static uint64_t mix_faces(uint64_t key, const struct run *run) {
-    for (uint32_t i = 0; i < run->plan->sizes.active; i++)
+    for (uint32_t i = 0; i < run->sizes->active; i++)
         key = mix_number(mix_number(key, run->plan->reach.crossed[i]), run->plan->reach.nearby[i]);
     return key;
 }
@@ -99,11 +98,11 @@ static uint64_t mix_faces(uint64_t key, const struct run *run) {
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
     const struct glint_pass *pass = step->pass->pass;
     if (!spirv_find(&step->spirv, &run->engine->device->shaders, step->pass->entry, err) ||
-        !constants_init(&step->constants, &run->plan->graph, step->pass, &step->spirv, run->plan->options,
-                        tile_wide(&run->plan->sizes, pass), block_width(&run->plan->sizes, pass),
-                        run->gpu->info.filters_together, err))
+        !constants_init(&step->constants, run->graph, step->pass, &step->spirv, run->options,
+                        tile_wide(run->sizes, pass), block_width(run->sizes, pass), run->gpu->info.filters_together,
+                        err))
         return false;
-    uint64_t key = mix_number(step->spirv.hash, run->plan->options->float_precision);
+    uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
     /* The first constants switch diagnostics and probes on, which changes nothing else; what a user's shader makes of them is
        not known. */
     const uint32_t skipped = step->pass->entry->shader ? 0 : 2;
@@ -116,44 +115,44 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
     if (plan_limits(run->plan, step->pass)) key = mix_faces(key, run);
     for (size_t r = 0; r < pass->row_count; r++)
         if (row_is_sampled(&pass->rows[r]) && pass->rows[r].kind != GLINT_ROW_READ_OWN) {
-            const struct graph_image *image = graph_bound(&run->plan->graph, &pass->rows[r]);
-            key = mix_number(mix_text(key, image->name), run->keys[image - run->plan->graph.images]);
+            const struct graph_image *image = graph_bound(run->graph, &pass->rows[r]);
+            key = mix_number(mix_text(key, image->name), run->keys[image - run->graph->images]);
         }
     step->key = step->pass->rank == RANK_RAY ? mix_number(key, glint_pipeline_rays(run->plan->pipeline)) : key;
     return true;
 }
 
 static bool is_outdated(const struct run *run, size_t i) {
-    const uint32_t round = run->plan->options->round;
+    const uint32_t round = run->options->round;
     return run->images[i]->key != run->keys[i] || (round && run->images[i]->round != round);
 }
 
 bool run_writes(const struct run *run, size_t i) {
-    const struct graph_image *image = &run->plan->graph.images[i];
+    const struct graph_image *image = &run->graph->images[i];
     if (image->source == SOURCE_MADE && !image->pass->host) return run->steps[image->maker].execute;
     return run->needed[i] && run->images[i]->key != run->keys[i];
 }
 
 static void decide_step(struct run *run, struct step *step, size_t place) {
-    for (size_t i = 0; i < run->plan->graph.image_count; i++) {
-        const struct graph_image *image = &run->plan->graph.images[i];
+    for (size_t i = 0; i < run->graph->image_count; i++) {
+        const struct graph_image *image = &run->graph->images[i];
         if (image->source == SOURCE_MADE && image->maker == place && run->needed[i] &&
-            (is_outdated(run, i) || run->plan->options->no_cache))
+            (is_outdated(run, i) || run->options->no_cache))
             step->execute = true;
     }
     if (run_restore(run, step)) step->execute = false;
     step->execute |= step->constants.probed;
     /* What a pass of the loop reads from another one is there for one ray at a time. */
-    for (size_t later = place + 1; later < run->plan->graph.loop_end && place >= run->plan->graph.loop_first; later++)
+    for (size_t later = place + 1; later < run->graph->loop_end && place >= run->graph->loop_first; later++)
         step->execute |=
             run->steps[later].execute && glint_pass_depends(run->steps[later].pass->pass, step->pass->pass);
     for (size_t i = 0; step->execute && i < step->pass->pass->row_count; i++)
         if (row_is_image(&step->pass->pass->rows[i]))
-            run->needed[graph_bound(&run->plan->graph, &step->pass->pass->rows[i]) - run->plan->graph.images] = true;
+            run->needed[graph_bound(run->graph, &step->pass->pass->rows[i]) - run->graph->images] = true;
 }
 
 bool run_keys(struct run *run, struct glint_error *err) {
-    const struct graph *graph = &run->plan->graph;
+    const struct graph *graph = run->graph;
     for (size_t i = 0; i < graph->image_count; i++) {
         const struct graph_image *image = &graph->images[i];
         run->needed[i] = image->wanted || image->kept;
@@ -176,7 +175,6 @@ bool run_keys(struct run *run, struct glint_error *err) {
 }
 
 void run_decide(struct run *run) {
-    for (size_t p = run->plan->graph.pass_count; p-- > 0;)
-        if (run->plan->graph.passes[p].runs && !run->plan->graph.passes[p].pass->host)
-            decide_step(run, &run->steps[p], p);
+    for (size_t p = run->graph->pass_count; p-- > 0;)
+        if (run->graph->passes[p].runs && !run->graph->passes[p].pass->host) decide_step(run, &run->steps[p], p);
 }

@@ -113,16 +113,16 @@ static bool resize_buffer(struct engine *engine, size_t bytes, struct glint_erro
 }
 
 static bool check_probes(const struct run *run, struct glint_error *err) {
-    const struct glint_replay_options *options = run->plan->options;
-    const uint32_t *full = run->plan->sizes.full;
+    const struct glint_replay_options *options = run->options;
+    const uint32_t *full = run->sizes->full;
     if (options->probe_count && options->repeat)
         return glint_fail(err, GLINT_ERROR_USAGE, "pixels are probed in one round, not in repeated ones");
     for (size_t i = 0; i < options->probe_count; i++) {
         const uint32_t *pixel = options->probes[i]; /* left of the picture or above: below zero, modulo 2^32 */
         if (pixel[0] >= full[0] || pixel[1] >= full[1])
             return glint_fail(err, GLINT_ERROR_USAGE, "%s: pixel %d,%d: outside of the picture of %u x %u pixels",
-                              glint_capture_path(run->engine->source->capture), (int32_t)pixel[0], (int32_t)pixel[1],
-                              full[0], full[1]);
+                              glint_capture_path(run->source->capture), (int32_t)pixel[0], (int32_t)pixel[1], full[0],
+                              full[1]);
     }
     return true;
 }
@@ -142,9 +142,8 @@ static bool remember_probes(struct engine *engine, const struct glint_replay_opt
 
 bool probes_prepare(struct run *run, struct glint_error *err) {
     struct engine *engine = run->engine;
-    const struct glint_replay_options *options = run->plan->options;
-    const uint32_t reduction =
-        memcmp(run->plan->sizes.full, run->plan->sizes.half, sizeof run->plan->sizes.half) == 0 ? 1 : 2;
+    const struct glint_replay_options *options = run->options;
+    const uint32_t reduction = memcmp(run->sizes->full, run->sizes->half, sizeof run->sizes->half) == 0 ? 1 : 2;
     if (!check_probes(run, err) || !remember_probes(engine, options, reduction, err)) return false;
     uint32_t *keys = calloc(2 * options->probe_count + 1, sizeof *keys), header[HEADER_WORDS] = {0};
     if (!keys) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -175,7 +174,7 @@ void probes_access(const struct step *step, struct barriers *barriers) {
 }
 
 bool probes_finish(struct run *run, struct glint_error *err) {
-    if (run->plan->options->probe_count == 0) return true;
+    if (run->options->probe_count == 0) return true;
     if (!device_begin(run->gpu, err)) return false;
     record_host_barrier(run->gpu);
     return device_submit(run->gpu, "reading the probes", err);

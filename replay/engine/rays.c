@@ -16,7 +16,6 @@ struct sum {
 struct rays {
     struct sum *sums;
     size_t count;
-    VkDescriptorPool pool;
     const struct program *program;
 };
 
@@ -36,26 +35,11 @@ static const struct glint_pass accumulate = {.slot = "accumulate",
 enum { PUSH_WORDS = 4 };
 
 static bool describe_sum(const struct run *run, struct sum *sum, struct glint_error *err) {
-    VkDevice device = run->gpu->device;
-    const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                              .descriptorPool = run->rays->pool,
-                                              .descriptorSetCount = 1,
-                                              .pSetLayouts = &run->rays->program->images};
-    VkResult result = vkAllocateDescriptorSets(device, &info, &sum->set);
-    if (result != VK_SUCCESS) return vk_fail(err, "allocating descriptors", result);
-    device_set_name(run->gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)sum->set, sum->of->name);
     const VkImageView views[BINDINGS] = {sum->of->view, sum->sum.levels[0], sum->of->levels[0]};
-    for (uint32_t b = 0; b < BINDINGS; b++) {
-        const VkDescriptorImageInfo image = {.imageView = views[b], .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
-        const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                            .dstSet = sum->set,
-                                            .dstBinding = b,
-                                            .descriptorCount = 1,
-                                            .descriptorType = b == BINDING_IMAGE ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
-                                                                                 : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                            .pImageInfo = &image};
-        vkUpdateDescriptorSets(device, 1, &write, 0, NULL);
-    }
+    if (!descriptors_allocate(run->gpu, run->descriptors, &run->rays->program->images, sum->of->name, &sum->set, err))
+        return false;
+    for (uint32_t b = 0; b < BINDINGS; b++)
+        descriptor_set_image(run->gpu, sum->set, b, row_descriptor(&rows[b]), views[b], VK_NULL_HANDLE);
     return true;
 }
 
@@ -70,40 +54,36 @@ static bool add_sum(struct run *run, struct image *of, struct glint_error *err) 
     return image_own_memory(&sum->sum, gpu, err) && describe_sum(run, sum, err);
 }
 
-static bool create_descriptors(struct run *run, uint32_t sets, struct glint_error *err) {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, sets},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 2 * sets}};
-    const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                             .maxSets = sets,
-                                             .poolSizeCount = 2,
-                                             .pPoolSizes = sizes};
-    VkResult result = vkCreateDescriptorPool(run->gpu->device, &info, NULL, &run->rays->pool);
-    return result == VK_SUCCESS || vk_fail(err, "creating the descriptor pool", result);
+/* The k-th image that passes of the loop accumulate; NULL: no more. */
+static const char *accumulated(const struct run *run, uint32_t k) {
+    const struct graph *graph = run->graph;
+    for (size_t p = graph->loop_first; p < graph->loop_end; p++)
+        for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++) {
+            const struct glint_row *row = &graph->passes[p].pass->rows[r];
+            if (row->kind == GLINT_ROW_ACCUMULATE && k-- == 0) return row->name;
+        }
+    return NULL;
 }
 
-bool rays_prepare(struct run *run, struct glint_error *err) {
-    const struct graph *graph = &run->plan->graph;
+uint32_t rays_sums(const struct run *run) {
+    uint32_t count = 0;
+    while (accumulated(run, count)) count++;
+    return count;
+}
+
+bool rays_prepare(struct run *run, uint32_t sums, struct glint_error *err) {
     const struct constants constants = {.push_count = PUSH_WORDS};
-    size_t count = 0;
-    for (size_t p = graph->loop_first; p < graph->loop_end; p++)
-        for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++)
-            count += graph->passes[p].pass->rows[r].kind == GLINT_ROW_ACCUMULATE;
-    if (count == 0) return true;
+    if (sums == 0) return true;
     run->rays = calloc(1, sizeof *run->rays);
-    if (!run->rays || !(run->rays->sums = calloc(count, sizeof *run->rays->sums)))
+    if (!run->rays || !(run->rays->sums = calloc(sums, sizeof *run->rays->sums)))
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     struct spirv spirv;
     const struct pipeline_pass entry = {.pass = &accumulate};
     if (!spirv_find(&spirv, &run->engine->device->shaders, &entry, err)) return false;
     run->rays->program = programs_get(&run->engine->device->programs, run->gpu, &accumulate, &spirv, &constants, err);
-    if (!run->rays->program || !create_descriptors(run, (uint32_t)count, err)) return false;
-    for (size_t p = graph->loop_first; p < graph->loop_end; p++)
-        for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++) {
-            const struct glint_row *row = &graph->passes[p].pass->rows[r];
-            if (row->kind == GLINT_ROW_ACCUMULATE && !add_sum(run, &run_image(run, row->name)->image, err))
-                return false;
-        }
-    return true;
+    bool ok = run->rays->program != NULL;
+    for (uint32_t k = 0; ok && k < sums; k++) ok = add_sum(run, &run_image(run, accumulated(run, k))->image, err);
+    return ok;
 }
 
 void rays_record(const struct run *run, uint32_t ray) {
@@ -131,7 +111,6 @@ void rays_release(struct run *run) {
     struct rays *rays = run->rays;
     struct gpu *gpu = run->gpu;
     if (!rays) return;
-    vkDestroyDescriptorPool(gpu->device, rays->pool, NULL);
     for (size_t i = 0; i < rays->count; i++) image_finish(&rays->sums[i].sum, gpu);
     free(rays->sums);
     free(rays);

@@ -50,7 +50,7 @@ static enum glint_type type_of(enum glint_format format) {
 
 static bool read_level(struct run *run, struct pooled *image, uint32_t l, struct glint_exr *exr,
                        struct glint_error *err) {
-    struct pool *pool = run->engine->pool;
+    struct pool *pool = run->pool;
     const struct glint_image *level = &image->levels[l].info;
     char names[128], *rest = NULL;
     const char *channels[4];
@@ -71,7 +71,7 @@ static bool read_level(struct run *run, struct pooled *image, uint32_t l, struct
 }
 
 bool run_restore(struct run *run, struct step *step) {
-    const struct glint_replay_options *options = run->plan->options;
+    const struct glint_replay_options *options = run->options;
     const size_t place = (size_t)(step - run->steps);
     struct glint_error ignored = {0};
     char path[4096];
@@ -82,16 +82,16 @@ bool run_restore(struct run *run, struct step *step) {
     const double start = glint_now_seconds();
     struct glint_exr *exr = glint_exr_open(path, NULL, &ignored);
     bool ok = exr != NULL;
-    for (size_t i = 0; ok && i < run->plan->graph.image_count; i++) {
-        if (run->plan->graph.images[i].source != SOURCE_MADE || run->plan->graph.images[i].maker != place) continue;
+    for (size_t i = 0; ok && i < run->graph->image_count; i++) {
+        if (run->graph->images[i].source != SOURCE_MADE || run->graph->images[i].maker != place) continue;
         run->images[i]->key = 0;
         for (uint32_t l = 0; ok && l < run->images[i]->image.desc.levels; l++)
             ok = read_level(run, run->images[i], l, exr, &ignored);
     }
-    for (size_t i = 0; ok && i < run->plan->graph.image_count; i++)
-        if (run->plan->graph.images[i].source == SOURCE_MADE && run->plan->graph.images[i].maker == place)
+    for (size_t i = 0; ok && i < run->graph->image_count; i++)
+        if (run->graph->images[i].source == SOURCE_MADE && run->graph->images[i].maker == place)
             run->images[i]->key = run->keys[i];
     if (exr) glint_exr_close(&exr);
-    run->engine->source->seconds[PHASE_READ] += glint_now_seconds() - start;
+    run->source->seconds[PHASE_READ] += glint_now_seconds() - start;
     return ok;
 }

@@ -59,6 +59,11 @@ struct step {
 struct run {
     struct engine *engine;
     const struct frame_plan *plan;
+    const struct graph *graph; /* the plan's, as are sizes and options */
+    const struct frame_sizes *sizes;
+    const struct glint_replay_options *options;
+    struct frame_source *source;
+    struct pool *pool;
     struct gpu *gpu;
     struct pooled **images; /* beside the graph's */
     uint64_t *keys;         /* what the images' contents will depend on */
@@ -105,7 +110,8 @@ void step_record(const struct run *run, struct step *step);
 bool run_count_tiles(struct run *run, struct glint_error *err);
 
 /* rays.c: sums and means over the rays of a frame. */
-bool rays_prepare(struct run *run, struct glint_error *err);
+uint32_t rays_sums(const struct run *run); /* how many */
+bool rays_prepare(struct run *run, uint32_t sums, struct glint_error *err);
 void rays_record(const struct run *run, uint32_t ray);
 void rays_release(struct run *run);
 

@@ -17,7 +17,7 @@ static bool comes_with(const struct graph_image *image, const char *role, bool i
 
 /* The layers of an image that are needed; the others hold nothing. */
 static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, uint32_t first, uint32_t layers) {
-    struct pool *pool = run->engine->pool;
+    struct pool *pool = run->pool;
     struct pooled *image = run->images[i];
     const VkDeviceSize face_bytes =
         (VkDeviceSize)image->image.desc.width * image->image.desc.height * format_bytes(image->image.desc.format);
@@ -26,7 +26,7 @@ static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, 
         image_record_upload(&image->image, run->gpu, &pool->staging, offset, 0, first, layers, first == 0);
         return;
     }
-    if (first == 0) image_record_clear(&image->image, run->gpu, run->plan->graph.images[i].row->nothing);
+    if (first == 0) image_record_clear(&image->image, run->gpu, run->graph->images[i].row->nothing);
     for (uint32_t face = 0; face < 6; face++)
         if (faces[first / 6] >> face & 1)
             image_record_upload(&image->image, run->gpu, &pool->staging, offset + face * face_bytes, 0, first + face, 1,
@@ -36,14 +36,14 @@ static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, 
 /* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
 static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role,
                         struct channels *channels, uint32_t first, uint32_t layers, struct glint_error *err) {
-    struct pool *pool = run->engine->pool;
-    struct glint_capture *capture = run->engine->source->capture;
+    struct pool *pool = run->pool;
+    struct glint_capture *capture = run->source->capture;
     double start = glint_now_seconds();
     VkDeviceSize offset = 0;
     uint32_t width = part->width, rows = part->height;
     channels->part = part;
-    for (size_t i = 0; i < run->plan->graph.image_count; i++) {
-        const struct graph_image *image = &run->plan->graph.images[i];
+    for (size_t i = 0; i < run->graph->image_count; i++) {
+        const struct graph_image *image = &run->graph->images[i];
         if (image->source != SOURCE_CAPTURE || !run_writes(run, i) || !comes_with(image, role, false)) continue;
         const struct image_desc *desc = &run->images[i]->image.desc;
         width = desc->width, rows = desc->height * layers;
@@ -60,12 +60,12 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         }
     if (!channels->data && channels->count && !channels_read(channels, capture, err)) return false;
     if (channels->data && part->width != width && !channels_enlarge(channels, width, err)) return false;
-    run->engine->source->seconds[PHASE_READ] += glint_now_seconds() - start;
+    run->source->seconds[PHASE_READ] += glint_now_seconds() - start;
     start = glint_now_seconds();
     if (!pool_stage(pool, offset, err) || !device_begin(run->gpu, err)) return false;
     offset = 0;
-    for (size_t i = 0; i < run->plan->graph.image_count; i++) {
-        const struct graph_image *image = &run->plan->graph.images[i];
+    for (size_t i = 0; i < run->graph->image_count; i++) {
+        const struct graph_image *image = &run->graph->images[i];
         if (image->source != SOURCE_CAPTURE || !run_writes(run, i) || !comes_with(image, role, false)) continue;
         struct packing packing = {.from = (const uint32_t *)channels->data,
                                   .stride = channels->count,
@@ -85,19 +85,19 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         offset += ((VkDeviceSize)width * rows * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
     }
     bool ok = submit_upload(run, err);
-    run->engine->source->seconds[PHASE_UPLOAD] += glint_now_seconds() - start;
+    run->source->seconds[PHASE_UPLOAD] += glint_now_seconds() - start;
     return ok;
 }
 
 static bool upload_cubemaps(struct run *run, const char *role, struct glint_error *err) {
     const struct glint_part_info **parts;
     size_t count;
-    if (!cubemap_parts(run->engine->source->capture, &parts, &count, err)) return false;
+    if (!cubemap_parts(run->source->capture, &parts, &count, err)) return false;
     bool ok = true;
-    for (uint32_t i = 0; ok && i < run->plan->sizes.active; i++) {
+    for (uint32_t i = 0; ok && i < run->sizes->active; i++) {
         struct channels channels = {0};
         ok = glint_report_progress(run->progress, run->user, parts[run->plan->active[i]]->name,
-                                   (double)i / run->plan->sizes.active * 0.2, err) &&
+                                   (double)i / run->sizes->active * 0.2, err) &&
              upload_part(run, parts[run->plan->active[i]], role, &channels, 6 * i, 6, err);
         channels_finish(&channels);
     }
@@ -107,9 +107,8 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
 
 /* A list from a file must not start more work than it has items for, nor leave tiles out. */
 static bool check_list(const struct run *run, size_t i, const uint32_t *header, struct glint_error *err) {
-    const uint32_t *half = run->plan->sizes.half;
-    const uint64_t capacity = list_capacity(&run->plan->sizes),
-                   tiles = (uint64_t)((half[0] + 7) / 8) * ((half[1] + 7) / 8);
+    const uint32_t *half = run->sizes->half;
+    const uint64_t capacity = list_capacity(run->sizes), tiles = (uint64_t)((half[0] + 7) / 8) * ((half[1] + 7) / 8);
     const uint64_t most = capacity / LIST_ITEMS + 64; /* rounded up to full rows of workgroups */
     const bool apart = header[0] <= most && header[1] <= most && header[2] <= most;
     const uint64_t groups = apart ? (uint64_t)header[0] * header[1] * header[2] : UINT64_MAX;
@@ -122,10 +121,10 @@ static bool check_list(const struct run *run, size_t i, const uint32_t *header, 
 
 /* Values that are in memory already: tables and images of runs or of the engine. */
 static bool upload_values(struct run *run, size_t i, const void *values, struct glint_error *err) {
-    struct pool *pool = run->engine->pool;
+    struct pool *pool = run->pool;
     struct pooled *image = run->images[i];
     const struct image_desc *desc = &image->image.desc;
-    if (run->plan->graph.images[i].row->size == GLINT_SIZE_LIST && !check_list(run, i, values, err)) return false;
+    if (run->graph->images[i].row->size == GLINT_SIZE_LIST && !check_list(run, i, values, err)) return false;
     image->key = 0;
     bool ok = true;
     const uint32_t *from = values;
@@ -145,23 +144,23 @@ static bool upload_values(struct run *run, size_t i, const void *values, struct 
 
 /* A level is a part of its own, named as run folders name it. */
 static bool read_engine_level(struct run *run, size_t i, uint32_t l, void *data, struct glint_error *err) {
-    const struct graph_image *image = &run->plan->graph.images[i];
+    const struct graph_image *image = &run->graph->images[i];
     const struct glint_image *level = &run->images[i]->levels[l].info;
     char name[160];
     struct glint_row row = *image->row;
     row.source = image->row->channels; /* the engine names them as the declaration does */
     struct channels channels = {0};
     snprintf(name, sizeof name, "engine.%.48s.%.80s", image->pass->slot, level->name);
-    channels.part = glint_capture_find(run->engine->source->capture, name);
+    channels.part = glint_capture_find(run->source->capture, name);
     if (!channels.part || channels.part->width != level->width || channels.part->height != level->height)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %u x %u, found %u x %u",
-                          glint_capture_path(run->engine->source->capture), name, level->width, level->height,
+                          glint_capture_path(run->source->capture), name, level->width, level->height,
                           channels.part ? channels.part->width : 0, channels.part ? channels.part->height : 0);
     bool ok = channels_add_row(&channels, &row, err);
     if (ok && channels.count != level->components)
         ok = glint_fail(err, GLINT_ERROR_FORMAT, "part %s: image %s declares %zu channels for %u components", name,
                         image->name, channels.count, level->components);
-    ok = ok && glint_capture_read_raw(run->engine->source->capture, channels.part, channels.names, channels.count,
+    ok = ok && glint_capture_read_raw(run->source->capture, channels.part, channels.names, channels.count,
                                       glint_format_is_uint(level->format) ? GLINT_U32 : GLINT_F32, data, 0, err);
     channels_finish(&channels);
     return ok;
@@ -181,7 +180,7 @@ static bool upload_from_engine(struct run *run, size_t i, struct glint_error *er
 }
 
 static bool upload_given(struct run *run, size_t i, struct glint_error *err) {
-    const struct graph_image *image = &run->plan->graph.images[i];
+    const struct graph_image *image = &run->graph->images[i];
     const struct glint_table *table = tables_find(run->plan->tables, image->name);
     if (image->source == SOURCE_RUN) return upload_values(run, i, run->given[i], err);
     if (image->source == SOURCE_ENGINE) return upload_from_engine(run, i, err);
@@ -193,12 +192,12 @@ static bool upload_given(struct run *run, size_t i, struct glint_error *err) {
 }
 
 static bool upload_ids(struct run *run, size_t i, struct glint_error *err) {
-    const struct glint_row *row = run->plan->graph.images[i].row;
-    const struct glint_part_info *part = glint_capture_find(run->engine->source->capture, row->role);
+    const struct glint_row *row = run->graph->images[i].row;
+    const struct glint_part_info *part = glint_capture_find(run->source->capture, row->role);
     uint32_t *ids = calloc(image_values(&run->images[i]->image.desc, 0), sizeof *ids);
     bool ok = ids || glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", row->name);
     if (ok && glint_part_has_channel(part, row->source))
-        ok = glint_capture_read(run->engine->source->capture, part, &row->source, 1, GLINT_U32, ids, 0, err);
+        ok = glint_capture_read(run->source->capture, part, &row->source, 1, GLINT_U32, ids, 0, err);
     ok = ok && upload_values(run, i, ids, err);
     free(ids);
     return ok;
@@ -206,8 +205,8 @@ static bool upload_ids(struct run *run, size_t i, struct glint_error *err) {
 
 /* Captures fill several images from one part; the first image met brings the others along. */
 static bool upload_captured(struct run *run, size_t i, struct glint_error *err) {
-    const struct graph_image *image = &run->plan->graph.images[i];
-    struct frame_source *source = run->engine->source;
+    const struct graph_image *image = &run->graph->images[i];
+    struct frame_source *source = run->source;
     const char *role = image->row->role;
     if (glint_format_is_uint(image->row->format)) return upload_ids(run, i, err);
     if (size_is_array(image->row->size)) return upload_cubemaps(run, role, err);
@@ -222,8 +221,8 @@ static bool upload_captured(struct run *run, size_t i, struct glint_error *err) 
 
 /* What a pass leaves out holds nothing. */
 static bool clear_left_out(struct run *run, size_t i, struct glint_error *err) {
-    const struct graph_image *image = &run->plan->graph.images[i];
-    if (!plan_limits(run->plan, &run->plan->graph.passes[image->maker])) return true;
+    const struct graph_image *image = &run->graph->images[i];
+    if (!plan_limits(run->plan, &run->graph->passes[image->maker])) return true;
     if (!device_begin(run->gpu, err)) return false;
     image_record_clear(&run->images[i]->image, run->gpu, image->row->nothing);
     return submit_upload(run, err);
@@ -231,30 +230,30 @@ static bool clear_left_out(struct run *run, size_t i, struct glint_error *err) {
 
 bool run_upload(struct run *run, struct glint_error *err) {
     bool ok = true;
-    for (size_t i = 0; ok && i < run->plan->graph.image_count; i++) {
-        const struct graph_image *image = &run->plan->graph.images[i];
+    for (size_t i = 0; ok && i < run->graph->image_count; i++) {
+        const struct graph_image *image = &run->graph->images[i];
         bool table = image->source == SOURCE_MADE && image->pass->host;
         if (!run_writes(run, i)) continue;
         if (image->source == SOURCE_MADE && !table) {
             ok = clear_left_out(run, i, err);
             continue;
         }
-        bool stand_in = size_is_array(image->row->size) && run->plan->sizes.active == 0;
+        bool stand_in = size_is_array(image->row->size) && run->sizes->active == 0;
         if (image->source == SOURCE_CAPTURE && !stand_in) {
             ok = glint_report_progress(run->progress, run->user, image->row->role, 0, err) &&
                  upload_captured(run, i, err);
-            for (size_t j = 0; ok && j < run->plan->graph.image_count; j++)
-                if (run->plan->graph.images[j].source == SOURCE_CAPTURE && run->needed[j] &&
-                    comes_with(&run->plan->graph.images[j], image->row->role, glint_format_is_uint(image->row->format)))
+            for (size_t j = 0; ok && j < run->graph->image_count; j++)
+                if (run->graph->images[j].source == SOURCE_CAPTURE && run->needed[j] &&
+                    comes_with(&run->graph->images[j], image->row->role, glint_format_is_uint(image->row->format)))
                     run->images[j]->key = run->keys[j];
         } else {
             double start = glint_now_seconds();
             ok = upload_given(run, i, err);
-            run->engine->source->seconds[image->source == SOURCE_MADE ? PHASE_UPLOAD : PHASE_READ] +=
+            run->source->seconds[image->source == SOURCE_MADE ? PHASE_UPLOAD : PHASE_READ] +=
                 glint_now_seconds() - start;
             if (ok) run->images[i]->key = run->keys[i];
         }
     }
-    if (!run->plan->interim) frame_source_release(run->engine->source);
+    if (!run->plan->interim) frame_source_release(run->source);
     return ok;
 }

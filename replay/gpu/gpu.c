@@ -63,8 +63,7 @@ static bool create_logical(struct gpu *gpu, struct glint_error *err) {
                                      .pNext = &features,
                                      .queueCreateInfoCount = 1,
                                      .pQueueCreateInfos = &queue};
-    VkResult result = vkCreateDevice(gpu->physical, &info, NULL, &gpu->device);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating the device", result);
+    if (!vk_ok(vkCreateDevice(gpu->physical, &info, NULL, &gpu->device), "creating the device", err)) return false;
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     return true;
 }
@@ -73,20 +72,19 @@ static bool create_commands(struct gpu *gpu, struct glint_error *err) {
     const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                           .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                           .queueFamilyIndex = gpu->family};
-    VkResult result = vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating the command pool", result);
+    if (!vk_ok(vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool), "creating the command pool", err))
+        return false;
     const VkCommandBufferAllocateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                   .commandPool = gpu->pool,
                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                   .commandBufferCount = 1};
-    result = vkAllocateCommandBuffers(gpu->device, &commands, &gpu->commands);
-    if (result != VK_SUCCESS) return vk_fail(err, "allocating the command buffer", result);
+    if (!vk_ok(vkAllocateCommandBuffers(gpu->device, &commands, &gpu->commands), "allocating the command buffer", err))
+        return false;
     const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    result = vkCreateFence(gpu->device, &fence, NULL, &gpu->fence);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating the fence", result);
+    if (!vk_ok(vkCreateFence(gpu->device, &fence, NULL, &gpu->fence), "creating the fence", err)) return false;
     const VkPipelineCacheCreateInfo cache = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    result = vkCreatePipelineCache(gpu->device, &cache, NULL, &gpu->cache);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating the pipeline cache", result);
+    if (!vk_ok(vkCreatePipelineCache(gpu->device, &cache, NULL, &gpu->cache), "creating the pipeline cache", err))
+        return false;
     return true;
 }
 
@@ -167,25 +165,20 @@ bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemory
 }
 
 bool device_begin(struct gpu *gpu, struct glint_error *err) {
-    VkResult result = vkResetCommandPool(gpu->device, gpu->pool, 0);
-    if (result != VK_SUCCESS) return vk_fail(err, "resetting the command pool", result);
+    if (!vk_ok(vkResetCommandPool(gpu->device, gpu->pool, 0), "resetting the command pool", err)) return false;
     const VkCommandBufferBeginInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    result = vkBeginCommandBuffer(gpu->commands, &info);
-    return result == VK_SUCCESS || vk_fail(err, "beginning commands", result);
+    return vk_ok(vkBeginCommandBuffer(gpu->commands, &info), "beginning commands", err);
 }
 
 bool device_submit(struct gpu *gpu, const char *what, struct glint_error *err) {
-    VkResult result = vkEndCommandBuffer(gpu->commands);
-    if (result != VK_SUCCESS) return vk_fail(err, what, result);
+    if (!vk_ok(vkEndCommandBuffer(gpu->commands), what, err)) return false;
     const VkCommandBufferSubmitInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                                 .commandBuffer = gpu->commands};
     const VkSubmitInfo2 info = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &commands};
-    result = vkQueueSubmit2(gpu->queue, 1, &info, gpu->fence);
-    if (result != VK_SUCCESS) return vk_fail(err, what, result);
-    result = vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX);
-    if (result != VK_SUCCESS) return vk_fail(err, what, result);
+    if (!vk_ok(vkQueueSubmit2(gpu->queue, 1, &info, gpu->fence), what, err)) return false;
+    if (!vk_ok(vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX), what, err)) return false;
     vkResetFences(gpu->device, 1, &gpu->fence);
     return true;
 }
@@ -217,8 +210,7 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
     };
     *buffer = (struct host_buffer){.size = size};
     const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage[use]};
-    VkResult result = vkCreateBuffer(gpu->device, &info, NULL, &buffer->buffer);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating a buffer", result);
+    if (!vk_ok(vkCreateBuffer(gpu->device, &info, NULL, &buffer->buffer), "creating a buffer", err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)buffer->buffer, name);
     VkMemoryRequirements need;
     vkGetBufferMemoryRequirements(gpu->device, buffer->buffer, &need);
@@ -228,12 +220,10 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
                                                 ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                                             : use == HOST_BUFFER_UPLOAD ? 0
                                                                         : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    if (!device_allocate(gpu, &need, coherent, preferred, name, &buffer->memory, err)) goto fail;
-    result = vkBindBufferMemory(gpu->device, buffer->buffer, buffer->memory, 0);
-    if (result == VK_SUCCESS) result = vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map);
-    if (result == VK_SUCCESS) return true;
-    vk_fail(err, "mapping a buffer", result);
-fail:
+    if (device_allocate(gpu, &need, coherent, preferred, name, &buffer->memory, err) &&
+        vk_ok(vkBindBufferMemory(gpu->device, buffer->buffer, buffer->memory, 0), "binding a buffer", err) &&
+        vk_ok(vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map), "mapping a buffer", err))
+        return true;
     host_buffer_finish(buffer, gpu);
     return false;
 }

@@ -55,6 +55,7 @@ uint32_t device_family(VkPhysicalDevice physical, uint32_t *timestamp_bits);
 
 /* Fails with what was tried and Vulkan's word for the result. */
 bool vk_fail(struct glint_error *err, const char *what, VkResult result);
+bool vk_ok(VkResult result, const char *what, struct glint_error *err); /* the same unless it is VK_SUCCESS */
 VkFormat format_vulkan(enum glint_format format);
 
 /* `select` as in struct glint_device_options; `validate`: the validation layer. Stays where it is. */
@@ -86,5 +87,16 @@ enum host_buffer_use { HOST_BUFFER_UPLOAD, HOST_BUFFER_READBACK, HOST_BUFFER_UNI
 bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buffer_use use, VkDeviceSize size,
                       const char *name, struct glint_error *err);
 void host_buffer_finish(struct host_buffer *buffer, struct gpu *gpu);
+
+/* descriptors.c. A pool for sets with so many images of each kind, and the frame's buffers; a set with a name; one of its bindings:
+   an image, or the texels of a buffer; a buffer. */
+bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescriptorPool *pool,
+                        struct glint_error *err);
+bool descriptors_allocate(struct gpu *gpu, VkDescriptorPool pool, const VkDescriptorSetLayout *layout, const char *name,
+                          VkDescriptorSet *set, struct glint_error *err);
+void descriptor_set_image(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                          VkImageView view, VkBufferView buffer);
+void descriptor_set_buffer(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                           const struct host_buffer *buffer, VkDeviceSize size);
 
 #endif

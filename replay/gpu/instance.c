@@ -76,8 +76,7 @@ bool instance_init(struct instance *instance, struct messages *messages, struct 
                                        .ppEnabledLayerNames = &validation_layer,
                                        .enabledExtensionCount = extension_count,
                                        .ppEnabledExtensionNames = extensions};
-    VkResult result = vkCreateInstance(&info, NULL, &instance->instance);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating the instance", result);
+    if (!vk_ok(vkCreateInstance(&info, NULL, &instance->instance), "creating the instance", err)) return false;
     if (validate && instance->debug_utils) {
         PFN_vkCreateDebugUtilsMessengerEXT create =
             (PFN_vkCreateDebugUtilsMessengerEXT)(void (*)(void))vkGetInstanceProcAddr(instance->instance,

@@ -23,6 +23,10 @@ bool vk_fail(struct glint_error *err, const char *what, VkResult result) {
                       (int)result);
 }
 
+bool vk_ok(VkResult result, const char *what, struct glint_error *err) {
+    return result == VK_SUCCESS || vk_fail(err, what, result);
+}
+
 VkFormat format_vulkan(enum glint_format format) {
     static const VkFormat formats[] = {
         [GLINT_FORMAT_R8UI] = VK_FORMAT_R8_UINT,

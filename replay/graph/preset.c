@@ -60,21 +60,15 @@ static char *preset_text(const char *preset, char **where, struct glint_error *e
 
 /* "set": {"slot.parameter": value} */
 static bool apply_set(struct glint_pipeline *pipeline, const char *key, const json_t *value, struct glint_error *err) {
-    char text[64], *assignment = NULL;
-    if (json_is_string(value)) {
-        size_t size = strlen(key) + json_string_length(value) + 2;
-        if (!(assignment = malloc(size))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        snprintf(assignment, size, "%s=%s", key, json_string_value(value));
-    } else if (json_is_number(value) || json_is_boolean(value)) {
-        if (json_is_boolean(value)) snprintf(text, sizeof text, "%s", json_is_true(value) ? "1" : "0");
-        else snprintf(text, sizeof text, "%.17g", json_number_value(value));
-        size_t size = strlen(key) + strlen(text) + 2;
-        if (!(assignment = malloc(size))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        snprintf(assignment, size, "%s=%s", key, text);
-    } else return glint_fail(err, GLINT_ERROR_USAGE, "set: %s: expected a number, true, false or a name", key);
-    bool ok = glint_pipeline_set(pipeline, assignment, err);
-    free(assignment);
-    return ok;
+    char number[64], assignment[512];
+    const char *text = number;
+    if (json_is_string(value)) text = json_string_value(value);
+    else if (json_is_boolean(value)) text = json_is_true(value) ? "1" : "0";
+    else if (json_is_number(value)) snprintf(number, sizeof number, "%.17g", json_number_value(value));
+    else return glint_fail(err, GLINT_ERROR_USAGE, "set: %s: expected a number, true, false or a name", key);
+    if (snprintf(assignment, sizeof assignment, "%s=%s", key, text) >= (int)sizeof assignment)
+        return glint_fail(err, GLINT_ERROR_USAGE, "set: %s: expected a shorter value", key);
+    return glint_pipeline_set(pipeline, assignment, err);
 }
 
 static void apply_preset(struct glint_pipeline *pipeline, json_t *root, struct faults *faults) {

@@ -49,8 +49,8 @@ static bool append_bad(struct glint_replay *replay, const struct image_part *par
 
 bool bad_values_of_capture(struct glint_replay *replay, const struct run *run, struct glint_error *err) {
     bool ok = true;
-    for (size_t i = 0; ok && i < run->plan->graph.image_count; i++)
-        if (run->plan->graph.images[i].source == SOURCE_CAPTURE && run->needed[i] && run->images[i])
+    for (size_t i = 0; ok && i < run->graph->image_count; i++)
+        if (run->graph->images[i].source == SOURCE_CAPTURE && run->needed[i] && run->images[i])
             ok = append_bad(replay, &(struct image_part){run->images[i], &run->images[i]->levels[0].info}, err);
     replay->results.bad_captured = replay->results.bad_count;
     return ok;

@@ -12,7 +12,7 @@ static json_t *parameter_record(const struct glint_row *row, double value) {
 /* Lists are counted when the record is written. */
 static json_t *work_record(const struct run *run, size_t p) {
     const struct step *step = &run->steps[p];
-    const uint64_t rays = pass_rays(&run->plan->graph, &run->plan->graph.passes[p]);
+    const uint64_t rays = pass_rays(run->graph, &run->graph->passes[p]);
     json_t *work =
         json_pack("{sIsI}", "texels", (json_int_t)(step->texels * rays), "of", (json_int_t)run->plan->whole[p].texels);
     for (size_t d = 0; d < step->dispatch_count; d++) {
@@ -24,7 +24,7 @@ static json_t *work_record(const struct run *run, size_t p) {
 }
 
 static json_t *pass_record(const struct results *results, const struct run *run, size_t p) {
-    const struct graph_pass *pass = &run->plan->graph.passes[p];
+    const struct graph_pass *pass = &run->graph->passes[p];
     const struct glint_pass_result *result = &results->passes[p];
     json_t *object = json_object(), *parameters = json_object();
     for (size_t r = 0; r < pass->pass->row_count; r++)
@@ -38,7 +38,7 @@ static json_t *pass_record(const struct results *results, const struct run *run,
     json_object_set_new(object, "cached", json_boolean(result->cached));
     if (pass->cached_work) json_object_set_new(object, "cached_work", json_true());
     if (!pass->pass->host) {
-        const uint64_t rays = pass_rays(&run->plan->graph, pass);
+        const uint64_t rays = pass_rays(run->graph, pass);
         json_object_set_new(object, "dispatches", json_integer((json_int_t)(run->steps[p].dispatch_count * rays)));
         json_object_set_new(object, "work", work_record(run, p));
     }
@@ -64,7 +64,7 @@ static bool inputs_match(const struct run *run) {
     char hash[33];
     json_t *inputs = json_loads(glint_run_json(run->plan->inputs), 0, NULL);
     const char *theirs = json_string_value(json_object_get(json_object_get(inputs, "capture"), "xxh3_128"));
-    bool match = theirs && glint_capture_hash(run->engine->source->capture, hash, NULL) && strcmp(theirs, hash) == 0;
+    bool match = theirs && glint_capture_hash(run->source->capture, hash, NULL) && strcmp(theirs, hash) == 0;
     json_decref(inputs);
     return match;
 }
@@ -77,31 +77,29 @@ static json_int_t history_number(const struct glint_run *history) {
 }
 
 static bool diagnoses(const struct run *run) {
-    for (size_t i = 0; i < run->plan->graph.image_count; i++)
-        if (run->plan->graph.images[i].row->kind == GLINT_ROW_DIAGNOSTIC &&
-            run->plan->graph.images[i].source == SOURCE_MADE)
+    for (size_t i = 0; i < run->graph->image_count; i++)
+        if (run->graph->images[i].row->kind == GLINT_ROW_DIAGNOSTIC && run->graph->images[i].source == SOURCE_MADE)
             return true;
     return false;
 }
 
 static json_t *warnings_record(const struct run *run) {
     json_t *list = json_array();
-    for (size_t i = 0; i < run->plan->graph.image_count; i++) {
-        const struct graph_image *image = &run->plan->graph.images[i];
+    for (size_t i = 0; i < run->graph->image_count; i++) {
+        const struct graph_image *image = &run->graph->images[i];
         if (image->source == SOURCE_NOTHING && image->row->kind == GLINT_ROW_CAPTURE)
             json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
                                                      image->row->role, image->name, image->row->nothing));
     }
-    if (run->plan->options->diagnostics && !diagnoses(run))
+    if (run->options->diagnostics && !diagnoses(run))
         json_array_append_new(list, json_string("no pass that runs has the diagnostics that were asked for"));
     if (run->plan->inputs && !inputs_match(run))
-        json_array_append_new(list, json_sprintf("%s was made from another capture", run->plan->options->inputs));
-    const struct glint_frame *frame = glint_capture_frame(run->engine->source->capture);
+        json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
+    const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     if (run->plan->history && history_number(run->plan->history) + 1 != (json_int_t)frame->number)
-        json_array_append_new(list,
-                              json_sprintf("%s holds frame %lld, but this is frame %u", run->plan->options->history,
-                                           (long long)history_number(run->plan->history), frame->number));
-    if (run->plan->sizes.history && !frame->has_previous)
+        json_array_append_new(list, json_sprintf("%s holds frame %lld, but this is frame %u", run->options->history,
+                                                 (long long)history_number(run->plan->history), frame->number));
+    if (run->sizes->history && !frame->has_previous)
         json_array_append_new(list, json_string("the capture has no camera of the frame before: it counts as still"));
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
@@ -118,8 +116,8 @@ static json_t *faces_record(const struct glint_cube_faces *faces) {
 }
 
 json_t *run_record(const struct glint_replay *replay, const struct run *run) {
-    const struct glint_replay_options *options = run->plan->options;
-    const struct glint_frame *frame = glint_capture_frame(run->engine->source->capture);
+    const struct glint_replay_options *options = run->options;
+    const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     json_t *root = json_object(), *passes = json_array();
     json_object_set_new(root, "format", json_integer(1));
     json_object_set_new(root, "tool", json_pack("{ssss}", "name", "glint", "version", GLINT_VERSION));
@@ -129,19 +127,19 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     json_object_set_new(root, "first_ray", json_integer((json_int_t)run->plan->pipeline->first_ray));
     json_object_set_new(root, "preset", json_string(run->plan->pipeline->name));
     json_object_set_new(root, "resolution",
-                        json_pack("{s[ii]s[ii]}", "full", (int)run->plan->sizes.full[0], (int)run->plan->sizes.full[1],
-                                  "half", (int)run->plan->sizes.half[0], (int)run->plan->sizes.half[1]));
+                        json_pack("{s[ii]s[ii]}", "full", (int)run->sizes->full[0], (int)run->sizes->full[1], "half",
+                                  (int)run->sizes->half[0], (int)run->sizes->half[1]));
     json_object_set_new(root, "precision", json_string(options->float_precision ? "float" : "half"));
     json_object_set_new(root, "diagnostics", json_boolean(options->diagnostics));
     json_object_set_new(root, "inputs", options->inputs ? json_string(options->inputs) : json_null());
     json_object_set_new(root, "history", options->history ? json_string(options->history) : json_null());
-    json_object_set_new(root, "active_cubemaps", json_integer((json_int_t)run->plan->sizes.active));
+    json_object_set_new(root, "active_cubemaps", json_integer((json_int_t)run->sizes->active));
     json_object_set_new(root, "cube_faces", faces_record(&run->plan->faces));
     json_object_set_new(root, "all", json_boolean(options->all));
     json_object_set_new(root, "survey",
                         replay->planner.survey.done && !options->all ? survey_record(&replay->planner.survey, frame)
                                                                      : json_null());
-    for (size_t p = 0; p < run->plan->graph.pass_count; p++)
+    for (size_t p = 0; p < run->graph->pass_count; p++)
         json_array_append_new(passes, pass_record(&replay->results, run, p));
     json_object_set_new(root, "passes", passes);
     json_object_set_new(root, "warnings", warnings_record(run));

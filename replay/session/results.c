@@ -16,7 +16,7 @@ void results_forget(struct glint_replay *replay) {
 }
 
 static void store_pass(const struct run *run, size_t p, struct results *results) {
-    const struct graph_pass *pass = &run->plan->graph.passes[p];
+    const struct graph_pass *pass = &run->graph->passes[p];
     const struct step *step = &run->steps[p];
     struct glint_pass_result *result = &results->passes[p];
     *result = (struct glint_pass_result){.pass = pass->pass,
@@ -33,7 +33,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     }
     result->cached = !step->execute;
     result->key = step->key;
-    if (!run->plan->options->outputs) /* a file of all its images */
+    if (!run->options->outputs) /* a file of all its images */
         memcpy(results->cache_keys[p], step->cache_key, CACHE_KEY_SIZE);
     result->time = glint_time_statistics(step->ns, step->timed);
 }

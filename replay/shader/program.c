@@ -112,8 +112,10 @@ bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_erro
     };
     const VkDescriptorSetLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
-    if (result == VK_SUCCESS) result = vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame);
-    if (result != VK_SUCCESS) return vk_fail(err, "creating the samplers", result);
+    if (result == VK_SUCCESS)
+        if (!vk_ok(vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame), "creating the samplers",
+                   err))
+            return false;
     device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
     return true;
 }

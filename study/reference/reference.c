@@ -71,20 +71,7 @@ static bool reached(const struct glint_reference_state *state, uint32_t rays, do
     return state->rays >= rays || (noise > 0 && state->rays > 0 && state->noise[0].relative <= noise);
 }
 
-/* Some rays, as the caller sees all that this call has to do. */
-struct part {
-    glint_progress progress;
-    void *user;
-    char text[64];
-    double done, share;
-};
-static bool report_part(void *user, const char *what, double done) {
-    struct part *part = user;
-    (void)what;
-    return !part->progress || part->progress(part->user, part->text, part->done + part->share * done);
-}
-
-static void describe_part(struct part *part, const struct glint_reference_state *state, uint32_t first,
+static void describe_part(struct glint_progress_part *part, const struct glint_reference_state *state, uint32_t first,
                           double expected) {
     const double todo = fmax(expected - first, 1);
     const int length = snprintf(part->text, sizeof part->text, "%u of %.0f rays", all_rays(state),
@@ -97,13 +84,13 @@ static void describe_part(struct part *part, const struct glint_reference_state 
 }
 
 /* The next rays, and what follows when they complete a round. */
-static bool trace_part(struct glint_reference *reference, struct part *part, struct glint_error *err) {
+static bool trace_part(struct glint_reference *reference, struct glint_progress_part *part, struct glint_error *err) {
     struct glint_reference_state *state = &reference->state;
     struct halves *halves = &reference->halves;
     const uint32_t before = halves->rays;
     const double start = glint_now_seconds();
     part->share *= halves_next(halves, reference);
-    bool ok = halves_run(halves, reference, reference->pipeline, report_part, part, err);
+    bool ok = halves_run(halves, reference, reference->pipeline, glint_report_part, part, err);
     state->begun = halves->batched[0] + halves->batched[1];
     if (ok) state->seconds += glint_now_seconds() - start;
     if (ok && halves->rays != before)
@@ -122,7 +109,7 @@ static bool save(struct glint_reference *reference, uint32_t *kept, struct glint
 bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, double noise, glint_progress progress,
                            void *user, struct glint_error *err) {
     struct glint_reference_state *state = &reference->state;
-    struct part part = {.progress = progress, .user = user};
+    struct glint_progress_part part = {.progress = progress, .user = user};
     const uint32_t first = all_rays(state);
     uint32_t kept = state->rays;
     double saved = glint_now_seconds();

@@ -100,24 +100,13 @@ bool halves_run(struct halves *halves, const struct glint_reference *reference, 
     return true;
 }
 
-/* Part of a round, as its caller sees the whole. */
-struct part {
-    glint_progress progress;
-    void *user;
-    double done, share;
-};
-static bool report_part(void *user, const char *what, double done) {
-    struct part *part = user;
-    return !part->progress || part->progress(part->user, what, part->done + part->share * done);
-}
-
 bool halves_trace(struct halves *halves, const struct glint_reference *reference, struct glint_pipeline *pipeline,
                   glint_progress progress, void *user, struct glint_error *err) {
     const double round = GLINT_REFERENCE_ROUND;
     do {
         const double done = halves->batched[0] + halves->batched[1];
-        struct part part = {progress, user, done / round, halves_next(halves, reference) / round};
-        if (!halves_run(halves, reference, pipeline, report_part, &part, err)) return false;
+        struct glint_progress_part part = {progress, user, done / round, halves_next(halves, reference) / round, ""};
+        if (!halves_run(halves, reference, pipeline, glint_report_part, &part, err)) return false;
     } while (halves->batched[0]);
     return true;
 }

@@ -31,25 +31,12 @@ static void list_assumptions(const struct glint_pipeline *pipeline, struct glint
     }
 }
 
-/* One of the references that are traced, as the caller sees all of them. */
-struct part {
-    glint_progress progress;
-    void *user;
-    char text[64];
-    double done, share;
-};
-static bool report_part(void *user, const char *what, double done) {
-    struct part *part = user;
-    (void)what;
-    return !part->progress || part->progress(part->user, part->text, part->done + part->share * done);
-}
-
 static bool trace(const struct glint_reference *reference, struct glint_pipeline *pipeline, uint32_t rays,
-                  struct part part, struct halves *halves, struct glint_error *err) {
+                  struct glint_progress_part part, struct halves *halves, struct glint_error *err) {
     const uint32_t rounds = (rays + GLINT_REFERENCE_ROUND - 1) / GLINT_REFERENCE_ROUND;
     part.share /= rounds;
     for (uint32_t r = 0; r < rounds; r++, part.done += part.share)
-        if (!halves_trace(halves, reference, pipeline, report_part, &part, err)) return false;
+        if (!halves_trace(halves, reference, pipeline, glint_report_part, &part, err)) return false;
     return true;
 }
 
@@ -79,7 +66,7 @@ static bool compare(const struct halves *base, struct halves *changed, const uin
 }
 
 static bool try_row(const struct glint_reference *reference, uint32_t rays, const struct halves *base,
-                    struct glint_reference_assumption *row, struct part *part, struct glint_error *err) {
+                    struct glint_reference_assumption *row, struct glint_progress_part *part, struct glint_error *err) {
     char assignment[192];
     struct halves halves = {0};
     struct glint_pipeline *pipeline = glint_pipeline_copy(reference->pipeline, err);
@@ -109,7 +96,7 @@ static bool keep(struct glint_reference *reference, const struct glint_reference
 
 bool glint_reference_sensitivity(struct glint_reference *reference, uint32_t rays, glint_progress progress, void *user,
                                  struct glint_reference_sensitivity *sensitivity, struct glint_error *err) {
-    struct part part = {.progress = progress, .user = user, .text = "as it is"};
+    struct glint_progress_part part = {.progress = progress, .user = user, .text = "as it is"};
     struct halves base = {0};
     size_t runs = 1;
     *sensitivity = (struct glint_reference_sensitivity){0};

@@ -1,7 +1,7 @@
 /* What a run gives, and why its rays ended: what its images say by themselves, without a truth. */
 #include "glint/probe.h"
 #include "glint/study.h"
-#include "roles.h"
+#include "values.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,17 +12,6 @@ enum { REASONS = GLINT_END_REASONS, TRACERS = 8 };
 
 static struct glint_probe_word reason_of(size_t group) {
     return glint_probe_word("end reason", (float)(group % REASONS));
-}
-
-static void *read_image(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
-                        struct glint_error *err) {
-    void *values = malloc((size_t)image->width * image->height * image->components * sizeof(float));
-    if (!values) glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
-    else if (!glint_replay_read_image(replay, image, type, values, err)) {
-        free(values);
-        values = NULL;
-    }
-    return values;
 }
 
 /* The texel of an image of another size that a pixel falls into. */
@@ -38,7 +27,7 @@ uint8_t *glint_study_given(struct glint_replay *replay, const struct glint_pixel
     uint8_t *given = malloc(pixels);
     float *contribution = NULL;
     if (!given) glint_fail(err, GLINT_ERROR_MEMORY, "reflection: out of memory");
-    if (given && image && !(contribution = read_image(replay, image, GLINT_F32, err))) {
+    if (given && image && !(contribution = study_values(replay, image, GLINT_F32, err))) {
         free(given);
         return NULL;
     }
@@ -80,7 +69,7 @@ static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, si
             if (!t->end || (first && (t->end->width != first->width || t->end->height != first->height))) continue;
             const char *cut = strrchr(row->name, '_');
             snprintf(t->name, sizeof t->name, "%.*s", cut ? (int)(cut - row->name) : 31, row->name);
-            if (!(t->reasons = read_image(replay, t->end, GLINT_U32, err))) return false;
+            if (!(t->reasons = study_values(replay, t->end, GLINT_U32, err))) return false;
             ++*count;
         }
     return true;
@@ -99,7 +88,7 @@ static size_t group_of(const struct tracer *tracers, size_t count, size_t texel)
 static bool forget_rays(struct glint_replay *replay, struct tracer *tracers, size_t count, const uint8_t *surfaces,
                         const struct glint_pixels *full, struct glint_error *err) {
     const struct glint_image *image = study_image(replay, GLINT_ROLE_RAY_PICK), *end = tracers[0].end;
-    uint32_t *pick = image ? read_image(replay, image, GLINT_U32, err) : NULL;
+    uint32_t *pick = image ? study_values(replay, image, GLINT_U32, err) : NULL;
     const uint32_t scale = end->width == full->width && end->height == full->height ? 1 : 2;
     if (image && !pick) return false;
     for (size_t i = 0; i < (size_t)end->width * end->height; i++) {
@@ -118,7 +107,7 @@ static bool add_up(struct glint_replay *replay, const struct tracer *tracers, si
                    double *sum, struct glint_error *err) {
     for (size_t t = 0; t < count; t++) {
         const struct glint_image *image = image_of(replay, &tracers[t], what);
-        uint32_t *values = image ? read_image(replay, image, GLINT_U32, err) : NULL;
+        uint32_t *values = image ? study_values(replay, image, GLINT_U32, err) : NULL;
         if (image && !values) return false;
         for (size_t i = 0; image && i < (size_t)image->width * image->height; i++)
             if (group_of(tracers, count, i)) *sum += (double)values[i * image->components];

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "values.h"
+
 static const struct glint_image *picture_of(struct glint_replay *replay, const struct glint_pass *pass) {
     const struct glint_image *last = NULL;
     for (size_t i = 0; i < pass->row_count; i++) {
@@ -53,14 +55,12 @@ bool glint_study_over(const struct glint_pixels *picture, struct glint_capture *
                                  *over = glint_capture_find(capture, part);
     *error = (struct glint_image_error){0};
     if (!scene || !over) return true;
-    size_t pixels = (size_t)scene->width * scene->height;
-    struct glint_pixels truth = {scene->width, scene->height, 3, malloc(pixels * 3 * sizeof(float))};
-    float *z = malloc(pixels * sizeof *z);
+    const size_t pixels = (size_t)scene->width * scene->height;
+    struct glint_pixels truth = {scene->width, scene->height, 3, study_channels(capture, scene->name, rgb, 3, err)};
+    float *z = truth.values ? study_channels(capture, part, depth, 1, err) : NULL;
     uint8_t *mask = calloc(pixels, 1);
     struct glint_image_errors errors = {0};
-    bool ok = ((truth.values && z && mask) || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part)) &&
-              glint_capture_read(capture, scene, rgb, 3, GLINT_F32, truth.values, 0, err) &&
-              glint_capture_read(capture, over, depth, 1, GLINT_F32, z, 0, err);
+    bool ok = z && (mask || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part));
     for (size_t i = 0; ok && i < pixels; i++) mask[i] = z[i] < INFINITY ? GLINT_SURFACE_MIRROR : GLINT_SURFACE_NONE;
     ok = ok && glint_study_image(picture, &truth, 3, mask, NULL, &errors, err);
     *error = errors.of[0];

@@ -1,6 +1,7 @@
 /* What runs are compared with, and what of them: the last reflection, the truth, the class of each pixel. */
 #include "glint/study.h"
 #include "question.h"
+#include "values.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,31 +14,18 @@ static bool composes(const struct glint_pass *pass) {
 
 uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error *err) {
     static const char *const channels[] = {"depth.Z", "material.roughness", "material.metalness", "material.specular"};
+    float *values = study_channels(capture, GLINT_PART_GBUFFER, channels, 4, err);
+    if (!values) return NULL;
     const struct glint_part_info *part = glint_capture_find(capture, GLINT_PART_GBUFFER);
-    if (!part) {
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
-        return NULL;
-    }
-    size_t pixels = (size_t)part->width * part->height;
+    const size_t pixels = (size_t)part->width * part->height;
     uint8_t *surfaces = calloc(pixels, 1);
-    float *values = malloc(pixels * 4 * sizeof *values);
-    bool ok = (surfaces && values) || glint_fail(err, GLINT_ERROR_MEMORY, "part gbuffer: out of memory");
-    if (ok) ok = glint_capture_read(capture, part, channels, 4, GLINT_F32, values, 0, err);
-    for (size_t i = 0; ok && i < pixels; i++) {
+    if (!surfaces) glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+    for (size_t i = 0; surfaces && i < pixels; i++) {
         const float *v = values + 4 * i;
         if (v[0] < INFINITY && (v[2] > 0 || v[3] > 0)) surfaces[i] = (uint8_t)glint_surface_of((double)v[1]);
     }
     free(values);
-    if (ok) return surfaces;
-    free(surfaces);
-    return NULL;
-}
-
-static bool allocate(struct glint_pixels *pixels, uint32_t width, uint32_t height, uint32_t components,
-                     struct glint_error *err) {
-    *pixels = (struct glint_pixels){width, height, components, NULL};
-    pixels->values = malloc((size_t)width * height * components * sizeof *pixels->values);
-    return pixels->values || glint_fail(err, GLINT_ERROR_MEMORY, "reflection: no memory for %u × %u", width, height);
+    return surfaces;
 }
 
 /* The last of the pass's images that holds a reflection at full resolution, of those that `compose` reads where the run
@@ -73,8 +61,8 @@ bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pi
     const struct glint_image *last = glint_study_reflection_image(replay);
     *pixels = (struct glint_pixels){0};
     if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection at full resolution to compare");
-    return allocate(pixels, last->width, last->height, last->components, err) &&
-           glint_replay_read_image(replay, last, GLINT_F32, pixels->values, err);
+    *pixels = (struct glint_pixels){last->width, last->height, last->components, NULL};
+    return (pixels->values = study_values(replay, last, GLINT_F32, err)) != NULL;
 }
 
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err) {
@@ -97,8 +85,10 @@ bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixe
         last = image;
     }
     if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection to compare with");
-    return allocate(pixels, last->width, last->height, last->components, err) &&
-           glint_run_read(run, last, GLINT_F32, pixels->values, err);
+    *pixels = (struct glint_pixels){last->width, last->height, last->components, NULL};
+    pixels->values = malloc((size_t)last->width * last->height * last->components * sizeof *pixels->values);
+    return pixels->values ? glint_run_read(run, last, GLINT_F32, pixels->values, err)
+                          : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", last->name);
 }
 
 /* The value of a parameter as text, as glint_pipeline_set takes it; false when the pipeline has no such parameter. */
@@ -138,12 +128,8 @@ static bool truth_errors(struct glint_capture *capture, const struct glint_part_
                          struct glint_error *err) {
     const char *const channels[] = {glint_part_has_channel(part, "error") ? "error" : NULL, "weight"};
     const size_t pixels = (size_t)part->width * part->height;
-    float *read = malloc(2 * pixels * sizeof *read);
-    if (!read) return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
-    if (!glint_capture_read(capture, part, channels, 2, GLINT_F32, read, 0, err)) {
-        free(read);
-        return false;
-    }
+    float *read = study_channels(capture, part->name, channels, 2, err);
+    if (!read) return false;
     for (size_t i = 0; i < pixels; i++) read[i] = read[2 * i + 1] > 0 ? read[2 * i] : INFINITY;
     *error = read;
     return true;
@@ -160,10 +146,8 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_pipelin
     snprintf(name, sizeof name, "truth.reflection.%s", lobe);
     const struct glint_part_info *part = glint_capture_find(capture, name);
     if (!part) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
-    if (!allocate(pixels, part->width, part->height, 3, err) ||
-        !glint_capture_read(capture, part, rgb, 3, GLINT_F32, pixels->values, 0, err))
-        return false;
-    return truth_errors(capture, part, error, err);
+    *pixels = (struct glint_pixels){part->width, part->height, 3, study_channels(capture, name, rgb, 3, err)};
+    return pixels->values && truth_errors(capture, part, error, err);
 }
 
 void study_question(const struct glint_pipeline *pipeline, char question[QUESTION_SIZE]) {

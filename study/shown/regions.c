@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "parallel.h"
+#include "values.h"
 
 enum { LIMITS = 3 };
 static const double angle_limits[LIMITS] = {0.1, 0.25, 0.5}, distance_limits[LIMITS] = {3, 10, 30},
@@ -59,27 +60,15 @@ static void label_rows(void *user, size_t first, size_t last) {
     }
 }
 
-static float *read_channels(struct glint_capture *capture, const char *name, const char *const *names, size_t count,
-                            struct glint_error *err) {
-    const struct glint_part_info *part = glint_capture_find(capture, name);
-    float *values = malloc((size_t)part->width * part->height * count * sizeof *values);
-    if (!values) glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
-    else if (!glint_capture_read(capture, part, names, count, GLINT_F32, values, 0, err)) {
-        free(values);
-        values = NULL;
-    }
-    return values;
-}
-
 /* The first set's labels are there, which says that the part is. */
 static bool label_all(struct glint_capture *capture, struct glint_classes *sets, size_t count,
                       struct glint_error *err) {
     static const char *const distance[] = {"distance.Z"};
     const struct glint_part_info *part = glint_capture_find(capture, GLINT_PART_GBUFFER);
     const size_t pixels = (size_t)part->width * part->height;
-    float *gbuffer = read_channels(capture, GLINT_PART_GBUFFER, channels, CHANNELS, err);
+    float *gbuffer = study_channels(capture, GLINT_PART_GBUFFER, channels, CHANNELS, err);
     float *hits =
-        gbuffer && count > GLINT_CLASSES_HIT ? read_channels(capture, "truth.mirror", distance, 1, err) : NULL;
+        gbuffer && count > GLINT_CLASSES_HIT ? study_channels(capture, "truth.mirror", distance, 1, err) : NULL;
     bool ok = gbuffer && (hits || count <= GLINT_CLASSES_HIT);
     for (size_t k = 1; ok && k < count; k++)
         if (!(sets[k].labels = calloc(pixels, 1))) ok = glint_fail(err, GLINT_ERROR_MEMORY, "classes: out of memory");

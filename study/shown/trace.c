@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "distances.h"
-#include "roles.h"
+#include "values.h"
 
 enum { REASONS = GLINT_END_REASONS, TRACERS = 2, GROUPS = TRACERS * REASONS };
 static const char *const tracers[TRACERS] = {"screen", "cube map"};
@@ -31,27 +31,7 @@ static bool get_image(struct glint_replay *replay, enum glint_pass_role role, en
         return glint_fail(err, GLINT_ERROR_USAGE, "the run has no image of %s: expected one with diagnostics on",
                           required);
     *out = (struct pixels){image->width, image->height, image->components, {NULL}};
-    out->data.any = malloc((size_t)image->width * image->height * image->components * sizeof(float));
-    if (!out->data.any) return glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
-    return glint_replay_read_image(replay, image, type, out->data.any, err);
-}
-
-/* Channels of a part of the truth, interleaved; NULL with an error. */
-static float *read_truth(struct glint_capture *capture, const char *name, const char *const *channels, size_t count,
-                         struct glint_error *err) {
-    const struct glint_part_info *part = glint_capture_find(capture, name);
-    if (!part) {
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
-        return NULL;
-    }
-    float *truth = malloc((size_t)part->width * part->height * count * sizeof *truth);
-    if (!truth) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
-        return NULL;
-    }
-    if (glint_capture_read(capture, part, channels, count, GLINT_F32, truth, 0, err)) return truth;
-    free(truth);
-    return NULL;
+    return (out->data.any = study_values(replay, image, type, err)) != NULL;
 }
 
 struct sample {
@@ -113,12 +93,12 @@ struct inputs {
 static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct glint_capture *capture,
                         struct glint_error *err) {
     static const char *const radiance[] = {"R", "G", "B", "weight"}, *const mirror[] = {"distance.Z", "visible"};
-    in->mirror = read_truth(capture, "truth.mirror", mirror, 2, err);
+    in->mirror = study_channels(capture, "truth.mirror", mirror, 2, err);
     if (!in->mirror) return false;
     in->width = glint_capture_find(capture, "truth.mirror")->width;
     in->height = glint_capture_find(capture, "truth.mirror")->height;
     if (glint_capture_find(capture, "truth.reflection.ggx")) {
-        in->radiance = read_truth(capture, "truth.reflection.ggx", radiance, 4, err);
+        in->radiance = study_channels(capture, "truth.reflection.ggx", radiance, 4, err);
         if (!in->radiance) return false;
     }
     return get_image(replay, GLINT_ROLE_RAY_NORMAL, GLINT_F32, "normals", &in->normal, err) &&

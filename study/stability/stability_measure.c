@@ -1,5 +1,6 @@
 /* Replays a frame as it is and with perturbed values, and gathers what that changes. */
 #include "measuring.h"
+#include "values.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,19 +33,8 @@ static bool no_memory(struct glint_error *err) {
 
 /* ---- Runs ---- */
 
-/* One of the runs, as the caller sees all of them. */
-struct part {
-    glint_progress progress;
-    void *user;
-    double done, share;
-};
-static bool report_part(void *user, const char *what, double done) {
-    const struct part *part = user;
-    return !part->progress || part->progress(part->user, what, part->done + part->share * done);
-}
-
 static bool run_frame(const struct measuring *m, const struct glint_pipeline *pipeline, uint32_t seed,
-                      struct part *part, struct glint_error *err) {
+                      struct glint_progress_part *part, struct glint_error *err) {
     const struct glint_replay_options options = {.captured = true,
                                                  .diagnostics = true,
                                                  .float_precision = !m->options->half,
@@ -53,18 +43,12 @@ static bool run_frame(const struct measuring *m, const struct glint_pipeline *pi
     part->done = part->share * seed;
     return glint_capture_perturb(m->capture, seed, m->options->inputs, err) &&
            glint_replay_load(m->replay, m->capture, err) &&
-           glint_replay_run(m->replay, pipeline, &options, report_part, part, err);
+           glint_replay_run(m->replay, pipeline, &options, glint_report_part, part, err);
 }
 
+/* Of float or uint. */
 static uint32_t *read_bits(const struct measuring *m, const struct glint_image *image, struct glint_error *err) {
-    uint32_t *bits = malloc((size_t)image->width * image->height * image->components * sizeof *bits);
-    const enum glint_type type = glint_format_is_uint(image->format) ? GLINT_U32 : GLINT_F32;
-    if (!bits) no_memory(err);
-    else if (!glint_replay_read_image(m->replay, image, type, bits, err)) {
-        free(bits);
-        bits = NULL;
-    }
-    return bits;
+    return study_values(m->replay, image, glint_format_is_uint(image->format) ? GLINT_U32 : GLINT_F32, err);
 }
 
 /* ---- What there is to look at ---- */
@@ -219,7 +203,7 @@ bool glint_stability_measure(struct glint_replay *replay, struct glint_capture *
     *stability = (struct glint_stability){.seeds = options->seeds ? options->seeds : GLINT_STABILITY_SEEDS,
                                           .bound = options->bound > 0 ? options->bound : GLINT_STABILITY_BOUND};
     struct measuring m = {.replay = replay, .capture = capture, .options = options, .out = stability};
-    struct part part = {.progress = progress, .user = user, .share = 1.0 / (stability->seeds + 1)};
+    struct glint_progress_part part = {.progress = progress, .user = user, .share = 1.0 / (stability->seeds + 1)};
     bool ok = stability->seeds <= UINT8_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "seeds: expected 1 to %d, found %u", UINT8_MAX, stability->seeds);
     ok = ok && run_frame(&m, pipeline, 0, &part, err) && (m.surfaces = glint_study_surfaces(capture, err)) &&

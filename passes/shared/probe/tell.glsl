@@ -1,4 +1,4 @@
-// The story of single pixels, told while they are computed (replay/probe.c). Without probes the constant probe_pass is 0, and
+// The story of single pixels, told while they are computed (replay/engine/probe.c). Without probes the constant probe_pass is 0, and
 // nothing of it is left in the program; with them no other value of a pass is computed differently.
 #ifndef GLINT_PROBE
 #define GLINT_PROBE

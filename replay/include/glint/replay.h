@@ -21,6 +21,15 @@ double glint_now_seconds(void); /* of a clock that only goes forward */
 /* Tells whoever follows a call how far it is (NULL: nobody); false with an error when they want it to stop. */
 bool glint_report_progress(glint_progress progress, void *user, const char *what, double done, struct glint_error *err);
 
+/* Part of a longer call: what it reports, as whoever follows the whole sees it. */
+struct glint_progress_part {
+    glint_progress progress;
+    void *user;
+    double done, share; /* of the whole: how much is done, how much this part is */
+    char text[64];      /* "": what the part says */
+};
+bool glint_report_part(void *part, const char *what, double done); /* a glint_progress */
+
 /* ---- Devices ---- */
 
 struct glint_device_info {

@@ -1,0 +1,52 @@
+/* Descriptor pools, sets and what they point at. */
+#include "gpu.h"
+
+bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescriptorPool *pool,
+                        struct glint_error *err) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, images},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, images},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, images},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, images},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
+    const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                             .maxSets = sets,
+                                             .poolSizeCount = sizeof sizes / sizeof sizes[0],
+                                             .pPoolSizes = sizes};
+    return vk_ok(vkCreateDescriptorPool(gpu->device, &info, NULL, pool), "creating the descriptor pool", err);
+}
+
+bool descriptors_allocate(struct gpu *gpu, VkDescriptorPool pool, const VkDescriptorSetLayout *layout, const char *name,
+                          VkDescriptorSet *set, struct glint_error *err) {
+    const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                              .descriptorPool = pool,
+                                              .descriptorSetCount = 1,
+                                              .pSetLayouts = layout};
+    if (!vk_ok(vkAllocateDescriptorSets(gpu->device, &info, set), "allocating descriptors", err)) return false;
+    device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)*set, name);
+    return true;
+}
+
+static void write_descriptor(struct gpu *gpu, VkWriteDescriptorSet write) {
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.descriptorCount = 1;
+    vkUpdateDescriptorSets(gpu->device, 1, &write, 0, NULL);
+}
+
+void descriptor_set_image(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                          VkImageView view, VkBufferView buffer) {
+    const VkDescriptorImageInfo info = {.imageView = view, .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
+    write_descriptor(gpu, (VkWriteDescriptorSet){.dstSet = set,
+                                                 .dstBinding = binding,
+                                                 .descriptorType = type,
+                                                 .pImageInfo = &info,
+                                                 .pTexelBufferView = &buffer});
+}
+
+void descriptor_set_buffer(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                           const struct host_buffer *buffer, VkDeviceSize size) {
+    const VkDescriptorBufferInfo info = {buffer->buffer, 0, size};
+    write_descriptor(gpu, (VkWriteDescriptorSet){
+                              .dstSet = set, .dstBinding = binding, .descriptorType = type, .pBufferInfo = &info});
+}

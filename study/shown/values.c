@@ -1,0 +1,36 @@
+/* Values of runs and captures in memory. */
+#include "values.h"
+
+#include <stdlib.h>
+
+const struct glint_image *study_image(const struct glint_replay *replay, enum glint_pass_role role) {
+    size_t count;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    const struct glint_image *last = NULL;
+    for (size_t i = 0; i < count; i++) {
+        const struct glint_row *row = glint_pass_role(results[i].pass, role);
+        const struct glint_image *image = row ? glint_replay_find_image(replay, row->image) : NULL;
+        if (image) last = image;
+    }
+    return last;
+}
+
+void *study_values(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
+                   struct glint_error *err) {
+    void *values = malloc((size_t)image->width * image->height * image->components * sizeof(float));
+    if (!values) glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", image->name);
+    if (values && glint_replay_read_image(replay, image, type, values, err)) return values;
+    free(values);
+    return NULL;
+}
+
+float *study_channels(struct glint_capture *capture, const char *name, const char *const *channels, size_t count,
+                      struct glint_error *err) {
+    const struct glint_part_info *part = glint_capture_find(capture, name);
+    float *values = part ? malloc((size_t)part->width * part->height * count * sizeof *values) : NULL;
+    if (!part) glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
+    else if (!values) glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", name);
+    if (values && glint_capture_read(capture, part, channels, count, GLINT_F32, values, 0, err)) return values;
+    free(values);
+    return NULL;
+}
