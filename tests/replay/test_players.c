@@ -120,7 +120,7 @@ static void players_run_from_the_last_to_the_first(void **state) {
     /* Told by images: the trace reads a pyramid that the reference does not make. By declarations: the others. */
     assert_non_null(strstr(glint_player_why(players, 4), "screen_trace/hiz reads hiz, which only hiz/nearest makes"));
     assert_non_null(strstr(glint_player_change(players, 5), "lit_mips cone left out"));
-    assert_non_null(strstr(glint_player_why(players, 5), "lit_mips: its levels stand for the cones"));
+    assert_non_null(strstr(glint_player_why(players, 5), "lit_mips: its levels represent the cones"));
     assert_string_equal(glint_player_why(players, 2), "");
     glint_players_destroy(&players);
     glint_pipeline_destroy(&pipeline);
@@ -230,7 +230,7 @@ static void values_go_with_their_owners(void **state) {
         struct glint_pipeline *made = exchanged(players, c);
         assert_true(value(made, "cubemap_mips", "join") == (c & trace ? 1 : 0)); /* mean, nearest */
         assert_string_equal(pipeline_find(made, "cubemap_mips")->pass->variant, c & down ? "plain" : "prefilter");
-        assert_true(value(made, "downsample", "share") == (c & down ? 1 : 0.5));
+        assert_true(value(made, "downsample", "share") == (c & down ? 1 : 0.25));
         assert_int_equal(glint_pipeline_rays(made), c >> player(players, "rays") & 1 ? 7 : 1);
         glint_pipeline_destroy(&made);
     }
