@@ -120,7 +120,7 @@ static void players_run_from_the_last_to_the_first(void **state) {
     /* Told by images: the trace reads a pyramid that the reference does not make. By declarations: the others. */
     assert_non_null(strstr(glint_player_why(players, 4), "screen_trace/hiz reads hiz, which only hiz/nearest makes"));
     assert_non_null(strstr(glint_player_change(players, 5), "lit_mips cone left out"));
-    assert_non_null(strstr(glint_player_why(players, 5), "lit_mips: its levels stand for the cones"));
+    assert_non_null(strstr(glint_player_why(players, 5), "lit_mips: its levels represent the cones"));
     assert_string_equal(glint_player_why(players, 2), "");
     glint_players_destroy(&players);
     glint_pipeline_destroy(&pipeline);
