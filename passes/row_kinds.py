@@ -50,7 +50,7 @@ def choice(*options):
     values = ' '.join(f'const int $name##_##${o} = {i};' for i, o in enumerate(options))
     return Kind(
         f'CHOICE{len(options)}', f'name, initial, {", ".join(options)}, source, help',
-        'A parameter as a specialization constant with named values (CHOICE2, CHOICE3, CHOICE4).', as_kind='CHOICE',
+        'A parameter as a specialization constant with named values (CHOICE2 to CHOICE5).', as_kind='CHOICE',
         names=f'enum {{ {places} }};',
         row=(f'.name = #$name, .type = GLINT_VALUE_INT, .initial = PLACE($name, $initial), .lowest = 0, .highest = {len(options) - 1}, '
              '.unit = "1", .source = $source, .help = $help, .choices = (const char *const[]){'
@@ -100,6 +100,7 @@ KINDS = [
     choice('a', 'b'),
     choice('a', 'b', 'c'),
     choice('a', 'b', 'c', 'd'),
+    choice('a', 'b', 'c', 'd', 'e'),
     Kind('PUSH', 'type, name, initial, lowest, highest, unit, source, help', 'A parameter as a push constant, for what varies cheaply.',
          row=VALUE, push='$type $name;'),
     Kind('ASSUMED', 'parameter',

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "blame/blame.h"
-#include "pass_names.h"
-#include "pipeline_args.h"
+#include "options/pass_names.h"
+#include "options/pipeline_args.h"
 
 struct arguments {
     struct blame blame;
@@ -98,7 +98,7 @@ static error_t parse_more(int key, char *arg, struct argp_state *state, struct a
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_blame_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     struct glint_shapley_options *shapley = &a->blame.options;
     double percent;
@@ -147,7 +147,7 @@ static bool choose_metric(struct arguments *a, struct glint_error *err) {
     return true;
 }
 
-static bool begin(struct arguments *a, struct glint_error *err) {
+static bool begin_blame(struct arguments *a, struct glint_error *err) {
     struct blame *blame = &a->blame;
     blame->all = a->pipeline.replay.all;
     if (!choose_metric(a, err)) return false;
@@ -180,7 +180,7 @@ static void interrupted(struct blame *blame, bool json, bool shown) {
         command_note(&cmd_blame, "%s keeps what was found; the same command goes on from there", blame->out);
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_blame_run(int argc, char **argv) {
     struct arguments a = {.blame = {.metric = GLINT_METRIC_SYMMETRIC,
                                     .rounds = 3,
                                     .options = {.exact = 8, .interval = 0.02, .permutations = 200, .seed = 1}}};
@@ -192,7 +192,7 @@ static enum status run(int argc, char **argv) {
     progress_begin(&progress);
     blame->progress = &progress;
     progress.lines = a.progress;
-    const bool ok = begin(&a, &err) && work(blame, a.json, &shown, &err);
+    const bool ok = begin_blame(&a, &err) && work(blame, a.json, &shown, &err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_blame, &err);
     if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->captured) interrupted(blame, a.json, shown);
@@ -225,7 +225,7 @@ const struct command cmd_blame = {
         "which "
         "the truth lacks. Captures are taken each by itself, without the history of a shot; --shot gives it one.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_blame_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_blame_run,
 };

@@ -32,7 +32,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_check;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_check_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case KEY_BASELINE:
@@ -59,7 +59,7 @@ struct counts {
     size_t changed, added, gone;
 };
 
-static struct counts count(const struct diff *diff) {
+static struct counts count_pairs(const struct diff *diff) {
     struct counts counts = {0};
     for (size_t i = 0; i < diff->count; i++) {
         const struct diff_pair *pair = &diff->pairs[i];
@@ -91,7 +91,7 @@ static bool check_both(const struct arguments *a, const struct check_pair *pair,
     json_t *json = ok && list ? diff_json(&diff) : NULL;
     if (ok && !list && !a->diff.quiet) diff_print(&diff, a->diff.verbose);
     if (ok) *status = diff.status;
-    const struct counts counts = count(&diff);
+    const struct counts counts = count_pairs(&diff);
     diff_finish(&diff);
     if (ok && a->approve) {
         *status = DIFF_SAME;
@@ -142,7 +142,7 @@ static bool check_all(const struct arguments *a, const struct check_pairs *pairs
     return true;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_check_run(int argc, char **argv) {
     struct arguments a = {.diff = diff_args_default()};
     struct glint_error err = {0};
     struct check_pairs pairs;
@@ -171,8 +171,8 @@ const struct command cmd_check = {
     .options = options,
     .one_dash = true,
     .usage_status = DIFF_USAGE,
-    .parse = parse,
+    .parse = cmd_check_parse,
     .examples = examples,
     .values = metric_args_values,
-    .run = run,
+    .run = cmd_check_run,
 };

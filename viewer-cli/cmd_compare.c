@@ -2,11 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/contest.h"
-#include "page/page.h"
-#include "pipe.h"
-#include "view/png_file.h"
-#include "text_file.h"
+#include "compare/compare.h"
+#include "draw/page/page.h"
+#include "io/pipe.h"
+#include "draw/view/png_file.h"
+#include "io/text_file.h"
 
 struct arguments {
     struct list captures, presets, settings;
@@ -39,13 +39,13 @@ static const struct example examples[] = {
 
 extern const struct command cmd_compare;
 
-static char *values(int key) {
+static char *cmd_compare_values(int key) {
     const char *names[64] = {NULL};
     for (size_t i = 0; i < sizeof names / sizeof *names - 1 && glint_preset(i); i++) names[i] = glint_preset(i);
     return key == KEY_PRESETS ? join_names("", names) : NULL;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_compare_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     bool named = a->presets.count > 0;
     switch (key) {
@@ -186,7 +186,7 @@ static enum status compare(struct contest *contest, const struct arguments *a, s
     return status;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_compare_run(int argc, char **argv) {
     struct arguments a = {.rounds = 3};
     command_parse(&cmd_compare, argc, argv, &a);
     struct glint_error err = {0};
@@ -213,8 +213,8 @@ const struct command cmd_compare = {
         "steps and texture fetches of a ray, and the time of all passes, measured in turns. Passes that a scene has "
         "nothing for are left out and named. Fog is off, which the truth lacks.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_compare_parse,
     .examples = examples,
-    .values = values,
-    .run = run,
+    .values = cmd_compare_values,
+    .run = cmd_compare_run,
 };

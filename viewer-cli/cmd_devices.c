@@ -1,9 +1,9 @@
 /* glint devices: the Vulkan devices of this machine, best first. */
 #include <string.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "glint/replay.h"
-#include "table.h"
+#include "io/table.h"
 
 static const struct argp_option options[] = {
     {"json", 'j', NULL, 0, "Print JSON", 0},
@@ -17,7 +17,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_devices;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_devices_parse(int key, char *arg, struct argp_state *state) {
     (void)arg;
     bool *json = state->input;
     switch (key) {
@@ -72,7 +72,7 @@ static void print_devices_table(const struct glint_device_info *devices, size_t 
     table_destroy(&table);
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_devices_run(int argc, char **argv) {
     bool json = false;
     command_parse(&cmd_devices, argc, argv, &json);
     struct glint_device_info devices[16];
@@ -97,7 +97,7 @@ const struct command cmd_devices = {
         "Lists the Vulkan devices, best first: discrete, integrated, virtual, CPU. The first usable one runs "
         "replays unless --device or GLINT_DEVICE names another.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_devices_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_devices_run,
 };

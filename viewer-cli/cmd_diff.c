@@ -23,7 +23,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_diff;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_diff_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case ARGP_KEY_ARG:
@@ -37,7 +37,7 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     return diff_args_parse(key, arg, state, &a->diff);
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_diff_run(int argc, char **argv) {
     struct arguments a = {.diff = diff_args_default()};
     struct glint_error err = {0};
     struct diff diff;
@@ -72,8 +72,8 @@ const struct command cmd_diff = {
     .options = options,
     .one_dash = true,
     .usage_status = DIFF_USAGE,
-    .parse = parse,
+    .parse = cmd_diff_parse,
     .examples = examples,
     .values = metric_args_values,
-    .run = run,
+    .run = cmd_diff_run,
 };

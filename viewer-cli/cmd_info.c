@@ -3,13 +3,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "args.h"
-#include "camera_facts.h"
-#include "depth_facts.h"
-#include "info_tables.h"
-#include "pipe.h"
-#include "progress.h"
-#include "table.h"
+#include "options/args.h"
+#include "capture/camera_facts.h"
+#include "capture/depth_facts.h"
+#include "capture/info_tables.h"
+#include "io/pipe.h"
+#include "io/progress.h"
+#include "io/table.h"
 
 struct arguments {
     const char *path;
@@ -35,7 +35,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_info;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_info_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'j':
@@ -223,7 +223,7 @@ static enum status survey_of(const struct arguments *a) {
     return status;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_info_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_info, argc, argv, &a);
     struct stat file;
@@ -268,7 +268,7 @@ const struct command cmd_info = {
         "is nothing, the part's other channels may hold anything: their ranges are of surfaces alone. Any other EXR "
         "file is listed as it is.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_info_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_info_run,
 };

@@ -2,12 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "args.h"
-#include "depth_facts.h"
+#include "options/args.h"
+#include "capture/depth_facts.h"
 #include "lint/lint.h"
-#include "pipe.h"
-#include "progress.h"
-#include "table.h"
+#include "io/pipe.h"
+#include "io/progress.h"
+#include "io/table.h"
 
 struct arguments {
     const char *path, *out;
@@ -34,7 +34,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_lint;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_lint_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case KEY_FIX:
@@ -61,8 +61,8 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     return ARGP_ERR_UNKNOWN;
 }
 
-static bool find(struct glint_capture *capture, struct lint_findings *findings, struct lint_agreement *agreement,
-                 struct progress *progress, struct glint_error *err) {
+static bool find_findings(struct glint_capture *capture, struct lint_findings *findings,
+                          struct lint_agreement *agreement, struct progress *progress, struct glint_error *err) {
     struct lint_data data;
     bool ok = lint_data_read(&data, capture, err);
     if (ok) {
@@ -161,7 +161,7 @@ static enum status list(bool json) {
     return STATUS_DONE;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_lint_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_lint, argc, argv, &a);
     if (a.list) return list(a.json);
@@ -174,7 +174,7 @@ static enum status run(int argc, char **argv) {
     const char *path = pipe_input(&pipe, a.path, &err);
     struct glint_capture *capture = path ? glint_capture_open(path, NULL, &err) : NULL;
     bool ok = capture && (findings || glint_fail(&err, GLINT_ERROR_MEMORY, "out of memory")) &&
-              find(capture, findings, &agreement, &progress, &err);
+              find_findings(capture, findings, &agreement, &progress, &err);
     progress_end(&progress);
     enum status status = ok && findings->count ? STATUS_CHECK : STATUS_DONE;
     if (ok && a.json) print_json(findings_json(findings, &agreement, capture));
@@ -200,7 +200,7 @@ const struct command cmd_lint = {
         "volumes, and what depth's storage can tell apart. What the data alone cannot decide is listed. The exit "
         "status is 1 when anything is found. --list names everything that can be.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_lint_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_lint_run,
 };

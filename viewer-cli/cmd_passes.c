@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "nearest.h"
-#include "pass_names.h"
-#include "table.h"
+#include "options/nearest.h"
+#include "options/pass_names.h"
+#include "io/table.h"
 
 struct arguments {
     bool json, markdown;
@@ -28,7 +28,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_passes;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_passes_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'j':
@@ -296,7 +296,7 @@ static bool known(const char *what, struct glint_error *err) {
     return check_use(assignment, err) && strcmp(what + slot + 1, "none") != 0;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_passes_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_passes, argc, argv, &a);
     struct glint_error err = {0};
@@ -326,7 +326,7 @@ const struct command cmd_passes = {
                    "and meaning, "
                    "and every parameter with default, range, unit and source, as replay --set takes it.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_passes_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_passes_run,
 };

@@ -3,11 +3,11 @@
 #include <string.h>
 
 #include "glint/savings.h"
-#include "pass_names.h"
-#include "pipe.h"
-#include "pipeline_args.h"
-#include "progress.h"
-#include "table.h"
+#include "options/pass_names.h"
+#include "io/pipe.h"
+#include "options/pipeline_args.h"
+#include "io/progress.h"
+#include "io/table.h"
 
 struct arguments {
     struct pipeline_args pipeline;
@@ -38,7 +38,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_plan;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_plan_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'j':
@@ -200,7 +200,7 @@ static enum status plan(const struct arguments *a, struct glint_pipeline *pipeli
     return status;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_plan_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_plan, argc, argv, &a);
     struct glint_error err = {0};
@@ -234,7 +234,7 @@ const struct command cmd_plan = {
         "What a plan leaves out changes no bit of the picture; --all leaves out nothing, --skip and --force "
         "overrule it for single passes. Needs a Vulkan device for --measure alone.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_plan_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_plan_run,
 };

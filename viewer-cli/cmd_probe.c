@@ -2,7 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "opened.h"
+#include "options/opened.h"
+#include "draw/probe/draw.h"
 #include "probe/probe.h"
 
 struct arguments {
@@ -37,7 +38,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_probe;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'o':
@@ -101,7 +102,7 @@ static enum status report(const struct arguments *a, const struct probe *probe, 
     return STATUS_DONE;
 }
 
-static enum status tell(const struct arguments *a, struct opened *opened, struct glint_error *err) {
+static enum status print_probe(const struct arguments *a, struct opened *opened, struct glint_error *err) {
     const struct glint_pipeline *pipeline = opened->pipeline;
     struct probe probe = {.capture = a->capture,
                           .preset = glint_pipeline_name(pipeline),
@@ -120,13 +121,13 @@ static enum status tell(const struct arguments *a, struct opened *opened, struct
     return status;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_probe_run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
     struct opened opened = {0};
     command_parse(&cmd_probe, argc, argv, &a);
     const bool ok = opened_init(&opened, &a.pipeline, a.capture, &err);
-    const enum status status = ok ? tell(&a, &opened, &err) : command_fail(&cmd_probe, &err);
+    const enum status status = ok ? print_probe(&a, &opened, &err) : command_fail(&cmd_probe, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     return status;
@@ -151,7 +152,7 @@ const struct command cmd_probe = {
         "the "
         "block. At the end stands what the tracers that step over nothing find for the same ray.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_probe_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_probe_run,
 };

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "glint/reference.h"
-#include "opened.h"
-#include "progress.h"
-#include "table.h"
+#include "options/opened.h"
+#include "io/progress.h"
+#include "io/table.h"
 
 struct arguments {
     struct pipeline_args pipeline;
@@ -54,7 +54,7 @@ static double arg_noise(const char *text, struct argp_state *state) {
     return noise;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_reference_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'o':
@@ -272,7 +272,7 @@ static struct glint_pipeline *create_pipeline(struct arguments *a, struct glint_
     return pipeline;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_reference_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_reference, argc, argv, &a);
     struct glint_error err = {0};
@@ -295,7 +295,7 @@ const struct command cmd_reference = {
         "the capture may carry is information that its data lack. The truth has no fog: for comparisons with it, trace "
         "the reference with --set pipeline.fog=false, and give glint replay --against both=RUN the same.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_reference_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_reference_run,
 };

@@ -2,14 +2,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "against.h"
-#include "pass_names.h"
-#include "pipe.h"
-#include "pipeline_args.h"
-#include "progress.h"
+#include "replay/against.h"
+#include "options/pass_names.h"
+#include "io/pipe.h"
+#include "options/pipeline_args.h"
+#include "io/progress.h"
 #include "report/report.h"
-#include "shot.h"
-#include "table.h"
+#include "replay/shot.h"
+#include "io/table.h"
 #include "watch/watch.h"
 
 struct arguments {
@@ -68,7 +68,7 @@ static const char *const precisions[] = {"half", "float", NULL};
 
 extern const struct command cmd_replay;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_replay_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     struct glint_replay_options *r = &a->pipeline.replay;
     switch (key) {
@@ -378,7 +378,7 @@ static char *cache_folder(const char *asked) {
     return length > 0 ? folder : NULL;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_replay_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_replay, argc, argv, &a);
     char *cache = cache_folder(a.cache);
@@ -415,8 +415,8 @@ const struct command cmd_replay = {
         "run.json and one EXR a pass. Ends with the time of each pass: median, least and largest of the "
         "timed rounds.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_replay_parse,
     .examples = examples,
     .values = metric_args_values,
-    .run = run,
+    .run = cmd_replay_run,
 };

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "report/report.h"
 
 struct arguments {
@@ -37,7 +37,7 @@ static bool ends_with(const char *text, const char *end) {
     return length > tail && !strcmp(text + length - tail, end);
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_report_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'o':
@@ -98,7 +98,7 @@ static bool write_chart(const struct arguments *a, const json_t *document, struc
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: chart %u: there are %u", a->folders.items[0], a->chart, count);
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_report_run(int argc, char **argv) {
     struct arguments a = {.chart = 1};
     command_parse(&cmd_report, argc, argv, &a);
     struct glint_error err = {0};
@@ -122,7 +122,7 @@ const struct command cmd_report = {
         "Studies such as sweeps keep their page in their folder, from which it is written again. A click on a "
         "picture enlarges it, and arrow keys then flip through the others in place.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_report_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_report_run,
 };

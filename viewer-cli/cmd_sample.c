@@ -4,12 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "glint/samples.h"
-#include "nearest.h"
-#include "pipe.h"
-#include "progress.h"
-#include "table.h"
+#include "options/nearest.h"
+#include "io/pipe.h"
+#include "io/progress.h"
+#include "io/table.h"
 
 struct arguments {
     const char *scene, *out;
@@ -112,7 +112,7 @@ static const char *encoding_of_key(int key) {
     return NULL;
 }
 
-static char *values(int key) {
+static char *cmd_sample_values(int key) {
     if (key == KEY_COMPRESSION) return join_names("", compressions);
     const char *which = encoding_of_key(key);
     if (!which) return NULL;
@@ -194,7 +194,7 @@ static error_t parse_scene(int key, char *arg, struct argp_state *state, struct 
     return ARGP_ERR_UNKNOWN;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_sample_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     struct glint_sample_options *s = &a->sample;
     double numbers[6];
@@ -318,7 +318,7 @@ static bool known_scene(const char *scene, struct glint_error *err) {
                       nearest_text(&near));
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_sample_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_sample, argc, argv, &a);
     if (a.list) return list_scenes(a.json);
@@ -346,8 +346,8 @@ const struct command cmd_sample = {
         "blended alpha is opaque. A shot that was interrupted is completed: frames already there with the same "
         "settings are kept.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_sample_parse,
     .examples = examples,
-    .values = values,
-    .run = run,
+    .values = cmd_sample_values,
+    .run = cmd_sample_run,
 };

@@ -1,30 +1,12 @@
 /* glint selftest: the hard cases on this machine's device. */
-#include <dirent.h>
-#include <errno.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-#include <unistd.h>
 
-#include <pthread.h>
+#include <jansson.h>
 
-#include "args.h"
-#include "progress.h"
-#include "selftest/chosen.h"
-#include "threads.h"
-
-/* clang-format off */
-static const struct selftest_group *const groups[] = {
-    &selftest_functions,
-    &selftest_geometry,
-    &selftest_numbers,
-    &selftest_garbage,
-    &selftest_sizes,
-    &selftest_time,
-    &selftest_invariance,
-};
-/* clang-format on */
+#include "options/args.h"
+#include "glint/selftest.h"
+#include "io/progress.h"
+#include "io/table.h"
 
 struct arguments {
     struct list only;
@@ -60,7 +42,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_selftest;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_selftest_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case KEY_QUICK:
@@ -88,60 +70,160 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
     return ARGP_ERR_UNKNOWN;
 }
 
-/* ---- Running ---- */
+/* ---- Tables ---- */
 
-static bool make_folder(char path[256], struct glint_error *err) {
-    const char *parent = getenv("TMPDIR");
-    if (snprintf(path, 256, "%s/glint-selftest-XXXXXX", parent ? parent : "/tmp") < 256 && mkdtemp(path)) return true;
-    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    path[0] = '\0';
-    return false;
+static const char *unit_of(const struct glint_selftest_case *c) {
+    return c->bound > 0 ? c->unit : "exact";
 }
 
-static void remove_folder(const char *folder) {
-    DIR *dir = folder[0] ? opendir(folder) : NULL;
-    for (const struct dirent *entry; dir && (entry = readdir(dir));)
-        if (entry->d_name[0] != '.') unlinkat(dirfd(dir), entry->d_name, 0);
-    if (dir) closedir(dir);
-    if (folder[0]) rmdir(folder);
+static void list_row(struct table *table, const struct glint_selftest_case *c) {
+    table_cell(table, "%s", c->name);
+    table_cell(table, "%s", number_text(c->bound));
+    table_cell(table, "%s", unit_of(c));
+    table_cell(table, "%s: %s", c->what, c->reason);
 }
 
-/* Groups run side by side, each worker on a device and in a folder of its own. A worker that gets no device, or whose device has
-   not the memory beside the others, leaves its group to those that go on; the last one finds all of the device its own. */
-struct work {
-    const struct arguments *arguments;
-    struct chosen *chosen;
-    pthread_mutex_t lock; /* of all that follows */
-    bool waits[MOST_GROUPS], alone;
-    struct glint_device_info info; /* of any: they are the same device */
-    struct progress progress;
-    size_t ready[MOST_GROUPS]; /* cases of each group */
-    struct glint_error error;  /* of the first group that has one */
-    size_t failed;             /* that group */
+static void result_row(struct table *table, const struct glint_selftest_case *c,
+                       const struct glint_selftest_finding *finding) {
+    table_cell(table, "%s", c->name);
+    table_cell(table, "%s", number_text(finding->worst));
+    table_cell(table, "%s", number_text(c->bound));
+    table_cell(table, "%s", unit_of(c));
+    table_cell(table, "%s", glint_selftest_passes(c, finding) ? "pass" : "FAIL");
+    table_cell(table, finding->ties ? "%zu" : "%.0zu", finding->ties);
+    table_cell(table, "%s", finding->values == 0 ? "nothing was compared" : finding->worst > 0 ? finding->at : "");
+}
+
+static void print_cases(const struct glint_selftest_group *group, bool list) {
+    static const char *const listed[] = {"<case", ">bound", "<", "<what", NULL};
+    static const char *const found[] = {"<case", ">worst", ">bound", "<", "<", ">ties", "<worst at", NULL};
+    struct table *table = table_create(list ? listed : found);
+    for (size_t i = 0; i < group->count; i++)
+        if (list) list_row(table, &group->cases[i]);
+        else if (!group->findings[i].left_out) result_row(table, &group->cases[i], &group->findings[i]);
+    if (!table_is_empty(table)) {
+        printf("%s: %s\n\n", group->name, group->what);
+        table_print(table, stdout);
+        putchar('\n');
+    }
+    table_destroy(&table);
+}
+
+struct sum {
+    size_t cases, failed, ties;
 };
 
-/* The bar goes by cases, those with a finding before all; what a replay says of itself is too small for it. */
-struct watch {
-    struct work *work;
-    struct chosen_group *group;
-};
-static bool show(void *user, const char *what, double done) {
-    const struct watch *watch = user;
-    struct work *work = watch->work;
-    const struct chosen_group *group = watch->group;
-    size_t all = 0, ready = 0;
-    (void)what, (void)done;
-    for (size_t i = 0; i < group->group->count(); i++)
-        ready +=
-            group->cases[i] && (group->findings[i].values > 0 || group->findings[i].left_out || group->seconds > 0);
-    pthread_mutex_lock(&work->lock);
-    work->ready[group - work->chosen->groups] = ready;
-    ready = 0;
-    for (size_t g = 0; g < work->chosen->group_count; g++)
-        all += work->chosen->groups[g].count, ready += work->ready[g];
-    const bool go_on = progress_report(&work->progress, group->group->name, (double)ready / (double)all);
-    pthread_mutex_unlock(&work->lock);
-    return go_on;
+static void sum_up(struct sum *sum, const struct glint_selftest_group *group) {
+    for (size_t i = 0; i < group->count; i++) {
+        if (group->findings[i].left_out) continue;
+        sum->cases++;
+        sum->failed += !glint_selftest_passes(&group->cases[i], &group->findings[i]);
+        sum->ties += group->findings[i].ties;
+    }
+}
+
+static void summary_row(struct table *table, const char *name, const struct sum *sum, double seconds) {
+    table_cell(table, "%s", name);
+    table_cell(table, "%zu", sum->cases);
+    table_cell(table, "%zu", sum->failed);
+    table_cell(table, "%zu", sum->ties);
+    table_cell(table, "%s", time_text(seconds));
+}
+
+static void print_summary(const struct glint_selftest *selftest, double seconds) {
+    static const char *const titles[] = {"<group", ">cases", ">failed", ">ties", ">time", NULL};
+    struct table *table = table_create(titles);
+    struct sum all = {0};
+    for (size_t g = 0; g < glint_selftest_group_count(selftest); g++) {
+        const struct glint_selftest_group *group = glint_selftest_get_group(selftest, g);
+        struct sum sum = {0};
+        sum_up(&sum, group);
+        sum_up(&all, group);
+        if (sum.cases) summary_row(table, group->name, &sum, group->seconds);
+    }
+    summary_row(table, "all", &all, seconds);
+    table_print(table, stdout);
+    table_destroy(&table);
+    printf("\n%s: %zu cases, %zu failed\n", glint_selftest_device(selftest)->name, all.cases, all.failed);
+}
+
+/* Once more, where nobody has to look for them, with what was claimed. */
+static void print_failed(const struct glint_selftest_group *group) {
+    for (size_t i = 0; i < group->count; i++) {
+        const struct glint_selftest_case *c = &group->cases[i];
+        const struct glint_selftest_finding *finding = &group->findings[i];
+        if (finding->left_out || glint_selftest_passes(c, finding)) continue;
+        printf("FAIL %s, %s (%s): %s %s, bound %s (%s); %s\n", group->name, c->name, c->what,
+               number_text(finding->worst), unit_of(c), number_text(c->bound), c->reason,
+               finding->values ? finding->at : "nothing was compared");
+    }
+}
+
+static void print_tables(const struct glint_selftest *selftest, bool list, double seconds, size_t failed) {
+    const size_t count = glint_selftest_group_count(selftest);
+    for (size_t g = 0; g < count; g++) print_cases(glint_selftest_get_group(selftest, g), list);
+    if (list) return;
+    for (size_t g = 0; g < count; g++) print_failed(glint_selftest_get_group(selftest, g));
+    if (failed) putchar('\n');
+    print_summary(selftest, seconds);
+}
+
+/* ---- JSON ---- */
+
+static json_t *case_json(const struct glint_selftest_group *group, size_t i, bool list) {
+    const struct glint_selftest_case *c = &group->cases[i];
+    const struct glint_selftest_finding *finding = &group->findings[i];
+    json_t *object = json_pack("{s:s, s:s, s:s, s:s, s:f, s:s}", "group", group->name, "name", c->name, "what", c->what,
+                               "unit", c->unit, "bound", c->bound, "reason", c->reason);
+    if (c->source) json_object_set_new(object, "evaluated", json_string(c->source));
+    if (list) return object;
+    json_object_set_new(object, "pass", json_boolean(glint_selftest_passes(c, finding)));
+    json_object_set_new(object, "worst", json_number(finding->worst)); /* null: infinite */
+    json_object_set_new(object, "values", json_integer((json_int_t)finding->values));
+    json_object_set_new(object, "ties", json_integer((json_int_t)finding->ties));
+    if (finding->worst > 0) json_object_set_new(object, "worst_at", json_string(finding->at));
+    return object;
+}
+
+static json_t *group_json(const struct glint_selftest_group *group, const struct sum *sum, bool list) {
+    json_t *object =
+        json_pack("{s:s, s:s, s:I}", "name", group->name, "what", group->what, "cases", (json_int_t)sum->cases);
+    if (!list) json_object_set_new(object, "failed", json_integer((json_int_t)sum->failed));
+    if (!list) json_object_set_new(object, "seconds", json_real(group->seconds));
+    return object;
+}
+
+static enum status print_document(const struct glint_selftest *selftest, bool list, double seconds, size_t failed) {
+    json_t *json = json_object(), *groups = json_array(), *cases = json_array();
+    for (size_t g = 0; g < glint_selftest_group_count(selftest); g++) {
+        const struct glint_selftest_group *group = glint_selftest_get_group(selftest, g);
+        struct sum sum = {0};
+        sum_up(&sum, group);
+        if (sum.cases) json_array_append_new(groups, group_json(group, &sum, list));
+        for (size_t i = 0; i < group->count; i++)
+            if (!group->findings[i].left_out) json_array_append_new(cases, case_json(group, i, list));
+    }
+    if (!list) {
+        json_object_set_new(json, "device", json_string(glint_selftest_device(selftest)->name));
+        json_object_set_new(json, "seconds", json_real(seconds));
+        json_object_set_new(json, "failed", json_integer((json_int_t)failed));
+    }
+    json_object_set_new(json, "groups", groups);
+    json_object_set_new(json, "cases", cases);
+    return print_json(json);
+}
+
+static enum status report(const struct glint_selftest *selftest, const struct arguments *a, double seconds) {
+    struct sum all = {0};
+    for (size_t g = 0; !a->list && g < glint_selftest_group_count(selftest); g++)
+        sum_up(&all, glint_selftest_get_group(selftest, g));
+    const enum status status = all.failed ? STATUS_CHECK : STATUS_DONE;
+    if (!a->json) {
+        print_tables(selftest, a->list, seconds, all.failed);
+        return status;
+    }
+    const enum status printed = print_document(selftest, a->list, seconds, all.failed);
+    return status ? status : printed;
 }
 
 static double seconds_since(const struct timespec *start) {
@@ -150,105 +232,25 @@ static double seconds_since(const struct timespec *start) {
     return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
 }
 
-static bool run_group(struct work *work, struct glint_device *device, struct chosen_group *group,
-                      struct glint_error *err) {
-    struct watch watch = {work, group};
-    struct timespec start;
-    char folder[256] = "";
-    double filter_step = NAN;
-    const struct selftest test = {device, folder, work->arguments->quick, &filter_step, show, &watch};
-    clock_gettime(CLOCK_MONOTONIC, &start);
-    memset(group->findings, 0, group->group->count() * sizeof *group->findings); /* of a worker that left */
-    const bool ok = make_folder(folder, err) && group->group->run(&test, group->cases, group->findings, err);
-    remove_folder(folder);
-    if (!ok) return false;
-    group->seconds = seconds_since(&start);
-    return show(&watch, NULL, 1) || glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
+static bool run_cases(struct glint_selftest *selftest, const struct arguments *a, struct glint_error *err) {
+    const struct glint_selftest_options run_options = {a->device, a->passes, a->quick};
+    struct progress progress = {0};
+    progress_begin(&progress);
+    const bool ok = glint_selftest_run(selftest, &run_options, progress_report, &progress, err);
+    progress_end(&progress);
+    return ok;
 }
 
-static bool is_silent(const struct glint_device *device, struct glint_error *err) {
-    const char *last = NULL;
-    const uint32_t messages = glint_device_messages(device, &last);
-    return !messages || glint_fail(err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
-}
-
-/* The first group that waits; the number of groups when none does, or when there is no use in going on. */
-static size_t take_group(struct work *work) {
-    size_t g = 0;
-    pthread_mutex_lock(&work->lock);
-    while (g < work->chosen->group_count && (work->error.code || !work->waits[g])) g++;
-    if (g < work->chosen->group_count) work->waits[g] = false;
-    pthread_mutex_unlock(&work->lock);
-    return g;
-}
-
-/* starved: what failed may not fail where fewer devices are open. */
-static void leave_group(struct work *work, size_t g, bool starved, const struct glint_error *err) {
-    pthread_mutex_lock(&work->lock);
-    if (starved && !work->alone) work->waits[g] = true;
-    else if (!work->error.code || g < work->failed) work->error = *err, work->failed = g;
-    pthread_mutex_unlock(&work->lock);
-}
-
-static struct glint_device *open_device(struct work *work, struct glint_error *err) {
-    const struct glint_device_options options = {.select = work->arguments->device, .passes = work->arguments->passes};
-    struct glint_device *device = glint_device_create(&options, err);
-    if (!device) return NULL;
-    pthread_mutex_lock(&work->lock);
-    work->info = *glint_device_get_info(device);
-    pthread_mutex_unlock(&work->lock);
-    return device;
-}
-
-static bool run_worker(void *user, uint32_t worker, size_t index) {
-    struct work *work = user;
-    struct glint_device *device = NULL;
-    (void)worker, (void)index;
-    for (size_t g; (g = take_group(work)) < work->chosen->group_count;) {
-        struct glint_error err = {0};
-        if (!device) device = open_device(work, &err);
-        const bool ran = device && run_group(work, device, &work->chosen->groups[g], &err);
-        const bool starved = !device || err.code == GLINT_ERROR_DEVICE || err.code == GLINT_ERROR_MEMORY;
-        if (ran && is_silent(device, &err)) continue;
-        glint_device_destroy(&device); /* before others take what it starved for */
-        leave_group(work, g, starved, &err);
-        break;
-    }
-    glint_device_destroy(&device);
-    return true;
-}
-
-static bool run_groups(struct work *work, struct glint_error *err) {
-    size_t count = 0;
-    for (size_t g = 0; g < work->chosen->group_count; g++) {
-        work->waits[g] = work->chosen->groups[g].count > 0;
-        count += work->waits[g];
-    }
-    pthread_mutex_init(&work->lock, NULL);
-    progress_begin(&work->progress);
-    const uint32_t workers = glint_loop_workers(count, 0);
-    glint_loop(workers, workers, run_worker, work);
-    work->alone = true;
-    run_worker(work, 0, 0);
-    progress_end(&work->progress);
-    pthread_mutex_destroy(&work->lock);
-    if (work->error.code) *err = work->error;
-    return !work->error.code;
-}
-
-static enum status run(int argc, char **argv) {
+static enum status cmd_selftest_run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
-    struct chosen chosen;
-    struct work work = {.arguments = &a, .chosen = &chosen};
     struct timespec start;
     command_parse(&cmd_selftest, argc, argv, &a);
     clock_gettime(CLOCK_MONOTONIC, &start);
-    bool ok = chosen_init(&chosen, groups, sizeof groups / sizeof *groups, &a.only, &err);
-    if (ok && !a.list) ok = run_groups(&work, &err);
-    const enum status status = ok ? chosen_report(&chosen, a.list ? NULL : &work.info, seconds_since(&start), a.json)
-                                  : command_fail(&cmd_selftest, &err);
-    chosen_finish(&chosen);
+    struct glint_selftest *selftest = glint_selftest_create(list_or_null(&a.only), &err);
+    const bool ok = selftest && (a.list || run_cases(selftest, &a, &err));
+    const enum status status = ok ? report(selftest, &a, seconds_since(&start)) : command_fail(&cmd_selftest, &err);
+    glint_selftest_destroy(&selftest);
     list_free(&a.only);
     return status;
 }
@@ -261,18 +263,22 @@ const struct command cmd_selftest = {
         "Checks what a device makes of the shaders, case by case. A case is a claim with a bound: the table has the "
         "worst "
         "error, the bound, and the input where it is worst; --list has the claim and the bound's reason. Groups: "
-        "functions (those that the passes share, over dense tables with 0, poles and infinity, against double "
-        "precision "
-        "on the very inputs that the device had; what captures hold, decoded), geometry (rays through hard places), "
-        "numbers (worlds far away, other depths and projections), garbage (bad pixels spoil no others), time "
-        "(histories "
-        "and noise of frames that follow each other), invariance (one scene under every convention). "
-        "An ULP is the distance of neighbouring floats at the expected value. Where a reason names the precision that "
-        "Vulkan grants, a device may use it up and still conform. Ties are decisions, such as hit or not, that lie "
-        "within rounding of going the other way. Cases that fail are said once more at the end, with what they claim. "
-        "The exit status is 1 when a case fails, 2 when none could be run.",
+        "functions "
+        "(those that the passes share, over dense tables with 0, poles and infinity, against double precision on the "
+        "very "
+        "inputs that the device had; what captures hold, decoded), geometry (rays through hard places), numbers "
+        "(worlds far "
+        "away, other depths and projections), garbage (bad pixels spoil no others), sizes (pictures and cube maps of "
+        "any "
+        "size), time (histories and noise of frames that follow each other), invariance (one scene under every "
+        "convention). An ULP is the distance of neighbouring floats at the expected value. Where a reason names the "
+        "precision that Vulkan grants, a device may use it up and still conform. Ties are decisions, such as hit or "
+        "not, "
+        "that lie within rounding of going the other way. Cases that fail are said once more at the end, with what "
+        "they "
+        "claim. The exit status is 1 when a case fails, 2 when none could be run.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_selftest_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_selftest_run,
 };

@@ -1,6 +1,6 @@
 /* glint stability: how far the rounding of a capture's values moves each pixel, and in which pass that begins. */
-#include "opened.h"
-#include "progress.h"
+#include "options/opened.h"
+#include "io/progress.h"
 #include "stability/stability.h"
 
 struct arguments {
@@ -48,7 +48,7 @@ static double positive(const char *option, const char *text, struct argp_state *
     return value;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_stability_parse(int key, char *arg, struct argp_state *state) {
     static const char *const precisions[] = {"half", "float", NULL};
     struct arguments *a = state->input;
     switch (key) {
@@ -91,7 +91,7 @@ static error_t parse(int key, char *arg, struct argp_state *state) {
 }
 
 /* Which pass fails the check, said on stderr. */
-static enum status check(const struct arguments *a, const struct glint_stability *s) {
+static enum status check_limits(const struct arguments *a, const struct glint_stability *s) {
     enum status status = STATUS_DONE;
     for (size_t i = 0; a->fails && i < s->pass_count; i++) {
         const struct glint_stability_summary *found = &s->passes[i].summary;
@@ -110,7 +110,7 @@ static enum status report(const struct arguments *a, const struct stability_repo
     if (a->out && !stability_write(a->out, found, &err)) return command_fail(&cmd_stability, &err);
     if (a->json) status = print_json(stability_json(found));
     else stability_print(found);
-    return status != STATUS_DONE ? status : check(a, found->stability);
+    return status != STATUS_DONE ? status : check_limits(a, found->stability);
 }
 
 static enum status measure(struct arguments *a, struct opened *opened, struct glint_error *err) {
@@ -134,7 +134,7 @@ static enum status measure(struct arguments *a, struct opened *opened, struct gl
     return status;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_stability_run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
     struct opened opened = {0};
@@ -167,7 +167,7 @@ const struct command cmd_stability = {
         "says "
         "how far each image's largest value is from 65504, where half floats end. docs/stability.md has the details.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_stability_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_stability_run,
 };

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pass_names.h"
-#include "pipeline_args.h"
+#include "options/pass_names.h"
+#include "options/pipeline_args.h"
 #include "sweep/sweep.h"
-#include "text_file.h"
+#include "io/text_file.h"
 
 struct arguments {
     struct sweep sweep;
@@ -57,7 +57,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_sweep;
 
-static char *values(int key) {
+static char *cmd_sweep_values(int key) {
     const char *names[GLINT_METRIC_COUNT + 1] = {NULL};
     for (size_t m = 0; m < GLINT_METRIC_COUNT; m++) names[m] = glint_metric(m)->name;
     return key == KEY_METRIC ? join_names("", names) : NULL;
@@ -89,7 +89,7 @@ static error_t parse_answer(int key, char *arg, struct argp_state *state, struct
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'o':
@@ -165,7 +165,7 @@ static bool sort_points(struct sweep *sweep, struct glint_error *err) {
     return ok;
 }
 
-static bool begin(struct arguments *a, struct glint_error *err) {
+static bool begin_sweep(struct arguments *a, struct glint_error *err) {
     struct sweep *sweep = &a->sweep;
     for (size_t i = 0; i < a->axes.count; i++)
         if (!check_names(a->axes.items[i], err) || !check_variants(a->axes.items[i], err)) return false;
@@ -212,7 +212,7 @@ static enum status report_failures(const struct sweep *sweep) {
     return status;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_sweep_run(int argc, char **argv) {
     struct arguments a = {.sweep = {.rounds = 3, .pictures = true, .metric = GLINT_METRIC_RMSE}, .seed = 1};
     struct glint_error err = {0};
     struct progress progress;
@@ -220,8 +220,8 @@ static enum status run(int argc, char **argv) {
     struct sweep *sweep = &a.sweep;
     progress_begin(&progress);
     sweep->progress = &progress;
-    bool ok = begin(&a, &err) && sweep_run(sweep, &err) && sweep_sum_up(sweep, &err) && write_tables(sweep, &err) &&
-              sweep_draw_fronts(sweep, &err) && sweep_write_page(sweep, &err);
+    bool ok = begin_sweep(&a, &err) && sweep_run(sweep, &err) && sweep_sum_up(sweep, &err) &&
+              write_tables(sweep, &err) && sweep_draw_fronts(sweep, &err) && sweep_write_page(sweep, &err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_sweep, &err);
     if (!ok && err.code == GLINT_ERROR_INTERRUPTED)
@@ -254,8 +254,8 @@ const struct command cmd_sweep = {
                    "passes that several "
                    "points have in common are measured once a round.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_sweep_parse,
     .examples = examples,
-    .values = values,
-    .run = run,
+    .values = cmd_sweep_values,
+    .run = cmd_sweep_run,
 };

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pass_names.h"
-#include "pipeline_args.h"
+#include "options/pass_names.h"
+#include "options/pipeline_args.h"
 #include "tune/tune.h"
 
 struct arguments {
@@ -88,7 +88,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_tune;
 
-static char *values(int key) {
+static char *cmd_tune_values(int key) {
     const char *names[GLINT_METRIC_COUNT + 1] = {NULL};
     size_t n = 0;
     for (size_t m = GLINT_METRIC_RMSE; m < GLINT_METRIC_COUNT; m++)
@@ -153,7 +153,7 @@ static void check_arguments(struct arguments *a, struct argp_state *state) {
     else read_limit(tune, "budget-fetches", a->budget_fetches, state);
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_tune_parse(int key, char *arg, struct argp_state *state) {
     static const char *const costs[] = {"ms", "fetches", NULL}, *const baselines[] = {"scale", NULL},
                              *const overs[] = {"mean", "worst", NULL};
     struct arguments *a = state->input;
@@ -214,7 +214,7 @@ static bool choose_metric(struct arguments *a, struct glint_error *err) {
     return true;
 }
 
-static bool begin(struct arguments *a, struct glint_error *err) {
+static bool begin_tune(struct arguments *a, struct glint_error *err) {
     struct tune *tune = &a->tune;
     tune->all = a->pipeline.replay.all;
     for (size_t i = 0; i < tune->slots.count; i++)
@@ -276,7 +276,7 @@ static char *command_line(int argc, char **argv) {
     return text;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_tune_run(int argc, char **argv) {
     struct arguments a = {
         .tune = {
             .metric = GLINT_METRIC_RMSE, .seed = 1, .against = {.rays = GLINT_JUDGE_RAYS}, .rounds = 3, .repeat = 15}};
@@ -290,7 +290,7 @@ static enum status run(int argc, char **argv) {
     tune->command_line = line ? line : "glint tune";
     tune->progress = &progress;
     progress_begin(&progress);
-    const bool ok = begin(&a, &err) && work(tune, &err);
+    const bool ok = begin_tune(&a, &err) && work(tune, &err);
     progress_end(&progress);
     enum status status = ok                                    ? STATUS_DONE
                          : err.code == GLINT_ERROR_INTERRUPTED ? interrupted(tune)
@@ -333,8 +333,8 @@ const struct command cmd_tune = {
         "an interruption, "
         "and what was the best by then is in the preset's file.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_tune_parse,
     .examples = examples,
-    .values = values,
-    .run = run,
+    .values = cmd_tune_values,
+    .run = cmd_tune_run,
 };

@@ -1,11 +1,11 @@
 /* glint validate: every rule of FORMAT.md, every violation. */
 #include <stdlib.h>
 
-#include "args.h"
-#include "camera_facts.h"
+#include "options/args.h"
+#include "capture/camera_facts.h"
 #include "glint/capture.h"
-#include "pipe.h"
-#include "table.h"
+#include "io/pipe.h"
+#include "io/table.h"
 
 struct arguments {
     bool json;
@@ -24,7 +24,7 @@ static const struct example examples[] = {
 
 extern const struct command cmd_validate;
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_validate_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case 'j':
@@ -86,7 +86,7 @@ static enum status validate(const char *path, json_t *files) {
     return violations ? STATUS_CHECK : STATUS_DONE;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_validate_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_validate, argc, argv, &a);
     json_t *files = a.json ? json_array() : NULL;
@@ -111,7 +111,7 @@ const struct command cmd_validate = {
         "Checks captures against every rule of FORMAT.md, pixels included, and lists all violations with the "
         "rule that each one breaks. The exit status is 1 when there is any.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_validate_parse,
     .examples = examples,
-    .run = run,
+    .run = cmd_validate_run,
 };

@@ -4,14 +4,14 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "args.h"
-#include "pipe.h"
-#include "view/png_file.h"
-#include "progress.h"
-#include "view/render.h"
-#include "view/statistics.h"
-#include "view/terminal.h"
-#include "view/tev.h"
+#include "options/args.h"
+#include "io/pipe.h"
+#include "draw/view/png_file.h"
+#include "io/progress.h"
+#include "draw/view/render.h"
+#include "draw/view/statistics.h"
+#include "draw/view/terminal.h"
+#include "draw/view/tev.h"
 
 struct arguments {
     struct source_choice choice;
@@ -102,7 +102,7 @@ static const char *const scales[] = {"auto", "linear", "log", NULL};
 
 extern const struct command cmd_view;
 
-static char *values(int key) {
+static char *cmd_view_values(int key) {
     if (key == KEY_AS) return join_names("", kind_names);
     if (key == KEY_SCALE) return join_names("", scales);
     if (key == KEY_TERMINAL) return join_names("", terminal_mode_names);
@@ -203,7 +203,7 @@ static error_t parse_color(int key, char *arg, struct argp_state *state, struct 
     return ARGP_ERR_UNKNOWN;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t cmd_view_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     double range[2];
     switch (key) {
@@ -295,7 +295,7 @@ static bool show_one(struct picture *picture, struct arguments *a, struct glint_
     return ok;
 }
 
-static enum status run(int argc, char **argv) {
+static enum status cmd_view_run(int argc, char **argv) {
     struct arguments a = {.statistics.bins = 16};
     command_parse(&cmd_view, argc, argv, &a);
     struct glint_error err = {0};
@@ -326,8 +326,8 @@ const struct command cmd_view = {
                    "Colour goes through OpenColorIO; distances, normals, indices and end reasons are shown in false "
                    "colour with a legend. NaN is magenta. Without -o the picture goes to the terminal.",
     .options = options,
-    .parse = parse,
+    .parse = cmd_view_parse,
     .examples = examples,
-    .values = values,
-    .run = run,
+    .values = cmd_view_values,
+    .run = cmd_view_run,
 };

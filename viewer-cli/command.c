@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "table.h"
+#include "io/table.h"
 
 struct parsing {
     const struct command *command;
     void *input;
 };
 
-static error_t parse(int key, char *arg, struct argp_state *state) {
+static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
     const struct parsing *parsing = state->input;
     switch (key) {
     case ARGP_KEY_INIT:
@@ -36,7 +36,7 @@ static error_t parse_number(int key, char *arg, struct argp_state *state) {
     if (key < '0' || key > '9') return ARGP_ERR_UNKNOWN;
     char *whole = state->argv[state->next - 1];
     if (whole[1] != key) argp_error(state, "invalid option -- '%c'", key);
-    return parse(ARGP_KEY_ARG, whole, state);
+    return command_parse_key(ARGP_KEY_ARG, whole, state);
 }
 /* clang-format off */
 #define DIGIT(key) {NULL, key, "", OPTION_HIDDEN | OPTION_ARG_OPTIONAL, NULL, 0}
@@ -92,7 +92,7 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
     snprintf(doc, sizeof doc, "%s.\v-", command->summary); /* what follows \v is replaced by the filter */
     doc[0] = (char)toupper((unsigned char)doc[0]);
     struct argp argp = {.options = command->options,
-                        .parser = parse,
+                        .parser = command_parse_key,
                         .args_doc = command->arguments,
                         .doc = doc,
                         .children = command->numbers ? children : NULL,

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "nearest.h"
+#include "options/nearest.h"
 
 static void print_help(FILE *out) {
     fputs("Usage: glint COMMAND [OPTION...] [ARGUMENT...]\n"

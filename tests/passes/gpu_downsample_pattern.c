@@ -114,9 +114,44 @@ static int bin_of(double cut, double x, double y, double z) {
     return (ring < RINGS ? ring : RINGS - 1) * SLICES + (slice < SLICES ? slice : SLICES - 1);
 }
 
+/* Where a number lies among so many equal parts; -1: so near to a border that the rounding of a normal may have moved it. */
+static int part_of(double u, int parts) {
+    const double place = u * parts;
+    return fabs(place - round(place)) < 1e-3 ? -1 : (int)place;
+}
+
+/* Of the 25 pixels around one, in five pluses: each plus has each fifth of both numbers, and all of them each of 5 x 5 cells. */
+static void strata_hold_every_cell(void **state) {
+    static const int centres[5][2] = {{0, 0}, {1, 2}, {2, -1}, {-1, -2}, {-2, 1}},
+                     plus[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    double(*h)[3] = draws(*state, false, "blinn_phong", "strata", SIZE), lowest = pow(cos(cut_angle(false)), 31);
+    int tested = 0;
+    for (int y = 3; y < SIZE - 3; ++y)
+        for (int x = 3; x < SIZE - 3; ++x) {
+            unsigned cells = 0;
+            bool known = true;
+            for (int c = 0; c < 5; ++c) {
+                unsigned turns = 0, angles = 0;
+                for (int k = 0; k < 5; ++k) {
+                    const double *at = h[(y + centres[c][1] + plus[k][1]) * SIZE + x + centres[c][0] + plus[k][0]];
+                    const int turn = part_of(fmod(atan2(at[1], at[0]) / (2 * pi) + 1.5, 1), 5),
+                              angle = part_of((pow(at[2], 31) - lowest) / (1 - lowest), 5);
+                    if (turn < 0 || angle < 0) known = false;
+                    else turns |= 1u << turn, angles |= 1u << angle, cells |= 1u << (5 * turn + angle);
+                }
+                if (known) assert_true(turns == 31 && angles == 31);
+            }
+            if (!known) continue;
+            assert_int_equal(cells, (1u << 25) - 1);
+            ++tested;
+        }
+    assert_true(tested > DRAWS / 2);
+    free(h);
+}
+
 static void draws_follow_the_cut_density(void **state) {
-    static const char *const patterns[] = {"plus", "white", "blue", "sobol"};
-    for (int run = 0; run < 8; ++run) {
+    static const char *const patterns[] = {"plus", "white", "blue", "sobol", "strata"};
+    for (int run = 0; run < 10; ++run) {
         bool ggx = run % 2;
         uint32_t size = run < 2 ? WIDE : SIZE;
         /* GGX's cap is tilted: its rim stays below this angle. */
@@ -255,9 +290,9 @@ static void bilinear_is_the_mean_of_the_block(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_plus_holds_all_five_fifths),     cmocka_unit_test(draws_follow_the_cut_density),
-        cmocka_unit_test(blue_noise_evens_out_over_neighbours), cmocka_unit_test(the_cone_gives_back_what_the_cut_took),
-        cmocka_unit_test(bilinear_is_the_mean_of_the_block),
+        cmocka_unit_test(every_plus_holds_all_five_fifths),      cmocka_unit_test(strata_hold_every_cell),
+        cmocka_unit_test(draws_follow_the_cut_density),          cmocka_unit_test(blue_noise_evens_out_over_neighbours),
+        cmocka_unit_test(the_cone_gives_back_what_the_cut_took), cmocka_unit_test(bilinear_is_the_mean_of_the_block),
     };
     return cmocka_run_group_tests_name("gpu_downsample_pattern", tests, gpu_set_up, gpu_tear_down);
 }

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "cocoon_walk.h"
-#include "ends.h"
+#include "end_reason_names.h"
 #include "gpu.h"
 #include "plain_capture.h"
 

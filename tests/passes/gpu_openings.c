@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "ends.h"
+#include "end_reason_names.h"
 #include "gpu.h"
 #include "plain_capture.h"
 

@@ -1,4 +1,4 @@
-/* hiz/nearest, screen_trace/hiz and screen_trace/dda against walk.c in double precision, against each other at odd sizes
+/* hiz/nearest, screen_trace/hiz and screen_trace/dda against depth_traversal.c in double precision, against each other at odd sizes
    and depth encodings, and against closed forms where rays are special. */
 #include <math.h>
 #include <setjmp.h>
@@ -10,10 +10,10 @@
 
 #include <cmocka.h>
 
-#include "ends.h"
+#include "end_reason_names.h"
 #include "gpu.h"
 #include "plain_capture.h"
-#include "walk.h"
+#include "depth_traversal.h"
 
 struct traced {
     uint32_t width, height;
@@ -86,12 +86,12 @@ static void print_and_check(const struct agreement *a, const char *what) {
 /* Where rays go: the depth buffer that they start on. */
 struct paths {
     float *depth_m, *normal;
-    struct walk_grid grid;
+    struct depth_grid grid;
 };
 
 static struct paths paths_of(struct gpu *gpu, const struct traced *t) {
     struct paths p = {gpu_floats(gpu, "depth_half", NULL, NULL), gpu_floats(gpu, "normal_half", NULL, NULL), {0}};
-    walk_grid_init(&p.grid, glint_capture_frame(gpu->capture), t->width, t->height, p.depth_m, p.normal);
+    depth_grid_init(&p.grid, glint_capture_frame(gpu->capture), t->width, t->height, p.depth_m, p.normal);
     return p;
 }
 
@@ -100,15 +100,15 @@ static void paths_free(struct paths *p) {
     free(p->normal);
 }
 
-static bool path(const struct paths *p, size_t i, struct walk_ray *ray) {
-    return walk_ray_init(ray, &p->grid, (uint32_t)(i % p->grid.width), (uint32_t)(i / p->grid.width));
+static bool path(const struct paths *p, size_t i, struct depth_ray *ray) {
+    return depth_ray_init(ray, &p->grid, (uint32_t)(i % p->grid.width), (uint32_t)(i / p->grid.width));
 }
 
 static double apart(const struct paths *paths, size_t i, double a, double b) {
-    struct walk_ray ray;
+    struct depth_ray ray;
     double p[2], q[2], depth;
-    if (!path(paths, i, &ray) || !walk_project(&paths->grid, &ray, a, p, &depth) ||
-        !walk_project(&paths->grid, &ray, b, q, &depth))
+    if (!path(paths, i, &ray) || !depth_ray_project(&paths->grid, &ray, a, p, &depth) ||
+        !depth_ray_project(&paths->grid, &ray, b, q, &depth))
         return INFINITY;
     return hypot(p[0] - q[0], p[1] - q[1]);
 }
@@ -127,12 +127,12 @@ static void against_the_walk(struct gpu *gpu, const char *scene) {
         struct traced t = trace(gpu);
         struct paths paths = paths_of(gpu, &t);
         for (size_t i = 0; i < (size_t)t.width * t.height; ++i) {
-            struct walk_ray ray;
+            struct depth_ray ray;
             const bool has_ray = path(&paths, i, &ray);
             assert_int_equal(has_ray, t.end[i] != END_not_traced);
             if (!has_ray) continue;
             double distance;
-            bool expected = walk_trace(&paths.grid, &ray, &walk_rules_default, &distance);
+            bool expected = traversal_hit(&paths.grid, &ray, &traversal_rules_default, &distance);
             count(&a, is_hit(&t, i), expected, apart(&paths, i, (double)t.travelled[i], distance));
         }
         snprintf(what, sizeof what, "%s on %s", variants[v], scene);
@@ -175,7 +175,7 @@ static void hiz_as_dda(struct gpu *gpu, const char *what) {
                   what, t.width, t.height, a.rays, a.hits, a.lost, a.invented, a.far,
                   texels > 0 ? fetches / texels : 0);
     assert_true(10000 * (a.flips + a.far) <= a.rays);
-    if (t.width > 600) assert_true(2 * fetches <= texels); /* far fewer the larger the picture is: tests/traces.py */
+    if (t.width > 600) assert_true(2 * fetches <= texels); /* far fewer the larger the picture is: tools/traces.py */
     paths_free(&paths);
     traced_free(&expected);
     traced_free(&t);
@@ -397,10 +397,10 @@ static double median_error(struct gpu *gpu, const char *setting, size_t *hits) {
     assert_non_null(errors);
     *hits = 0;
     for (size_t i = 0; i < (size_t)t.width * t.height; ++i) {
-        struct walk_ray ray;
+        struct depth_ray ray;
         double distance;
         if (!is_hit(&t, i) || !path(&paths, i, &ray)) continue;
-        if (walk_trace(&paths.grid, &ray, &walk_rules_default, &distance))
+        if (traversal_hit(&paths.grid, &ray, &traversal_rules_default, &distance))
             errors[(*hits)++] = fabs((double)t.travelled[i] - distance) / distance;
     }
     double median = quantile(errors, *hits, 0.5);

@@ -2,7 +2,7 @@
 #ifndef GLINT_TESTS_PASSES_MIRROR_BOX_H
 #define GLINT_TESTS_PASSES_MIRROR_BOX_H
 
-#include "ends.h"
+#include "end_reason_names.h"
 #include "gpu.h"
 
 extern const double mirror_box[3];

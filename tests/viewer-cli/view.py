@@ -170,7 +170,7 @@ colorspaces:
         - !<MatrixTransform> {matrix: [1.1, 0.05, 0, 0, 0.02, 0.9, 0.03, 0, 0, 0.1, 0.7, 0, 0, 0, 0, 1]}
         - !<ExponentWithLinearTransform> {gamma: [2.2, 2.2, 2.2, 1], offset: [0.04, 0.04, 0.04, 0], direction: inverse}
 """)
-        builtin = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../viewer-cli/glint.ocio")
+        builtin = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../viewer-cli/draw/glint.ocio")
         for words, theirs in ((["--view", "ACES"], ["--colorconfig", builtin, exr, "--ociodisplay:from=lin_rec709", "sRGB", "ACES"]),
                               (["--ocio", builtin, "--view", "sRGB"], ["--colorconfig", builtin, exr, "--ociodisplay:from=lin_rec709", "sRGB", "sRGB"]),
                               (["--ocio", config, "--display", "television", "--view", "warm"], ["--colorconfig", config, exr, "--colorconvert", "linear", "shown"])):

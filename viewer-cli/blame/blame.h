@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-#include "answer_args.h"
+#include "options/answer_args.h"
 #include "glint/blame.h"
-#include "journal.h"
-#include "progress.h"
+#include "journal/journal.h"
+#include "io/progress.h"
 
 /* What a coalition is worth: errors against both answers by class, the chosen answer first, and texture fetches. */
 enum { BLAME_CLASSES = GLINT_SURFACE_COUNT, BLAME_FETCHES = GLINT_ANSWER_COUNT * BLAME_CLASSES, BLAME_VALUES };

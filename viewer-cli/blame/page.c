@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "blame/blame.h"
-#include "page/page.h"
+#include "draw/page/page.h"
 
 /* Players as they run: the first one on top. */
 static size_t player_at(const struct blame *blame, size_t place) {

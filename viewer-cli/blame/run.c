@@ -69,7 +69,7 @@ static bool run_before(struct work *work, const struct glint_pipeline *pipeline,
     return !count || glint_replay_load(replay, work->open, err);
 }
 
-static bool look(struct work *work, uint32_t coalition, struct glint_error *err) {
+static bool replay_coalition(struct work *work, uint32_t coalition, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_players_pipeline(work->blame->players, coalition, err);
     struct glint_verdict verdict = {0};
     struct glint_error own = {0};
@@ -100,7 +100,7 @@ static bool play(void *user, uint32_t coalition, double *values, struct glint_er
     if (!found(work->blame, work->capture, coalition)) {
         snprintf(work->label, sizeof work->label, "%.20s: %zu of %zu",
                  base_name(work->blame->captures.items[work->capture]), work->done + 1, work->total);
-        if (!look(work, coalition, err)) return false;
+        if (!replay_coalition(work, coalition, err)) return false;
     }
     work->done++;
     blame_values(work->blame, found(work->blame, work->capture, coalition), values);
@@ -149,7 +149,7 @@ static bool find_answer(struct work *work, struct glint_error *err) {
                                                             &error, progress_report, work->blame->progress, err);
 }
 
-static bool tell(void *user, struct glint_error *err) {
+static bool tell_progress(void *user, struct glint_error *err) {
     struct work *work = user;
     return blame_tell(work->blame, false, err);
 }
@@ -157,7 +157,7 @@ static bool tell(void *user, struct glint_error *err) {
 static bool find_shares(struct work *work, struct glint_error *err) {
     struct blame *blame = work->blame;
     const struct glint_game game = {
-        .players = blame->count, .values = BLAME_VALUES, .play = play, .news = tell, .user = work};
+        .players = blame->count, .values = BLAME_VALUES, .play = play, .news = tell_progress, .user = work};
     const size_t whole = (size_t)1 << blame->count,
                  drawn = 2 * blame->count + 2 + blame->options.permutations * blame->count;
     work->done = 0;

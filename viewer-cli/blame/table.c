@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "blame/blame.h"
-#include "table.h"
+#include "io/table.h"
 
 static void cell(struct table *table, double value) {
     if (isfinite(value)) table_cell(table, "%s", number_text(value));

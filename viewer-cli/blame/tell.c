@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "blame/blame.h"
-#include "text_file.h"
+#include "io/text_file.h"
 
 static const double EVERY_SECONDS = 5;
 

@@ -17,7 +17,7 @@ static bool is_run(const char *folder) {
 }
 
 /* Takes both paths. */
-static bool add(struct check_pairs *pairs, char *run, char *baseline, struct glint_error *err) {
+static bool add_check_pair(struct check_pairs *pairs, char *run, char *baseline, struct glint_error *err) {
     struct check_pair *larger = realloc(pairs->items, (pairs->count + 1) * sizeof *larger);
     if (larger) pairs->items = larger;
     if (!larger || !run || !baseline) {
@@ -46,7 +46,7 @@ static bool add_folder(struct check_pairs *pairs, const char *run, const char *b
         const char *name = entries[i]->d_name;
         const bool hidden = name[0] == '.' || name[strlen(name) - 1] == '~';
         char *a = hidden ? NULL : inside(run, name), *b = hidden ? NULL : inside(baseline, name);
-        if (ok && a && b && is_run(second ? b : a) && !(second && is_run(a))) ok = add(pairs, a, b, err);
+        if (ok && a && b && is_run(second ? b : a) && !(second && is_run(a))) ok = add_check_pair(pairs, a, b, err);
         else {
             free(a);
             free(b);
@@ -59,7 +59,7 @@ static bool add_folder(struct check_pairs *pairs, const char *run, const char *b
 
 bool check_pairs_find(struct check_pairs *pairs, const char *run, const char *baseline, struct glint_error *err) {
     *pairs = (struct check_pairs){0};
-    if (is_run(run)) return add(pairs, strdup(run), strdup(baseline), err);
+    if (is_run(run)) return add_check_pair(pairs, strdup(run), strdup(baseline), err);
     if (!add_folder(pairs, run, baseline, false, err) || !add_folder(pairs, run, baseline, true, err)) return false;
     return pairs->count ||
            glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a run, or a folder of runs: no run.json", run);

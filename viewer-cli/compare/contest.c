@@ -1,14 +1,14 @@
 /* Several presets on the same capture, taking turns. */
-#include "compare/contest.h"
+#include "compare/compare.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "glint/sort.h"
-#include "pass_names.h"
-#include "pipeline_args.h"
-#include "view/pixels.h"
+#include "options/pass_names.h"
+#include "options/pipeline_args.h"
+#include "draw/view/pixels.h"
 
 const char *const contest_over[CONTEST_OVER] = {"water", "transparent"};
 
@@ -19,19 +19,19 @@ static void label_of(char label[64], const char *preset) {
     snprintf(label, 64, "%.*s", (int)(length < 63 ? length : 63), name);
 }
 
-static struct contestant *find(const struct contest *contest, const char *label, size_t length) {
+static struct contestant *find_contestant(const struct contest *contest, const char *label, size_t length) {
     for (size_t i = 0; i < contest->count; i++)
         if (strlen(contest->contestants[i].label) == length && !memcmp(contest->contestants[i].label, label, length))
             return &contest->contestants[i];
     return NULL;
 }
 
-static bool set(const struct contest *contest, const char *setting, struct glint_error *err) {
+static bool set_contestant(const struct contest *contest, const char *setting, struct glint_error *err) {
     const char *cut = strchr(setting, ':');
     if (!cut || cut == setting || !cut[1])
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "--set %s: expected PRESET:SLOT.PARAM=VALUE, such as kf2:resolve.blur=0", setting);
-    const struct contestant *contestant = find(contest, setting, (size_t)(cut - setting));
+    const struct contestant *contestant = find_contestant(contest, setting, (size_t)(cut - setting));
     if (!contestant)
         return glint_fail(err, GLINT_ERROR_USAGE, "--set %s: preset %.*s is not among --presets", setting,
                           (int)(cut - setting), setting);
@@ -49,14 +49,14 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
     for (size_t i = 0; i < count; i++) {
         struct contestant *c = &contest->contestants[i];
         label_of(c->label, presets[i]);
-        if (find(contest, c->label, strlen(c->label)))
+        if (find_contestant(contest, c->label, strlen(c->label)))
             return glint_fail(err, GLINT_ERROR_USAGE, "preset %s: named twice in --presets", c->label);
         contest->count++;
         if (!(c->pipeline = glint_pipeline_create(presets[i], err)) || !pipeline_fog_off(c->pipeline, err))
             return false;
     }
     for (size_t i = 0; i < settings->count; i++)
-        if (!set(contest, settings->items[i], err)) return false;
+        if (!set_contestant(contest, settings->items[i], err)) return false;
     return true;
 }
 
@@ -151,8 +151,8 @@ static bool read_picture(struct glint_judge *judge, struct showing *s, struct an
 }
 
 /* The run whose images are looked at: with diagnostics, which the timed ones are without. */
-static bool look(const struct contest *contest, size_t i, struct showing *s, struct answer *a,
-                 struct glint_error *err) {
+static bool measure_contestant(const struct contest *contest, size_t i, struct showing *s, struct answer *a,
+                               struct glint_error *err) {
     const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
     const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
     if (!glint_judge_look(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
@@ -241,7 +241,7 @@ static bool look_at_all(const struct contest *contest, struct showing *showings,
     for (size_t i = 0; i < contest->count; i++) {
         const struct contestant *c = &contest->contestants[i];
         struct glint_error own = {0};
-        showings[i].ran = look(contest, i, &showings[i], &answers[i], &own) &&
+        showings[i].ran = measure_contestant(contest, i, &showings[i], &answers[i], &own) &&
                           (!pictures || contest_draw(pictures, i + 1, c, &answers[i], surfaces, &own));
         if (!showings[i].ran && !fail_alone(&showings[i], c, &own, err)) return false;
         if (!truth && showings[i].compared) truth = answers[i].truth;

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/contest.h"
-#include "page/page.h"
+#include "compare/compare.h"
+#include "draw/page/page.h"
 
 static const struct showing *showing_of(const struct contest_table *t, size_t capture, size_t preset) {
     return &t->showings[capture * t->contest->count + preset];

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/contest.h"
-#include "table.h"
-#include "text_file.h"
+#include "compare/compare.h"
+#include "io/table.h"
+#include "io/text_file.h"
 
 static const char *base_name(const char *path) {
     return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;

@@ -2,10 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/contest.h"
-#include "page/page.h"
-#include "view/pixels.h"
-#include "view/png_file.h"
+#include "compare/compare.h"
+#include "draw/page/page.h"
+#include "draw/view/pixels.h"
+#include "draw/view/png_file.h"
 
 enum { REFLECTION, ERROR, PICTURE };
 static const char *const row_names[CONTEST_ROWS] = {"reflection", "error", "picture"};

@@ -8,7 +8,7 @@
 #include "glint/exr.h"
 #include "glint/metrics.h"
 #include "glint/replay.h"
-#include "view/render.h"
+#include "draw/view/render.h"
 
 /* idiff's, in the order of how bad they are. */
 enum diff_status { DIFF_SAME = 0, DIFF_WARN = 1, DIFF_FAIL = 2, DIFF_SIZE = 3, DIFF_FILE = 4, DIFF_USAGE = 5 };
@@ -43,7 +43,7 @@ void diff_side_finish(struct diff_side *side);
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
                     bool integers, void *out, struct glint_error *err);
 
-/* ---- Pairs: pairs.c ---- */
+/* ---- Pairs: pairs.c, compare.c ---- */
 
 struct diff_pair {
     const struct diff_image *a, *b; /* one of them may be missing */
@@ -72,6 +72,9 @@ struct diff {
     json_t *settings; /* what two runs say differently of themselves: [{"what", "a", "b"}] */
     enum diff_status status;
 };
+/* Which images belong together. */
+bool diff_pair_up(struct diff *diff, struct glint_error *err);
+/* Pairs the images of both sides, and compares them. */
 bool diff_compare(struct diff *diff, glint_progress progress, void *user, struct glint_error *err);
 void diff_finish(struct diff *diff);
 const struct diff_image *diff_pair_image(const struct diff_pair *pair); /* whichever is there */

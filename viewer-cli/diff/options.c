@@ -1,7 +1,7 @@
 /* The options that diff and check share. */
 #include "diff/options.h"
 
-#include "progress.h"
+#include "io/progress.h"
 
 struct diff_args diff_args_default(void) {
     return (struct diff_args){.options = {.limits = glint_difference_limits()}};

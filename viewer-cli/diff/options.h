@@ -2,9 +2,9 @@
 #ifndef GLINT_VIEWER_DIFF_OPTIONS_H
 #define GLINT_VIEWER_DIFF_OPTIONS_H
 
-#include "args.h"
+#include "options/args.h"
 #include "diff/diff.h"
-#include "metric_args.h"
+#include "options/metric_args.h"
 
 struct diff_args {
     struct diff_options options;

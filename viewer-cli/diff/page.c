@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "diff/diff.h"
-#include "page/page.h"
+#include "draw/page/page.h"
 
 /* So many images that differ are shown, in the order of the passes, and the last one; the table has all. */
 enum { STAGES = 8 };

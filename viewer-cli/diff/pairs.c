@@ -1,6 +1,4 @@
 /* Images of two sides, pair by pair. */
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +8,7 @@ const struct diff_image *diff_pair_image(const struct diff_pair *pair) {
     return pair->a ? pair->a : pair->b;
 }
 
-static const struct diff_image *find(const struct diff_side *side, const char *name) {
+static const struct diff_image *find_image(const struct diff_side *side, const char *name) {
     for (size_t i = 0; i < side->count; i++)
         if (!strcmp(side->images[i].name, name)) return &side->images[i];
     return NULL;
@@ -31,13 +29,14 @@ static void add_others(struct diff *diff, int first, const char *slot) {
         const struct diff_image *image = &other->images[i];
         bool known = false;
         for (size_t k = 0; k < one->count; k++) known |= !strcmp(one->images[k].slot, image->slot);
-        if (!find(one, image->name) && (slot ? !strcmp(slot, image->slot) : !known)) add_pair(diff, first, NULL, image);
+        if (!find_image(one, image->name) && (slot ? !strcmp(slot, image->slot) : !known))
+            add_pair(diff, first, NULL, image);
     }
 }
 
 /* By name, slot by slot in the order of the first side, a run's before a file's; two images alone are a pair whatever their
    names. What an engine did not dump is not missed. */
-static bool pair_up(struct diff *diff, struct glint_error *err) {
+bool diff_pair_up(struct diff *diff, struct glint_error *err) {
     const int first = diff->sides[0].run || !diff->sides[1].run ? 0 : 1;
     const struct diff_side *one = &diff->sides[first], *other = &diff->sides[1 - first];
     diff->pairs = calloc(one->count + other->count, sizeof *diff->pairs);
@@ -47,120 +46,12 @@ static bool pair_up(struct diff *diff, struct glint_error *err) {
         return true;
     }
     for (size_t i = 0; i < one->count; i++) {
-        const struct diff_image *image = &one->images[i], *same = find(other, image->name);
+        const struct diff_image *image = &one->images[i], *same = find_image(other, image->name);
         if (same || !is_engines(other, one)) add_pair(diff, first, image, same);
         if (i + 1 == one->count || strcmp(one->images[i + 1].slot, image->slot) != 0)
             add_others(diff, first, image->slot);
     }
     add_others(diff, first, NULL);
-    return true;
-}
-
-/* ---- One pair ---- */
-
-/* Channels that both have, whole numbers or not; what one lacks fails. */
-static size_t common_channels(struct diff_pair *pair, bool integers, const char *names[DIFF_CHANNELS]) {
-    size_t count = 0;
-    for (int side = 0; side < 2; side++) {
-        const struct diff_image *own = side ? pair->b : pair->a, *other = side ? pair->a : pair->b;
-        for (size_t i = 0; i < own->channel_count; i++) {
-            size_t k = 0;
-            if (own->integers[i] != integers) continue;
-            while (k < other->channel_count && strcmp(own->channels[i], other->channels[k]) != 0) k++;
-            if (k < other->channel_count && other->integers[k] == integers) {
-                if (side == 0) names[count++] = own->channels[i];
-                continue;
-            }
-            pair->status = DIFF_FAIL;
-            snprintf(pair->note, sizeof pair->note, "channel %.100s: %s has %s", own->channels[i],
-                     side ? "the first" : "the second", k < other->channel_count ? "another kind of numbers" : "none");
-        }
-    }
-    return count;
-}
-
-static void add_heat(const struct diff_pair *pair, const void *a, const void *b, bool integers, size_t count) {
-    for (size_t i = 0; i < pair->difference.pixels * count; i++) {
-        const double x = integers ? ((const uint32_t *)a)[i] : (double)((const float *)a)[i],
-                     y = integers ? ((const uint32_t *)b)[i] : (double)((const float *)b)[i];
-        const float by = x == y || (isnan(x) && isnan(y)) ? 0 : (float)fabs(x - y);
-        float *heat = &pair->heat[i / count];
-        if (!(by <= *heat)) *heat = isnan(by) ? INFINITY : by;
-    }
-}
-
-/* Figures of metrics.h take the first four channels of floats. */
-static bool add_metrics(const struct diff *diff, struct diff_pair *pair, float *a, float *b, const char *const *names,
-                        size_t count, struct glint_error *err) {
-    char channels[512] = "";
-    struct glint_metric_options options = diff->options.metrics;
-    for (size_t k = 0; k < count; k++) {
-        const size_t used = strlen(channels);
-        snprintf(channels + used, sizeof channels - used, "%s%s", used ? " " : "", names[k]);
-    }
-    const struct glint_pixels found = {pair->a->width, pair->a->height, (uint32_t)count, a},
-                              truth = {pair->a->width, pair->a->height, (uint32_t)count, b};
-    options.found_channels = options.truth_channels = channels;
-    if (count < 3) options.metrics &= ~(1u << GLINT_METRIC_FLIP | 1u << GLINT_METRIC_HDR_FLIP);
-    return glint_metrics_compare(&found, &truth, &options, &pair->metrics, err);
-}
-
-static bool compare_kind(struct diff *diff, struct diff_pair *pair, bool integers, size_t *channels,
-                         struct glint_error *err) {
-    const char *names[DIFF_CHANNELS];
-    const size_t count = common_channels(pair, integers, names), values = pair->difference.pixels * count;
-    if (!count) return true;
-    uint32_t *a = malloc(values * sizeof *a), *b = malloc(values * sizeof *b);
-    bool ok = (a && b) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    ok = ok && diff_side_read(&diff->sides[0], pair->a, names, count, integers, a, err) &&
-         diff_side_read(&diff->sides[1], pair->b, names, count, integers, b, err);
-    if (ok) diff_planned_skip(diff, pair, count, a, b);
-    if (ok) glint_difference_add(&pair->difference, a, b, integers, (uint32_t)count, *channels, &diff->options.limits);
-    if (ok && pair->heat) add_heat(pair, a, b, integers, count);
-    if (ok && !integers && diff->options.metrics.metrics)
-        ok = add_metrics(diff, pair, (float *)a, (float *)b, names, count, err);
-    *channels += count;
-    free(a);
-    free(b);
-    return ok;
-}
-
-static bool compare_pair(struct diff *diff, struct diff_pair *pair, struct glint_error *err) {
-    size_t channels = 0;
-    if (!pair->a || !pair->b) {
-        pair->left_out = diff_is_planned_out(diff, pair);
-        diff->left_out += pair->left_out;
-        pair->status = pair->left_out ? DIFF_SAME : DIFF_FAIL;
-        snprintf(pair->note, sizeof pair->note, "%s has no such image", pair->a ? "the second" : "the first");
-        return true;
-    }
-    if (pair->a->width != pair->b->width || pair->a->height != pair->b->height) {
-        pair->status = DIFF_SIZE;
-        snprintf(pair->note, sizeof pair->note, "%u x %u and %u x %u", pair->a->width, pair->a->height, pair->b->width,
-                 pair->b->height);
-        return true;
-    }
-    if (!glint_difference_begin(&pair->difference, pair->a->width, pair->a->height, err)) return false;
-    if (diff->options.heat && !(pair->heat = calloc(pair->difference.pixels, sizeof *pair->heat)))
-        return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (!compare_kind(diff, pair, false, &channels, err) || !compare_kind(diff, pair, true, &channels, err))
-        return false;
-    const enum diff_status found = (enum diff_status)glint_difference_end(&pair->difference, &diff->options.limits);
-    if (found > pair->status) pair->status = found;
-    return true;
-}
-
-bool diff_compare(struct diff *diff, glint_progress progress, void *user, struct glint_error *err) {
-    if (!pair_up(diff, err) || !diff_planned_begin(diff, err)) return false;
-    if (diff->sides[0].json && diff->sides[1].json)
-        diff->settings = diff_settings(diff->sides[0].json, diff->sides[1].json);
-    for (size_t i = 0; i < diff->count; i++) {
-        struct diff_pair *pair = &diff->pairs[i];
-        if (progress && !progress(user, diff_pair_image(pair)->name, (double)i / (double)diff->count))
-            return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
-        if (!compare_pair(diff, pair, err)) return false;
-        if (pair->status > diff->status) diff->status = pair->status;
-    }
     return true;
 }
 

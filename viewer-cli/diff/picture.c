@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "channels.h"
+#include "capture/channels.h"
 #include "diff/diff.h"
-#include "view/png_file.h"
-#include "view/sheet.h"
+#include "draw/view/png_file.h"
+#include "draw/view/sheet.h"
 
 /* ---- One pair ---- */
 

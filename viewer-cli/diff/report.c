@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "diff/diff.h"
-#include "metric_args.h"
-#include "table.h"
+#include "options/metric_args.h"
+#include "io/table.h"
 
 enum { PLACES = 16 };
 

@@ -4,7 +4,7 @@
 #include "diff/diff.h"
 #include "report/report.h"
 
-static void add(json_t *list, const char *what, const json_t *a, const json_t *b) {
+static void add_setting(json_t *list, const char *what, const json_t *a, const json_t *b) {
     json_t *json = json_object();
     json_object_set_new(json, "what", json_string(what));
     json_object_set_new(json, "a", a ? json_deep_copy(a) : json_null());
@@ -13,7 +13,7 @@ static void add(json_t *list, const char *what, const json_t *a, const json_t *b
 }
 
 static void compare(json_t *list, const char *what, const json_t *a, const json_t *b) {
-    if ((a || b) && !(a && b && json_equal(a, b))) add(list, what, a, b);
+    if ((a || b) && !(a && b && json_equal(a, b))) add_setting(list, what, a, b);
 }
 
 /* Parameters of one pass; those of another variant are others altogether. */

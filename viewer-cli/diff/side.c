@@ -5,8 +5,8 @@
 #include <sys/stat.h>
 
 #include "diff/diff.h"
-#include "channels.h"
-#include "view/source.h"
+#include "capture/channels.h"
+#include "draw/view/source.h"
 
 static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cube_face.h"
+#include "capture/cube_face.h"
 #include "lint.h"
 
 /* Of fewer texels the lookup lets more than a tenth of the distance pass: they fit from anywhere. */

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cube_face.h"
+#include "capture/cube_face.h"
 #include "lint.h"
 
 enum { TURNS = 8 };

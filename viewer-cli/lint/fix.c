@@ -54,7 +54,7 @@ static void set_attribute(struct copy *copy, const char *name, const struct lint
 
 /* ---- What stands under sky ---- */
 
-static bool is(const struct copy *copy, size_t channel, size_t at, float value) {
+static bool has_value(const struct copy *copy, size_t channel, size_t at, float value) {
     uint16_t half;
     float number;
     if (copy->channels[channel].stored == GLINT_STORED_HALF) {
@@ -66,7 +66,7 @@ static bool is(const struct copy *copy, size_t channel, size_t at, float value) 
 }
 
 /* 0 or +inf, which both types hold. */
-static void put(struct copy *copy, size_t channel, size_t at, float value) {
+static void set_value(struct copy *copy, size_t channel, size_t at, float value) {
     const uint16_t half = value == 0 ? 0 : 0x7c00;
     if (copy->channels[channel].stored == GLINT_STORED_HALF)
         memcpy((char *)copy->data[channel] + 2 * at, &half, sizeof half);
@@ -85,10 +85,10 @@ static void mend_sky(struct copy *copy, enum lint_pixels pixels) {
     const bool by_distance = pixels == LINT_CLEAR_INFINITE;
     if (alpha == count || (distance == count && pixels != LINT_BLACK_SKY)) return;
     for (size_t i = 0; i < texels; i++) {
-        if (by_distance ? !is(copy, distance, i, INFINITY) : !is(copy, alpha, i, 0)) continue;
-        if (pixels == LINT_FAR_SKY) put(copy, distance, i, INFINITY);
+        if (by_distance ? !has_value(copy, distance, i, INFINITY) : !has_value(copy, alpha, i, 0)) continue;
+        if (pixels == LINT_FAR_SKY) set_value(copy, distance, i, INFINITY);
         for (size_t c = 0; c < count && pixels != LINT_FAR_SKY; c++)
-            if (c != distance && (c != alpha || by_distance)) put(copy, c, i, 0);
+            if (c != distance && (c != alpha || by_distance)) set_value(copy, c, i, 0);
     }
 }
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cube_face.h"
+#include "capture/cube_face.h"
 #include "lint.h"
 
 const char *const lint_measure_names[] = {"normals with the depths around them", "depth with the cube maps' distances",

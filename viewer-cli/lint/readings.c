@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "camera_facts.h"
+#include "capture/camera_facts.h"
 #include "lint.h"
 
 void lint_undecided(struct lint_findings *findings, const char *format, ...) {
@@ -189,8 +189,8 @@ static bool bottom_first(const struct lint_data *data, const struct lint_reading
     return top * (up < 3 ? 1 : -1) * eyes.now.rotation[3 + axis_of[up]] < -0.5;
 }
 
-static void tell(struct lint_findings *findings, const struct contest *contest, size_t row,
-                 const struct lint_data *data, const struct lint_agreement *from) {
+static void add_finding(struct lint_findings *findings, const struct contest *contest, size_t row,
+                        const struct lint_data *data, const struct lint_agreement *from) {
     const struct candidate *c = &contest->best;
     const int m = c->measure;
     const bool alone = contest->second.gain<0.95 * c->gain, clear = c->agreement.share[m]> 0.6 && alone;
@@ -265,15 +265,15 @@ static void try_centers(const struct lint_data *data, const struct lint_reading 
 }
 
 /* The best other reading from here; false when none is clearly better. */
-static bool step(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
-                 struct lint_findings *findings) {
+static bool read_depth_step(const struct lint_data *data, struct lint_reading *reading,
+                            struct lint_agreement *agreement, struct lint_findings *findings) {
     struct contest contest = {.best = {.row = NONE}, .second = {.row = NONE}};
     try_rows(data, reading, agreement, &contest);
     try_pairs_of_normals(data, reading, agreement, &contest);
     try_centers(data, reading, agreement, &contest);
     if (contest.best.row == NONE) return false;
-    tell(findings, &contest, contest.best.row, data, agreement);
-    if (contest.best.also != NONE) tell(findings, &contest, contest.best.also, data, agreement);
+    add_finding(findings, &contest, contest.best.row, data, agreement);
+    if (contest.best.also != NONE) add_finding(findings, &contest, contest.best.also, data, agreement);
     *reading = contest.best.reading;
     *agreement = contest.best.agreement;
     return true;
@@ -282,5 +282,5 @@ static bool step(const struct lint_data *data, struct lint_reading *reading, str
 void lint_find_readings(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
                         struct lint_findings *findings) {
     enum { MISTAKES = 4 };
-    for (int i = 0; i < MISTAKES && step(data, reading, agreement, findings); i++) continue;
+    for (int i = 0; i < MISTAKES && read_depth_step(data, reading, agreement, findings); i++) continue;
 }

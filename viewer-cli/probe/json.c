@@ -1,7 +1,7 @@
 /* A pixel's story as JSON. */
 #include <string.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "probe/probe.h"
 
 static json_t *numbers(const double *values, size_t count) {

@@ -60,10 +60,8 @@ size_t probe_groups(const struct glint_probe_row *kind, struct probe_group group
 void probe_group_text(const struct probe_side *side, const struct glint_probe_record *record,
                       const struct probe_group *group, char *text, size_t size);
 
-/* text.c, json.c, draw.c */
+/* text.c, json.c */
 void probe_print(const struct probe *probe);
 json_t *probe_json(const struct probe *probe);
-/* Fails when there is no ray to draw. */
-bool probe_draw(const char *path, const struct probe *probe, struct glint_error *err);
 
 #endif

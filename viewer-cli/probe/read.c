@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "probe/probe.h"
-#include "table.h"
+#include "io/table.h"
 
 static bool is_uint(const struct glint_image *image) {
     return image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;

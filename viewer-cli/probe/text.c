@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "probe/probe.h"
-#include "table.h"
+#include "io/table.h"
 
 enum { TEXT = 160 };
 

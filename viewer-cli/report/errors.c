@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "against.h"
+#include "replay/against.h"
 #include "report/report.h"
-#include "text_file.h"
+#include "io/text_file.h"
 
 static bool errors_path(char path[4096], const char *folder, struct glint_error *err) {
     return snprintf(path, 4096, "%s/errors.json", folder) < 4096 ||

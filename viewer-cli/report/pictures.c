@@ -5,7 +5,7 @@
 
 #include "glint/replay.h"
 #include "report/report.h"
-#include "view/sheet.h"
+#include "draw/view/sheet.h"
 
 /* What an image means, as the run says. */
 static const char *meaning_of(const json_t *run, const char *image) {

@@ -2,7 +2,7 @@
 #ifndef GLINT_VIEWER_REPORT_H
 #define GLINT_VIEWER_REPORT_H
 
-#include "page/page.h"
+#include "draw/page/page.h"
 
 /* Several runs stand beside each other. `images`: which, NULL-terminated; NULL: those of the frame's or half the frame's
    size that the first run has. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "glint/replay.h"
 #include "report/report.h"
 

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "args.h"
+#include "options/args.h"
 #include "report/report.h"
 
 static double ms(const json_t *pass, const char *key) {

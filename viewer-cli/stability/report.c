@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "args.h"
-#include "table.h"
+#include "options/args.h"
+#include "io/table.h"
 
 /* ---- JSON ---- */
 

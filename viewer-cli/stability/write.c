@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "glint/exr.h"
-#include "journal.h"
-#include "view/png_file.h"
-#include "view/render.h"
-#include "text_file.h"
+#include "journal/journal.h"
+#include "draw/view/png_file.h"
+#include "draw/view/render.h"
+#include "io/text_file.h"
 
 enum { LAYERS = 3 };
 

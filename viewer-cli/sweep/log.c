@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "text_file.h"
+#include "io/text_file.h"
 
 static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "page/page.h"
+#include "draw/page/page.h"
 #include "sweep/sweep.h"
 
 static const char *base_name(const char *path) {

@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "view/pixels.h"
-#include "view/png_file.h"
+#include "draw/view/pixels.h"
+#include "draw/view/png_file.h"
 #include "sweep/sweep.h"
 
 /* One capture under way. */
@@ -102,7 +102,7 @@ static double now_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static bool look(struct work *work, size_t point, struct glint_error *err) {
+static bool measure_point(struct work *work, size_t point, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_space_pipeline(work->sweep->space, point, err);
     struct glint_verdict verdict = {0};
     struct glint_error own = {0};
@@ -176,7 +176,7 @@ static bool find_answer(struct work *work, struct glint_error *err) {
 static bool take_turns(struct work *work, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     for (size_t p = 0; p < sweep->points; p++)
-        if (!sweep_row(sweep, work->capture, p)->look && !look(work, p, err)) return false;
+        if (!sweep_row(sweep, work->capture, p)->look && !measure_point(work, p, err)) return false;
     for (uint32_t round = 0; round < sweep->rounds; round++) {
         glint_judge_next_round(work->judge);
         for (size_t p = 0; p < sweep->points; p++) {

@@ -37,7 +37,7 @@ double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const 
     return median;
 }
 
-static void add(struct sweep_sum *sum, double value, double captures) {
+static void add_value(struct sweep_sum *sum, double value, double captures) {
     sum->mean += value / captures;
     if (isnan(value) || value > sum->worst) sum->worst = value; /* NAN stays */
 }
@@ -57,11 +57,11 @@ static struct sweep_point sum_point(const struct sweep *sweep, size_t p) {
         double low, high;
         const double error = sweep_error(row, sweep->against.truth ? "truth" : "reference", "all", sweep->metric);
         point.valid = point.valid && isfinite(error) && sweep_figure(row, "invalid") == 0;
-        add(&point.error, badness(sweep, error), captures);
-        add(&point.cubemaps_ms, sweep_time(sweep, row, "cubemaps_ms", &low, &high), captures);
-        add(&point.frame_ms, sweep_time(sweep, row, "frame_ms", &low, &high), captures);
-        add(&point.steps_px, sweep_figure(row, "steps_px"), captures);
-        add(&point.fetches_px, sweep_figure(row, "fetches_px"), captures);
+        add_value(&point.error, badness(sweep, error), captures);
+        add_value(&point.cubemaps_ms, sweep_time(sweep, row, "cubemaps_ms", &low, &high), captures);
+        add_value(&point.frame_ms, sweep_time(sweep, row, "frame_ms", &low, &high), captures);
+        add_value(&point.steps_px, sweep_figure(row, "steps_px"), captures);
+        add_value(&point.fetches_px, sweep_figure(row, "fetches_px"), captures);
         point.low_ms += low / captures;
         point.high_ms += high / captures;
     }

@@ -4,11 +4,11 @@
 
 #include <jansson.h>
 
-#include "answer_args.h"
-#include "args.h"
+#include "options/answer_args.h"
+#include "options/args.h"
 #include "glint/space.h"
-#include "journal.h"
-#include "progress.h"
+#include "journal/journal.h"
+#include "io/progress.h"
 
 /* One point on one capture: lines of the log, as they were written. */
 struct sweep_row {

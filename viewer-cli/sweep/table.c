@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "sweep/sweep.h"
-#include "table.h"
-#include "text_file.h"
+#include "io/table.h"
+#include "io/text_file.h"
 
 static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
 enum { CLASSES = sizeof classes / sizeof *classes };

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pass_names.h"
+#include "options/pass_names.h"
 #include "tune/tune.h"
 
 static bool no_memory(struct glint_error *err) {

@@ -19,7 +19,7 @@ static int longest_first(const void *a, const void *b) {
     return (x < y) - (x > y);
 }
 
-static bool add(struct parts *parts, const struct glint_pass *pass, double ms, struct glint_error *err) {
+static bool add_part(struct parts *parts, const struct glint_pass *pass, double ms, struct glint_error *err) {
     for (size_t i = 0; i < parts->count; i++)
         if (parts->items[i].pass == pass) {
             parts->items[i].ms += ms;
@@ -44,7 +44,7 @@ static bool measure(struct tune *tune, const struct glint_pipeline *pipeline, st
             ok = glint_judge_time(tune->subjects[s].judge, pipeline, 0, true, &cost, tune_report, tune, err);
             for (size_t i = 0; ok && i < cost.pass_count; i++)
                 if (!cost.passes[i].cached_work && tune_slot_counts(tune, cost.passes[i].pass->slot))
-                    ok = add(parts, cost.passes[i].pass, (double)cost.passes[i].ns * 1e-6 / rounds, err);
+                    ok = add_part(parts, cost.passes[i].pass, (double)cost.passes[i].ns * 1e-6 / rounds, err);
             if (ok) glint_cost_finish(&cost);
         }
     if (parts->count) qsort(parts->items, parts->count, sizeof *parts->items, longest_first);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "page/page.h"
+#include "draw/page/page.h"
 #include "tune/tune.h"
 
 static const char *base_name(const char *path) {

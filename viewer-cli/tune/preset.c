@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pass_names.h"
-#include "text_file.h"
+#include "options/pass_names.h"
+#include "io/text_file.h"
 #include "tune/tune.h"
 
 static json_t *value_json(const struct glint_row *row, double value) {

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "table.h"
+#include "io/table.h"
 #include "tune/tune.h"
 
 const char *tune_cost_unit(const struct tune *tune) {

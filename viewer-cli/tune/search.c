@@ -23,7 +23,7 @@ static bool try_values(void *user, const double *values, struct glint_search_fig
 }
 
 /* The start, and what is compared with the search: both set what others are measured by. */
-static bool begin(struct tune *tune, const double *start, struct glint_error *err) {
+static bool begin_search(struct tune *tune, const double *start, struct glint_error *err) {
     if (!tune_evaluate(tune, start, &tune->start, err)) return false;
     tune_set_yard(tune, start);
     tune->asked = tune->limit * (tune->part ? (tune->by_error ? tune->start.error : tune->start.cost) : 1);
@@ -56,8 +56,9 @@ static bool search(struct tune *tune, uint32_t tries, const double *known, size_
 bool tune_search(struct tune *tune, struct glint_error *err) {
     double *start = calloc(tune->axis_count + 1, sizeof *start);
     for (size_t a = 0; start && a < tune->axis_count; a++) start[a] = tune->axes[a].axis.start;
-    const bool ok = start ? begin(tune, start, err) && search(tune, tune->tries, tune->scaling, tune->baseline, err)
-                          : no_memory(err);
+    const bool ok =
+        start ? begin_search(tune, start, err) && search(tune, tune->tries, tune->scaling, tune->baseline, err)
+              : no_memory(err);
     free(start);
     return ok;
 }

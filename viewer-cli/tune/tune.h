@@ -2,12 +2,12 @@
 #ifndef GLINT_VIEWER_TUNE_H
 #define GLINT_VIEWER_TUNE_H
 
-#include "answer_args.h"
-#include "args.h"
+#include "options/answer_args.h"
+#include "options/args.h"
 #include "glint/judge.h"
 #include "glint/search.h"
-#include "journal.h"
-#include "progress.h"
+#include "journal/journal.h"
+#include "io/progress.h"
 
 enum { TUNE_TEXT = 48 };
 

@@ -8,7 +8,7 @@
 #include <time.h>
 #include <xxhash.h>
 
-#include "progress.h"
+#include "io/progress.h"
 #include "watch/watch.h"
 
 static bool append(char ***list, size_t *count, char *text, struct glint_error *err) {

@@ -5,8 +5,8 @@
 #include <time.h>
 
 #include "diff/diff.h"
-#include "progress.h"
-#include "view/sheet.h"
+#include "io/progress.h"
+#include "draw/view/sheet.h"
 #include "watch/watch.h"
 
 struct session {
@@ -47,7 +47,7 @@ static void say(const struct session *s, const struct diff *diff) {
 
 /* The newest version that ran beside the first. `fault`: why a newer one does not, or NULL. Without
    `refresh` it is the last page, which no Ctrl-C stops. */
-static bool show(struct session *s, const char *fault, bool refresh, struct glint_error *err) {
+static bool show_run(struct session *s, const char *fault, bool refresh, struct glint_error *err) {
     const char *const paths[2] = {s->first, s->watch->out};
     struct diff diff = {.options = {.limits = glint_difference_limits(), .heat = true}};
     char title[300], lead[2200], at[16];
@@ -91,12 +91,12 @@ static bool next_version(struct session *s, struct glint_error *err) {
     s->number++;
     if (run_version(s, &fault)) {
         s->shown = s->number;
-        return show(s, NULL, true, err);
+        return show_run(s, NULL, true, err);
     }
     if (fault.code == GLINT_ERROR_INTERRUPTED || fault.code == GLINT_ERROR_MEMORY)
         return glint_fail(err, fault.code, "%s", fault.message);
     command_note(s->watch->command, "version %u does not run: %s", s->number, fault.message);
-    return !s->shown || show(s, fault.message, true, err);
+    return !s->shown || show_run(s, fault.message, true, err);
 }
 
 static bool watch_all(struct session *s, struct glint_error *err) {
@@ -105,7 +105,7 @@ static bool watch_all(struct session *s, struct glint_error *err) {
     fflush(stdout);
     while (ok && watch_files_wait(&s->files)) ok = next_version(s, err);
     if (!ok && err->code == GLINT_ERROR_INTERRUPTED) ok = true;
-    return ok && (!s->shown || show(s, NULL, false, err));
+    return ok && (!s->shown || show_run(s, NULL, false, err));
 }
 
 enum status watch_run(const struct watch *watch) {

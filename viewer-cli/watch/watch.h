@@ -2,7 +2,7 @@
 #ifndef GLINT_VIEWER_WATCH_H
 #define GLINT_VIEWER_WATCH_H
 
-#include "pipeline_args.h"
+#include "options/pipeline_args.h"
 
 /* ---- Files that are waited for: files.c ---- */
 

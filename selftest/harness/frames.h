@@ -1,0 +1,66 @@
+/* Frames of a tiny picture through the passes that remember. */
+#ifndef GLINT_SELFTEST_FRAMES_H
+#define GLINT_SELFTEST_FRAMES_H
+
+#include "harness/case.h"
+
+enum { FRAME_WIDTH = 64, FRAME_HEIGHT = 32, FRAME_PIXELS = FRAME_WIDTH * FRAME_HEIGHT };
+
+/* A part of the capture: planes of width x height values. */
+struct planes {
+    const char *name;
+    uint32_t width, height;
+    const char *channels[12];
+    const void *data[12];
+    enum glint_type type;
+    const struct glint_cubemap *cubemap; /* of a cubemap.NNN, else NULL */
+};
+
+/* One frame: full resolution is the pipeline's, so that a pixel is a texel. */
+struct frame {
+    struct glint_frame info;
+    float depth[FRAME_PIXELS], normal[3][FRAME_PIXELS], roughness[FRAME_PIXELS], motion[2][FRAME_PIXELS];
+    float color[4][FRAME_PIXELS];  /* of reflection_half, and of reflection */
+    float travelled[FRAME_PIXELS]; /* of the rays that found it */
+    const struct planes *more;     /* further parts */
+    size_t more_count;
+    bool bare; /* without images of passes: they are among `more` */
+};
+
+/* Where the wall of frame_ordinary() is, and how wide its pixels are there: powers of two, so that a move by a pixel is exact. */
+static const double frame_wall_m = 4, frame_pixel_m = 0.125;
+
+/* The camera at the origin looks along -z at a wall, 90 degrees wide, and stands still; the wall is rough, and its colours
+   are noise, evenly distributed in [0, 2), independent from pixel to pixel, channel to channel and frame to frame. */
+void frame_ordinary(struct frame *frame, uint32_t number);
+/* Cameras that look along -z from a place, turned to the left by an angle. */
+void frame_cameras(struct frame *frame, const double now[3], const double before[3], double turn, double turn_before);
+/* In its view: x right, y up, z backwards. world: relative to the origin. */
+void frame_to_view(const struct glint_camera *camera, const double world[3], double view[3]);
+/* Where a pixel's centre, moved by `shift` pixels, is at a depth. */
+void frame_position(const struct frame *frame, double x, double y, double depth_m, double world[3]);
+
+struct frames {
+    const struct case_context *context;
+    struct glint_replay *replay; /* one for all pipelines: programs that they share are made once */
+    struct glint_pipeline *pipeline;
+    struct glint_capture *capture;
+    const char *const *passes; /* slots, NULL-terminated */
+    bool half;                 /* images as passes declare them, not as floats */
+    bool planned;              /* passes that have nothing to do are dropped */
+};
+
+bool frames_begin(struct frames *frames, const struct case_context *context, struct glint_error *err);
+void frames_end(struct frames *frames);
+/* Another pipeline. settings: "slot=variant" or "slot.parameter=value", NULL-terminated. */
+bool frames_pipeline(struct frames *frames, const char *const *passes, const char *const *settings,
+                     struct glint_error *err);
+/* The pass of a slot becomes this shader. */
+bool frames_shader(struct frames *frames, const char *slot, const char *text, struct glint_error *err);
+bool frames_run(struct frames *frames, const struct frame *frame, struct glint_error *err);
+/* The same of a capture that is there already. */
+bool frames_run_capture(struct frames *frames, const char *path, struct glint_error *err);
+/* FRAME_PIXELS times the image's components, where it has the size of a frame. */
+bool frames_read(struct frames *frames, const char *image, float *out, struct glint_error *err);
+
+#endif

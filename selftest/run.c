@@ -1,0 +1,166 @@
+/* Runs the selected cases, groups side by side. */
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "glint/selftest.h"
+#include "internal.h"
+#include "threads.h"
+
+static bool make_folder(char path[256], struct glint_error *err) {
+    const char *parent = getenv("TMPDIR");
+    if (snprintf(path, 256, "%s/glint-selftest-XXXXXX", parent ? parent : "/tmp") < 256 && mkdtemp(path)) return true;
+    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    path[0] = '\0';
+    return false;
+}
+
+static void remove_folder(const char *folder) {
+    DIR *dir = folder[0] ? opendir(folder) : NULL;
+    for (const struct dirent *entry; dir && (entry = readdir(dir));)
+        if (entry->d_name[0] != '.') unlinkat(dirfd(dir), entry->d_name, 0);
+    if (dir) closedir(dir);
+    if (folder[0]) rmdir(folder);
+}
+
+/* Each worker has a device and a folder of its own. A worker that gets no device, or whose device has not the memory beside the
+   others, leaves its group to those that go on; the last one finds all of the device its own. */
+struct work {
+    struct glint_selftest *selftest;
+    const struct glint_selftest_options *options;
+    glint_progress progress;
+    void *user;
+    pthread_mutex_t lock; /* of all that follows, and of calls of progress */
+    bool waits[SELFTEST_GROUPS], alone;
+    size_t ready[SELFTEST_GROUPS]; /* cases of each group */
+    struct glint_error error;      /* of the first group that has one */
+    size_t failed;                 /* that group */
+};
+
+/* Progress goes by cases that have a finding; what a replay says of itself is too small for it. */
+struct group_progress {
+    struct work *work;
+    struct selected_group *group;
+};
+static bool report_group_progress(void *user, const char *what, double done) {
+    const struct group_progress *progress = user;
+    struct work *work = progress->work;
+    const struct selected_group *s = progress->group;
+    size_t all = 0, ready = 0;
+    (void)what, (void)done;
+    for (size_t i = 0; i < s->group->count(); i++)
+        ready += s->selected[i] && (s->findings[i].values > 0 || s->findings[i].left_out || s->public.seconds > 0);
+    pthread_mutex_lock(&work->lock);
+    work->ready[s - work->selftest->groups] = ready;
+    ready = 0;
+    for (size_t g = 0; g < SELFTEST_GROUPS; g++) all += work->selftest->groups[g].public.count, ready += work->ready[g];
+    const bool go_on = !work->progress || work->progress(work->user, s->group->name, (double)ready / (double)all);
+    pthread_mutex_unlock(&work->lock);
+    return go_on;
+}
+
+static double seconds_since(const struct timespec *start) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+static void publish_findings(struct selected_group *s) {
+    for (size_t i = 0, k = 0; i < s->group->count(); i++)
+        if (s->selected[i]) s->shown_findings[k++] = s->findings[i];
+}
+
+static bool run_group(struct work *work, struct glint_device *device, struct selected_group *s,
+                      struct glint_error *err) {
+    struct group_progress progress = {work, s};
+    struct timespec start;
+    char folder[256] = "";
+    double filter_step = NAN;
+    const struct case_context context = {device,   folder, work->options->quick, &filter_step, report_group_progress,
+                                         &progress};
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    s->public.seconds = 0;
+    memset(s->findings, 0, s->group->count() * sizeof *s->findings); /* of a worker that left, or an earlier run */
+    const bool ok = make_folder(folder, err) && s->group->run(&context, s->selected, s->findings, err);
+    remove_folder(folder);
+    if (!ok) return false;
+    s->public.seconds = seconds_since(&start);
+    publish_findings(s);
+    return report_group_progress(&progress, NULL, 1) || glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
+}
+
+static bool is_silent(const struct glint_device *device, struct glint_error *err) {
+    const char *last = NULL;
+    const uint32_t messages = glint_device_messages(device, &last);
+    return !messages || glint_fail(err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
+}
+
+/* The first group that waits; the number of groups when none does, or when there is no use in going on. */
+static size_t take_group(struct work *work) {
+    size_t g = 0;
+    pthread_mutex_lock(&work->lock);
+    while (g < SELFTEST_GROUPS && (work->error.code || !work->waits[g])) g++;
+    if (g < SELFTEST_GROUPS) work->waits[g] = false;
+    pthread_mutex_unlock(&work->lock);
+    return g;
+}
+
+/* starved: what failed may not fail where fewer devices are open. */
+static void leave_group(struct work *work, size_t g, bool starved, const struct glint_error *err) {
+    pthread_mutex_lock(&work->lock);
+    if (starved && !work->alone) work->waits[g] = true;
+    else if (!work->error.code || g < work->failed) work->error = *err, work->failed = g;
+    pthread_mutex_unlock(&work->lock);
+}
+
+static struct glint_device *open_device(struct work *work, struct glint_error *err) {
+    const struct glint_device_options options = {.select = work->options->device, .passes = work->options->passes};
+    struct glint_device *device = glint_device_create(&options, err);
+    if (!device) return NULL;
+    pthread_mutex_lock(&work->lock);
+    work->selftest->device = *glint_device_get_info(device); /* they are all the same device */
+    pthread_mutex_unlock(&work->lock);
+    return device;
+}
+
+static bool run_worker(void *user, uint32_t worker, size_t index) {
+    struct work *work = user;
+    struct glint_device *device = NULL;
+    (void)worker, (void)index;
+    for (size_t g; (g = take_group(work)) < SELFTEST_GROUPS;) {
+        struct glint_error err = {0};
+        if (!device) device = open_device(work, &err);
+        const bool ran = device && run_group(work, device, &work->selftest->groups[g], &err);
+        const bool starved = !device || err.code == GLINT_ERROR_DEVICE || err.code == GLINT_ERROR_MEMORY;
+        if (ran && is_silent(device, &err)) continue;
+        glint_device_destroy(&device); /* before others take what it starved for */
+        leave_group(work, g, starved, &err);
+        break;
+    }
+    glint_device_destroy(&device);
+    return true;
+}
+
+bool glint_selftest_run(struct glint_selftest *selftest, const struct glint_selftest_options *options,
+                        glint_progress progress, void *user, struct glint_error *err) {
+    struct work work = {.selftest = selftest, .options = options, .progress = progress, .user = user};
+    size_t count = 0;
+    for (size_t g = 0; g < SELFTEST_GROUPS; g++) {
+        work.waits[g] = selftest->groups[g].public.count > 0;
+        count += work.waits[g];
+    }
+    pthread_mutex_init(&work.lock, NULL);
+    const uint32_t workers = glint_loop_workers(count, 0);
+    glint_loop(workers, workers, run_worker, &work);
+    work.alone = true;
+    run_worker(&work, 0, 0);
+    pthread_mutex_destroy(&work.lock);
+    if (work.error.code && err) *err = work.error;
+    return !work.error.code;
+}

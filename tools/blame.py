@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""docs/blame.md: where the error of a preset comes from, and what each millisecond buys, as `glint blame` tells it.
+
+blame.py measure GLINT RECORD [--rays N] [--player-rays N] [--rounds N]   on this device, into a folder
+blame.py page RECORD... [-o DOCS]                                        the page of those folders"""
+import argparse
+import json
+import pathlib
+import shutil
+import tempfile
+
+from pages import run, sample, table
+
+SCENES, PRESET, SIZE, CUBE, TRUTH = ("street", "room"), "mafia3", "480x270", "128", "64"
+SURFACES = ("all", "mirror-like", "glossy", "rough")
+CHARTS = ("shares.svg", "bought.svg")
+
+
+def measure(glint, record, rays, player_rays, rounds):
+    pathlib.Path(record).mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        captures = [sample(glint, scene, folder, SIZE, CUBE, "--truth", TRUTH) for scene in SCENES]
+        found = pathlib.Path(folder) / "blame"
+        run(glint, "blame", *captures, "-p", PRESET, "-o", found, "--rays", rays, "--player-rays", player_rays, "--repeat", rounds)
+        told = json.loads((found / "shares.json").read_text())
+        for capture in told["captures"]:
+            capture["capture"] = pathlib.Path(capture["capture"]).name
+        (pathlib.Path(record) / "shares.json").write_text(json.dumps(told, indent=1) + "\n")
+        for name in CHARTS:
+            shutil.copy(found / name, pathlib.Path(record) / name)
+
+
+def number(value, digits=4):
+    return "–" if value is None else f"{value:.{digits}f}".replace("-", "−")
+
+
+def brief(value):
+    return "–" if value is None else f"{value:.3g}".replace("-", "−")
+
+
+def bought(player, cost):
+    """As glint blame has it: what the reference buys, or what the slot's own milliseconds do already."""
+    removed, ms = player["removed"], cost["added_ms"]
+    if ms is None or removed * ms <= 0:
+        return "–"
+    return brief(removed / ms) + (" already" if ms < 0 else "")
+
+
+def shares(told, answer):
+    errors = told["errors"][answer]["all"]
+    total = errors["preset"] - errors["reference"]
+    rows = []
+    for name, player in errors["players"].items():
+        cost = told["costs"][name]
+        rows.append([f"`{name}`", number(player["share"]), number(100 * player["share"] / total, 0) + " %", number(player["removed"]), number(player["made"]),
+                     brief(cost["added_ms"]), bought(player, cost), brief(cost["added_fetches_px"]), brief(cost["saved_ms"])])
+    sums = {key: sum(p[key] for p in errors["players"].values()) for key in ("share", "removed", "made")}
+    if abs(sums["share"] - total) > 1e-9:
+        raise SystemExit(f"shares add up to {sums['share']}, expected {total}")
+    rows.append(["sum", number(sums["share"]), "100 %", number(sums["removed"]), number(sums["made"]), "", "", "", ""])
+    return (f"Error of `{PRESET}` {number(errors['preset'])}, of its reference {number(errors['reference'])}: {number(total)} to share out.\n\n" +
+            table(["", "share", "", "removes", "makes", "adds ms", "buys per ms", "adds fetches/px", "saves ms"], rows))
+
+
+def by_surface(told):
+    classes = told["errors"]["reference"]
+    names = [s for s in SURFACES if s in classes]
+    rows = [[f"`{name}`", *(number(classes[s]["players"][name]["share"]) for s in names)] for name in classes["all"]["players"]]
+    rows += [[f"*{what}*", *(number(classes[s][key]) for s in names)] for what, key in (("error of the preset", "preset"), ("of its reference", "reference"))]
+    return table(["share of the error of", *names], rows)
+
+
+def scene(told):
+    name = pathlib.Path(told["capture"]).stem
+    text = f"\n## {name}\n\n### Against the reference\n\n{shares(told, 'reference')}\n{by_surface(told)}"
+    return text + (f"\n### Against the truth\n\n{shares(told, 'truth')}" if "truth" in told["errors"] else "")
+
+
+def said(mean):
+    """In a sentence: what errs most, what mends most alone, where time is spent best."""
+    errors = mean["errors"]["reference"]["all"]
+    players = errors["players"]
+    total = errors["preset"] - errors["reference"]
+    most, alone, saves = (f(players, key=lambda name: players[name][key]) for f, key in ((max, "share"), (max, "removed"), (min, "share")))
+    rates = {name: p["removed"] / mean["costs"][name]["added_ms"] for name, p in players.items()
+             if p["removed"] > 0 and (mean["costs"][name]["added_ms"] or 0) > 0}
+    removed, made = (sum(p[key] for p in players.values()) for key in ("removed", "made"))
+    best = max(rates, key=rates.get) if rates else None
+    return (f"`{most}` has the largest share, {100 * players[most]['share'] / total:.0f} % of the difference; alone, `{alone}` mends most, {number(players[alone]['removed'])}. "
+            f"`{saves}` is worth most as it is: {number(-players[saves]['share'])}. "
+            + (f"A millisecond more is spent best on `{best}`. " if best else "")
+            + f"How much is interaction: single exchanges in the preset add up to {number(removed)}, those in the reference to {number(made)}, the difference is {number(total)}.")
+
+
+def players(told):
+    return "\n".join(f"- `{p['name']}`: {p['change']}{'. Together: ' + p['why'] if p['why'] else ''}." for p in told["players"])
+
+
+def page(records, docs):
+    text = ""
+    for record in map(pathlib.Path, records):
+        told = json.loads((record / "shares.json").read_text())
+        device, mean = told["device"], told["mean"]
+        for name in CHARTS:
+            shutil.copy(record / name, docs / f"blame-{name}")
+        text += f"""
+Measured on {device['name']}{' (a CPU: its times say nothing about a GPU)' if device['is_cpu'] else ''}, median of {told['rounds']} rounds; a frame of the
+preset takes {brief(mean['frame_ms']['preset'])} ms at this size, one of the reference {brief(mean['frame_ms']['reference'])}. Errors are
+against a reference of {told['reference_rays']} rays a pixel; the error of the pipeline with all players exchanged is the noise of its own rays. All
+{mean['pipelines']} pipelines between the two were run on each scene, so that shares are {'exact' if mean['exact'] else 'sampled'}.
+
+![Share, error removed and error made of each player](blame-shares.svg)
+
+![Error for each millisecond](blame-bought.svg)
+
+## Mean of both scenes
+
+{said(mean)}
+
+{shares(mean, 'reference')}{"".join(scene(c) for c in told["captures"])}
+## The players
+
+Slots that cannot be exchanged alone are one player; the declarations say so, or an image that only one variant makes. So are, in `kf2`, which
+has no cube maps, `resolve` and the slots of the cube maps: the reference's `hit` reads where rays ended in them, which nothing in `kf2` tells, and
+`kf2`'s own `blurred` asks for none of it. Cube maps without the other resolve change nothing, the other resolve without them does not run:
+no measurement tells the shares of the two apart.
+
+{players(told)}
+"""
+    (docs / "blame.md").write_text(f"""# Where the error comes from
+
+Generated by `./dev docs` from what `tools/blame.py measure` recorded (`glint blame`): `{PRESET}` on {' and '.join(SCENES)},
+{SIZE.replace('x', '×')}, cube maps of {CUBE}², fog off. Each slot is exchanged for its reference as its passes declare it, everything
+that follows is run again, and the error is the mean of |found − reference| over their sum (0 to 1; noise counts).
+
+- **share**: the mean of what a player changes over all orders in which players can be exchanged one after the other (Shapley
+  value). Shares add up to the error of the preset less that of its reference, which the script checks. A negative one: the
+  player makes the picture better than it would be without.
+- **removes**: the error that goes when this player alone is exchanged in the preset; **adds** ms and fetches for that.
+- **makes**: the error that comes when this player alone is kept and all others are the reference's; **saves** ms by that.
+- **buys**: error removed for each ms; *already*: the reference does without the slot, and its own milliseconds buy that much.
+
+Where *removes* and *makes* differ, players interact, and neither column adds up. What the reference does not do better shows
+against the truth: there the shares say what mending a slot is worth in the end, with what the capture's data lack taken as given.
+{text}""")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    measuring = commands.add_parser("measure")
+    measuring.add_argument("glint")
+    measuring.add_argument("record")
+    for name, usual in (("--rays", 256), ("--player-rays", 64), ("--rounds", 5)):
+        measuring.add_argument(name, type=int, default=usual)
+    paging = commands.add_parser("page")
+    paging.add_argument("records", nargs="+")
+    paging.add_argument("-o", default=pathlib.Path(__file__).parent.parent / "docs", type=pathlib.Path)
+    a = parser.parse_args()
+    if a.command == "measure":
+        measure(a.glint, a.record, a.rays, a.player_rays, a.rounds)
+    else:
+        page(a.records, a.o)
+
+
+main()

@@ -1,0 +1,132 @@
+"""What the scripts that write docs/ share: running glint, presets with one thing changed, tables, times of devices.
+
+A row of a page is (name, words); a word is SLOT=VARIANT, none to leave the slot out, or SLOT.PARAMETER=VALUE. Of the rows whose
+times are told a page has timed(): {scene: {key: preset}}; tools/times.py measures them on a device, and Times reads what it found."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+os.environ["GLINT_CACHE"] = "none"  # each run is to do its own work
+
+HERE = pathlib.Path(__file__).parent
+PRESETS = HERE.parent / "samples/presets"
+RECORDS = HERE / "records/times"
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+KINDS = ("mirror-like", "glossy", "rough")
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def sample(glint, scene, folder, size, cube, *options):
+    path = pathlib.Path(folder) / f"{scene}.exr"
+    run(glint, "sample", scene, "-o", path, "--size", size, "--cube-size", cube, *options)
+    return path
+
+
+def options(words):
+    """Of glint replay."""
+    return [o for word in words.split() for o in ("--set" if "." in word.split("=")[0] else "--use", word)]
+
+
+def preset(name, words=""):
+    made = json.loads((PRESETS / f"{name}.json").read_text())
+    for what, value in (word.split("=") for word in words.split()):
+        if "." in what:
+            made["set"][what] = value
+        elif value == "none":
+            del made["slots"][what]
+        else:
+            made["slots"][what] = value
+    return made
+
+
+def usable(glint, presets):
+    """Without settings that a replaced variant had and its successor has not, as --use leaves them out."""
+    known = {(p["slot"], p["variant"]): {parameter["name"] for parameter in p["parameters"]} for p in json.loads(run(glint, "passes", "--json"))["passes"]}
+    return {key: {**made, "set": {name: value for name, value in made["set"].items()
+                                  if not (slot := name.split(".")[0]) in made["slots"] or name in known[slot, made["slots"][slot]]}}
+            for key, made in presets.items()}
+
+
+def compare(glint, capture, presets, rounds, together=6):
+    """The device, and what glint compare tells of each of {key: preset}; so many at a time take turns and share the memory."""
+    told, keys, presets = {}, list(presets), usable(glint, presets)
+    with tempfile.TemporaryDirectory() as folder:
+        for first in range(0, len(keys), together):
+            chosen = keys[first:first + together]
+            files = [pathlib.Path(folder) / f"{first + i}.json" for i in range(len(chosen))]
+            for file, key in zip(files, chosen):
+                file.write_text(json.dumps(presets[key]))
+            answer = json.loads(run(glint, "compare", capture, "--presets", ",".join(map(str, files)), "--repeat", rounds, "--json"))
+            told.update(zip(chosen, answer["captures"][0]["presets"]))
+    return answer["device"], told
+
+
+def errors(glint, capture, name, words, *more, figures=("rmse",)):
+    """Of the reflection against the truth: mirror-like, glossy and rough surfaces, one cell for each figure."""
+    told = json.loads(run(glint, "replay", capture, "--preset", name, "--json", "--against", "truth", *options(words), *more))
+    found = {row["surfaces"]: row for row in told["runs"][0]["against_truth"]["image"]["surfaces"]}
+    return [", ".join(f"{found[kind][figure]:.3f}" for kind in KINDS) for figure in figures]
+
+
+def picture(glint, source, out, *more):
+    """What glint view makes of a run's image or a file's layer, without its legend."""
+    run(glint, "view", source, "--no-legend", "-o", out, *more)
+    return out
+
+
+def sheet(tiles, columns, out, width=400, height=225):
+    """A JPEG of (label, picture) tiles."""
+    made = []
+    for i, (label, file) in enumerate(tiles):
+        made.append(pathlib.Path(file).with_name(f"tile-{i}.png"))
+        run("oiiotool", file, "--ch", "R,G,B", "--resize:filter=box", f"{width}x{height}", "--create", f"{width}x{height + 20}", 3,
+            "--paste", "+0+20", f"--text:x=4:y=15:size=13:font={FONT}", label, "-o", made[-1])
+    run("oiiotool", *made, "--mosaic:pad=4", f"{columns}x{-(-len(made) // columns)}", "--compression", "jpeg:82", "-o", out)
+
+
+def table(titles, rows):
+    lines = ["| " + " | ".join(titles) + " |", "| --- |" + " ---: |" * (len(titles) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
+def draw(glint, charts, docs):
+    """Charts as SVG files of these names."""
+    with tempfile.TemporaryDirectory() as folder:
+        page = {"format": 1, "title": "", "facts": [], "sections": [{"title": "", "blocks": [{"chart": c} for c in charts.values()]}]}
+        (pathlib.Path(folder) / "page.json").write_text(json.dumps(page))
+        for i, name in enumerate(charts):
+            run(glint, "report", folder, "-o", docs / name, "--chart", i + 1)
+
+
+class Times:
+    """A page's columns of milliseconds, one for each device that there is a record of."""
+
+    def __init__(self, page=None):
+        """No page: no columns."""
+        self.records = [json.loads(path.read_text()) for path in sorted(RECORDS.glob("*.json"))] if page else []
+        self.page, self.heads = page, [f"ms, {r['as']}" for r in self.records]
+
+    def cells(self, scene, key):
+        return [self.cell(r["pages"].get(self.page, {}).get(scene, {}).get(key)) for r in self.records]
+
+    @staticmethod
+    def cell(ms):
+        if ms is None:
+            return "–"
+        return f"{ms['frame']:.3g}" + (f" + {ms['cubemaps']:.3g}" if ms["cubemaps"] else "")
+
+    def told(self):
+        if not self.records:
+            return ""
+        devices = "; ".join(f"{r['as']}: {r['size'].replace('x', '×')}, cube maps of {r['cube']}², median of {r['rounds']} rounds in turns"
+                            + (f", the fastest of {r['tries']} times" if "tries" in r else "") for r in self.records)
+        return f"Times are of all passes of a frame, after + of work on cube maps that is done when one changes ({devices}).\n"

@@ -1,0 +1,23 @@
+/* What glint info prints for people. */
+#ifndef GLINT_VIEWER_INFO_TABLES_H
+#define GLINT_VIEWER_INFO_TABLES_H
+
+#include "capture/channels.h"
+#include "glint/replay.h"
+
+void info_print_camera(const struct glint_frame *frame);
+/* Parts and channels that differ by their number alone are one line each. */
+void info_print_parts(const struct glint_capture *capture);
+void info_print_channels(const struct channel_table *all);
+/* What depth's storage can tell apart. */
+void info_print_depth(const struct glint_capture *capture);
+/* Nothing when the capture has no cube maps. */
+void info_print_cubemaps(const struct glint_capture *capture);
+void info_print_survey(const struct glint_survey *survey);
+/* With what a device counts. */
+void info_print_whole_survey(const struct glint_survey *survey, const struct glint_time *time,
+                             const struct glint_frame *frame);
+void info_print_run(const struct glint_run *run);
+const char *cubemap_volume_name(enum glint_volume volume);
+
+#endif

@@ -1,0 +1,102 @@
+/* Several presets on the same capture: what each gives, how far it is from the truth, what it takes. */
+#ifndef GLINT_VIEWER_COMPARE_H
+#define GLINT_VIEWER_COMPARE_H
+
+#include "options/args.h"
+#include "glint/judge.h"
+#include "io/progress.h"
+#include "draw/view/sheet.h"
+
+struct contestant {
+    char label[64]; /* the preset's name, or its file's without folder and .json */
+    struct glint_pipeline *pipeline;
+};
+
+/* Parts of a capture that cover its opaque surfaces. */
+enum { CONTEST_OVER = 2 };
+extern const char *const contest_over[CONTEST_OVER];
+
+/* Of the rounds' sums over the passes, in ms. */
+struct contest_time {
+    uint32_t n;
+    double min, median, max;
+};
+
+/* One preset on one capture. */
+struct showing {
+    bool ran, compared; /* compared: with the truth */
+    char failure[1024]; /* why it did not run, or why nothing was compared */
+    char *notes;        /* passes left out, and why; "" when none; malloc'd */
+    uint64_t reflecting[GLINT_SURFACE_COUNT], given[GLINT_SURFACE_COUNT];
+    struct glint_image_errors own;    /* where the preset gives a reflection */
+    struct glint_image_errors shared; /* where every preset does */
+    /* the finished picture against the capture's `scene` where water or glass covers it; no pixels without them */
+    struct {
+        bool drawn; /* some pass looked at it */
+        struct glint_image_error error;
+    } over[CONTEST_OVER];
+    struct glint_ends ends;
+    struct contest_time frame, cubemaps; /* cubemaps: work that is paid when a cube map changes */
+    double *frame_ms, *cubemaps_ms;      /* each round's; malloc'd */
+    json_t *passes;                      /* {slot, variant, ran, reason} */
+};
+
+struct contest {
+    struct contestant *contestants;
+    size_t count;
+    uint32_t rounds;
+    struct glint_device *device;
+    struct glint_judge *judge; /* made with the first capture; a contestant's place is its lineage */
+    struct progress *progress;
+};
+
+/* Makes the pipelines of presets, by name or file, NULL-terminated. Settings are PRESET:SLOT.PARAM=VALUE. Fog is switched
+   off, which the truth lacks, unless a setting says otherwise. */
+bool contest_begin(struct contest *contest, const char *const *presets, const struct list *settings,
+                   struct glint_error *err);
+void contest_finish(struct contest *contest);
+
+/* Pictures of one capture: rows of a column each for the truth and the presets. */
+enum { CONTEST_ROWS = 3 }; /* reflection, its error, the composed picture */
+struct contest_pictures {
+    struct picture *cells; /* of a sheet, row by row */
+    size_t columns, capture;
+    const char *folder;  /* where they are kept at their own size, in pictures/ */
+    size_t values_bytes; /* for the values of each */
+    json_t *rows;        /* for each row what a page's stage shows of it */
+};
+
+/* Runs every preset on the capture; showings[i] is of contestant i. One that fails says so in its showing. `pictures`: NULL
+   for none. False when nothing can be shown at all, or after Ctrl-C. */
+bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
+                 struct contest_pictures *pictures, struct glint_error *err);
+void showing_finish(struct showing *showing);
+
+struct answer {
+    struct glint_verdict verdict;
+    const struct glint_pixels *truth; /* of the lobe that the preset draws from; NULL without one */
+    const float *truth_error;
+    struct glint_pixels picture; /* the last one; empty without one */
+    char picture_name[64];
+};
+bool contest_draw_truth(struct contest_pictures *pictures, const struct glint_pixels *truth,
+                        struct glint_capture *capture, struct glint_error *err);
+bool contest_draw(struct contest_pictures *pictures, size_t column, const struct contestant *contestant,
+                  const struct answer *answer, const uint8_t *surfaces, struct glint_error *err);
+
+/* All captures of a call: showings[capture · contest->count + contestant]. */
+struct contest_table {
+    const struct contest *contest;
+    const char *const *captures;
+    const struct showing *showings;
+    size_t capture_count;
+};
+void contest_print(const struct contest_table *table);
+json_t *contest_json(const struct contest_table *table);
+/* Lines of text, malloc'd; NULL when memory is short. */
+char *contest_csv(const struct contest_table *table);
+/* FOLDER/index.html, from page.json and the pictures of each capture. */
+bool contest_write_page(const char *folder, const struct contest_table *table, const struct contest_pictures *pictures,
+                        struct glint_error *err);
+
+#endif

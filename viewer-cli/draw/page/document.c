@@ -1,0 +1,91 @@
+/* Documents of pages: putting them together, storing them, finding them again. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "options/args.h"
+#include "draw/page/page.h"
+#include "io/text_file.h"
+
+/* File names need not be UTF-8, JSON must be. */
+static json_t *text_json(const char *text) {
+    json_t *json = json_string(text ? text : "");
+    char *copy = json ? NULL : strdup(text);
+    for (char *c = copy; c && *c; c++)
+        if ((unsigned char)*c >= 0x80) *c = '?';
+    if (copy) json = json_string(copy);
+    free(copy);
+    return json;
+}
+
+json_t *page_create(const char *title) {
+    json_t *document = json_pack("{s:i, s:o, s:[], s:[]}", "format", 1, "title", text_json(title), "facts", "sections");
+    page_fact(document, "tool", "glint " GLINT_VERSION);
+    return document;
+}
+
+void page_fact(json_t *document, const char *name, const char *value) {
+    json_array_append_new(json_object_get(document, "facts"), json_pack("[oo]", text_json(name), text_json(value)));
+}
+
+json_t *page_section(json_t *document, const char *title) {
+    json_t *blocks = json_array(), *section = json_pack("{s:o, s:o}", "title", text_json(title), "blocks", blocks);
+    return json_array_append_new(json_object_get(document, "sections"), section) == 0 ? blocks : NULL;
+}
+
+void page_text(json_t *blocks, const char *kind, const char *text) {
+    json_array_append_new(blocks, json_pack("{s:o}", kind, text_json(text)));
+}
+
+void page_chart(json_t *blocks, json_t *chart) {
+    json_array_append_new(blocks, json_pack("{s:o}", "chart", chart));
+}
+
+json_t *page_table(json_t *blocks) {
+    json_t *table = json_pack("{s:[], s:[]}", "columns", "rows");
+    return json_array_append_new(blocks, json_pack("{s:o}", "table", table)) == 0 ? table : NULL;
+}
+
+void page_column(json_t *table, const char *name, const char *unit) {
+    bool bar = unit[0] == '|';
+    json_array_append_new(json_object_get(table, "columns"), json_pack("{s:o, s:o, s:b}", "name", text_json(name),
+                                                                       "unit", text_json(unit + bar), "bar", (int)bar));
+}
+
+void page_row(json_t *table, json_t *row) {
+    json_array_append_new(json_object_get(table, "rows"), row);
+}
+
+json_t *page_interval(double value, double low, double high) {
+    return json_pack("{s:o, s:o, s:o}", "value", json_number(value), "low", json_number(low), "high",
+                     json_number(high));
+}
+
+static bool page_json(char path[4096], const char *folder, struct glint_error *err) {
+    return snprintf(path, 4096, "%s/page.json", folder) < 4096 ||
+           glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+}
+
+bool page_store(const char *folder, const json_t *document, struct glint_error *err) {
+    char path[4096], *text = json_dumps(document, JSON_INDENT(1));
+    bool ok = text ? page_json(path, folder, err) && text_file_write(path, text, err)
+                   : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
+    free(text);
+    return ok;
+}
+
+json_t *page_load(const char *folder, struct glint_error *err) {
+    char path[4096];
+    if (!page_json(path, folder, err)) return NULL;
+    json_error_t error;
+    FILE *file = fopen(path, "rb");
+    json_t *document = file ? json_loadf(file, JSON_REJECT_DUPLICATES, &error) : NULL;
+    if (!file) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    else fclose(file);
+    if (file && !document) glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, error.line, error.text);
+    if (!document || json_integer_value(json_object_get(document, "format")) == 1) return document;
+    glint_fail(err, GLINT_ERROR_FORMAT, "%s: format: expected 1, the only one that this program knows", path);
+    json_decref(document);
+    return NULL;
+}

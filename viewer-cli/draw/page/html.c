@@ -1,0 +1,145 @@
+/* Documents as HTML pages that carry everything they need. */
+#include "draw/page/page.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/blobs.h"
+#include "io/text_file.h"
+
+/* ---- Pictures: each once, named by its place ---- */
+
+struct files {
+    json_t *places; /* {file: place} */
+    json_t *uris;
+    const char *folder;
+};
+
+/* Replaces the names of pictures by their places, wherever pictures are listed. */
+static void number_files(struct files *files, json_t *json) {
+    size_t i;
+    const char *key;
+    json_t *item;
+    if (json_is_array(json)) json_array_foreach(json, i, item) number_files(files, item);
+    json_object_foreach(json, key, item) {
+        number_files(files, item);
+        if (strcmp(key, "pictures") != 0) continue;
+        json_t *picture;
+        json_array_foreach(item, i, picture) {
+            const char *file = json_string_value(json_object_get(picture, "file"));
+            if (!file) continue;
+            if (!json_object_get(files->places, file))
+                json_object_set_new(files->places, file, json_integer((json_int_t)json_object_size(files->places)));
+            json_object_set(picture, "file", json_object_get(files->places, file));
+        }
+    }
+}
+
+/* The file's bytes, malloc'd. It lies below `folder`, wherever links lead: documents come from strangers. */
+static uint8_t *read_below(const char *folder, const char *name, size_t *size, struct glint_error *err) {
+    enum { LARGEST_BYTES = 256 << 20 };
+    char *path = NULL, *root = folder ? realpath(folder, NULL) : NULL, *real = NULL;
+    uint8_t *bytes = NULL;
+    FILE *file = NULL;
+    if (root && asprintf(&path, "%s/%s", root, name) < 0) path = NULL;
+    real = path ? realpath(path, NULL) : NULL;
+    size_t length = root ? strlen(root) : 0;
+    if (!root || !path || !real || strncmp(real, root, length) != 0 || real[length] != '/') {
+        glint_fail(err, GLINT_ERROR_IO, "%s: picture %s: %s", folder ? folder : "page", name,
+                   root && path && !real ? strerror(errno) : "not in this folder");
+        goto done;
+    }
+    file = fopen(real, "rb");
+    long end = file && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+    if (end > 0 && end < LARGEST_BYTES && (bytes = malloc((size_t)end)) != NULL) {
+        rewind(file);
+        *size = fread(bytes, 1, (size_t)end, file);
+    } else glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read as a picture", real);
+done:
+    if (file) fclose(file);
+    free(real);
+    free(path);
+    free(root);
+    return bytes;
+}
+
+static json_t *picture_file(const char *folder, const char *name, size_t bytes, struct glint_error *err) {
+    size_t size = 0;
+    uint8_t *file = read_below(folder, name, &size, err);
+    json_t *json = file ? page_picture_file(name, file, size, bytes, err) : NULL;
+    free(file);
+    return json;
+}
+
+static bool load_files(struct files *files, struct glint_error *err) {
+    const char *name;
+    json_t *place, *uri;
+    size_t share = PAGE_PICTURE_BYTES / (json_object_size(files->places) + 1);
+    json_object_foreach(files->places, name, place) { /* in the order in which they were met, as their places are */
+        uri = strncmp(name, "data:", 5) == 0 ? json_string(name) : picture_file(files->folder, name, share, err);
+        if (!uri) return false;
+        json_array_append_new(files->uris, uri);
+    }
+    return true;
+}
+
+/* ---- HTML ---- */
+
+static void write_bytes(FILE *out, const unsigned char *begin, const unsigned char *end) {
+    fwrite(begin, 1, (size_t)(end - begin), out);
+}
+
+static void put_script(FILE *out, const unsigned char *begin, const unsigned char *end) {
+    fputs("<script>", out);
+    write_bytes(out, begin, end);
+    fputs("</script>\n", out);
+}
+
+/* JSON has '<' in texts only: without it, nothing in them can end the element. */
+static int put_json(const char *text, size_t size, void *user) {
+    FILE *out = user;
+    for (const char *end = text + size; text < end;) {
+        const char *angle = memchr(text, '<', (size_t)(end - text)), *stop = angle ? angle : end;
+        fwrite(text, 1, (size_t)(stop - text), out);
+        if (angle) fputs("\\u003c", out);
+        text = angle ? angle + 1 : end;
+    }
+    return ferror(out) ? -1 : 0;
+}
+
+static char *html(const json_t *document) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return NULL;
+    write_bytes(out, blob_page_head, blob_page_head_end);
+    bool ok = json_dump_callback(document, put_json, out, JSON_COMPACT | JSON_ENSURE_ASCII) == 0;
+    fputs("</script>\n", out);
+    put_script(out, blob_echarts, blob_echarts_end);
+    put_script(out, blob_chart, blob_chart_end);
+    put_script(out, blob_stage, blob_stage_end);
+    put_script(out, blob_page, blob_page_end);
+    fputs("</body>\n</html>\n", out);
+    ok = ok && !ferror(out);
+    if (fclose(out) == 0 && ok) return text;
+    free(text);
+    return NULL;
+}
+
+bool page_write(const char *path, const json_t *document, const char *folder, struct glint_error *err) {
+    json_t *copy = json_deep_copy(document);
+    struct files files = {json_object(), json_array(), folder};
+    number_files(&files, copy);
+    bool ok = load_files(&files, err);
+    if (ok) json_object_set(copy, "files", files.uris);
+    char *text = ok && copy ? html(copy) : NULL;
+    ok = ok &&
+         (text ? text_file_write(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
+    free(text);
+    json_decref(files.places);
+    json_decref(files.uris);
+    json_decref(copy);
+    return ok;
+}

@@ -1,0 +1,101 @@
+// Colour through OpenColorIO. Exceptions stop here.
+#include "draw/view/ocio.h"
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "draw/blobs.h"
+#include "options/nearest.h"
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace {
+
+OCIO::ConstConfigRcPtr open_config(const char *path) {
+    if (!path) path = std::getenv("OCIO");
+    if (path && *path) return OCIO::Config::CreateFromFile(path);
+    std::istringstream text(std::string(reinterpret_cast<const char *>(blob_ocio), size_t(blob_ocio_end - blob_ocio)));
+    return OCIO::Config::CreateFromStream(text);
+}
+
+// The name as the config writes it; throws with the known names and the nearest.
+std::string known(const char *what, const char *wanted, const std::vector<std::string> &names) {
+    struct nearest near = nearest_to(wanted);
+    std::string list;
+    for (const std::string &name : names) {
+        if (name == wanted) return name;
+        nearest_offer(&near, name.c_str());
+        list += (list.empty() ? "" : ", ") + name;
+    }
+    throw std::invalid_argument(std::string("there is no ") + what + " " + wanted + nearest_text(&near) +
+                                "; the configuration has " + list);
+}
+
+std::string choose_display(const OCIO::ConstConfigRcPtr &config, const char *wanted) {
+    if (!wanted) return config->getDefaultDisplay();
+    std::vector<std::string> names;
+    for (int i = 0; i < config->getNumDisplays(); i++) names.push_back(config->getDisplay(i));
+    return known("display", wanted, names);
+}
+
+std::string choose_view(const OCIO::ConstConfigRcPtr &config, const std::string &display, const char *wanted) {
+    if (!wanted) return config->getDefaultView(display.c_str());
+    std::vector<std::string> names;
+    for (int i = 0; i < config->getNumViews(display.c_str()); i++) names.push_back(config->getView(display.c_str(), i));
+    return known("view", wanted, names);
+}
+
+// Linear Rec. 709 goes by several names; a config without any of them has its scene-linear role taken for it.
+std::string choose_input(const OCIO::ConstConfigRcPtr &config, const char *wanted) {
+    if (wanted) {
+        if (config->getColorSpace(wanted)) return wanted;
+        std::vector<std::string> names;
+        for (int i = 0; i < config->getNumColorSpaces(); i++) names.push_back(config->getColorSpaceNameByIndex(i));
+        return known("colour space", wanted, names);
+    }
+    for (const char *name : {"lin_rec709", "Linear Rec.709 (sRGB)", "Utility - Linear - Rec.709",
+                             "Utility - Linear - sRGB", "lin_srgb", "Linear"})
+        if (config->getColorSpace(name)) return name;
+    return OCIO::ROLE_SCENE_LINEAR;
+}
+
+} // namespace
+
+bool ocio_apply(const struct ocio_options *options, float *rgba, size_t width, size_t height, struct glint_error *err) {
+    try {
+        OCIO::ConstConfigRcPtr config = open_config(options->config);
+        const std::string display = choose_display(config, options->display);
+        const std::string view = choose_view(config, display, options->view);
+        OCIO::DisplayViewTransformRcPtr transform = OCIO::DisplayViewTransform::Create();
+        transform->setSrc(choose_input(config, options->input).c_str());
+        transform->setDisplay(display.c_str());
+        transform->setView(view.c_str());
+        OCIO::ConstCPUProcessorRcPtr cpu = config->getProcessor(transform)->getDefaultCPUProcessor();
+        OCIO::PackedImageDesc image(rgba, long(width), long(height), 4);
+        cpu->apply(image);
+        return true;
+    } catch (const std::invalid_argument &e) {
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s", e.what());
+    } catch (const std::exception &e) {
+        return glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
+    }
+}
+
+char *ocio_builtin_views(void) {
+    try {
+        std::istringstream text(
+            std::string(reinterpret_cast<const char *>(blob_ocio), size_t(blob_ocio_end - blob_ocio)));
+        OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromStream(text);
+        std::string list;
+        for (int i = 0; i < config->getNumViews(config->getDefaultDisplay()); i++)
+            list += (i ? ", " : "") + std::string(config->getView(config->getDefaultDisplay(), i));
+        return strdup(list.c_str());
+    } catch (const std::exception &) {
+        return nullptr;
+    }
+}

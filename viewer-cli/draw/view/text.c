@@ -1,0 +1,75 @@
+/* Text on pictures through FreeType. */
+#include "draw/view/text.h"
+
+#include <stdlib.h>
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+
+#include "draw/blobs.h"
+
+struct text {
+    FT_Library library;
+    FT_Face face;
+};
+
+struct text *text_create(uint32_t height_px, struct glint_error *err) {
+    struct text *text = calloc(1, sizeof *text);
+    if (!text) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        return NULL;
+    }
+    FT_Long size = (FT_Long)(blob_font_end - blob_font);
+    if (FT_Init_FreeType(&text->library) || FT_New_Memory_Face(text->library, blob_font, size, 0, &text->face) ||
+        FT_Set_Pixel_Sizes(text->face, 0, height_px)) {
+        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "FreeType cannot read the built-in font");
+        text_destroy(&text);
+    }
+    return text;
+}
+
+void text_destroy(struct text **text) {
+    if (!*text) return;
+    if ((*text)->face) FT_Done_Face((*text)->face);
+    if ((*text)->library) FT_Done_FreeType((*text)->library);
+    free(*text);
+    *text = NULL;
+}
+
+/* The next code point of well-formed UTF-8; other bytes stand for themselves. */
+static FT_ULong next_character(const char **string) {
+    const unsigned char *p = (const unsigned char *)*string;
+    int more = *p >= 0xF0 ? 3 : *p >= 0xE0 ? 2 : *p >= 0xC0 ? 1 : 0;
+    FT_ULong c = more == 3 ? *p & 0x07u : more == 2 ? *p & 0x0Fu : more == 1 ? *p & 0x1Fu : *p;
+    p++;
+    for (; more > 0 && (*p & 0xC0) == 0x80; more--) c = c << 6 | (*p++ & 0x3Fu);
+    *string = (const char *)p;
+    return c;
+}
+
+static void draw_glyph(const FT_GlyphSlot glyph, struct picture *picture, int x, int y, struct rgb color) {
+    const FT_Bitmap *map = &glyph->bitmap;
+    for (int j = 0; j < (int)map->rows; j++)
+        for (int i = 0; i < (int)map->width; i++)
+            picture_blend(picture, x + glyph->bitmap_left + i, y - glyph->bitmap_top + j, color,
+                          map->buffer[j * map->pitch + i]);
+}
+
+static int walk(struct text *text, struct picture *picture, int x, int y, const char *string, struct rgb color) {
+    int start = x;
+    while (*string) {
+        FT_ULong c = next_character(&string);
+        if (FT_Load_Char(text->face, c, FT_LOAD_RENDER)) continue;
+        if (picture) draw_glyph(text->face->glyph, picture, x, y, color);
+        x += (int)(text->face->glyph->advance.x >> 6);
+    }
+    return x - start;
+}
+
+int text_measure(struct text *text, const char *string) {
+    return walk(text, NULL, 0, 0, string, COLOR_TEXT);
+}
+
+void text_draw(struct text *text, struct picture *picture, int x, int y, const char *string, struct rgb color) {
+    walk(text, picture, x, y, string, color);
+}

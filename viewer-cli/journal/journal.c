@@ -1,0 +1,115 @@
+/* Studies on disk: what one is, and a line for each result. */
+#include "journal/journal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "io/text_file.h"
+
+bool journal_path(const char *folder, const char *name, char path[4096], struct glint_error *err) {
+    return snprintf(path, 4096, "%s/%s", folder, name) < 4096 ||
+           glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+}
+
+static bool no_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
+static bool same_definition(const struct journal *journal, const json_t *theirs, const json_t *ours,
+                            struct glint_error *err) {
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)ours, key, value) {
+        const json_t *other = json_object_get(theirs, key);
+        if (json_equal(other, value)) continue;
+        char *found = other ? json_dumps(other, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
+        char *expected = json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT);
+        glint_fail(err, GLINT_ERROR_USAGE,
+                   "%s: holds a %s of other %s: there %.300s, here %.300s; repeat its arguments, or choose "
+                   "another folder",
+                   journal->folder, journal->kind, key, found ? found : "none", expected ? expected : "?");
+        free(found);
+        free(expected);
+        return false;
+    }
+    return true;
+}
+
+/* Reads whole lines; what an end without warning left of another is cut off. */
+static bool read_log(struct journal *journal, const char *path, struct glint_error *err) {
+    FILE *file = fdopen(dup(journal->log), "rb");
+    char *line = NULL;
+    size_t size = 0;
+    off_t whole = 0;
+    bool ok = file != NULL || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    for (ssize_t length; ok && (length = getline(&line, &size, file)) > 0 && line[length - 1] == '\n';
+         whole += length) {
+        json_error_t error;
+        json_t *json = json_loads(line, 0, &error);
+        if (!json || !journal->keep(journal->user, json))
+            ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: byte %lld: expected a line of this %s, found '%.80s'", path,
+                            (long long)whole, journal->kind, line);
+        json_decref(json);
+    }
+    free(line);
+    if (file) fclose(file);
+    if (ok && ftruncate(journal->log, whole) != 0)
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    return ok;
+}
+
+static bool write_definition(const json_t *definition, const char *path, struct glint_error *err) {
+    char *text = json_dumps(definition, JSON_INDENT(1));
+    const bool ok = text ? text_file_write(path, text, err) : no_memory(err);
+    free(text);
+    return ok;
+}
+
+/* The definition that is there, or ours if none is. */
+static bool agree(const struct journal *journal, const json_t *definition, struct glint_error *err) {
+    char path[4096], name[64];
+    json_error_t error;
+    snprintf(name, sizeof name, "%s.json", journal->kind);
+    if (!journal_path(journal->folder, name, path, err)) return false;
+    if (access(path, F_OK) != 0) return write_definition(definition, path, err);
+    json_t *theirs = json_load_file(path, 0, &error);
+    const bool ok = theirs ? same_definition(journal, theirs, definition, err)
+                           : glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, error.line, error.text);
+    json_decref(theirs);
+    return ok;
+}
+
+bool journal_open(struct journal *journal, const json_t *definition, struct glint_error *err) {
+    char path[4096];
+    if (!journal->folder) return true;
+    if (!glint_make_folder(journal->folder, err)) return false;
+    if (!agree(journal, definition, err) || !journal_path(journal->folder, "log.jsonl", path, err)) return false;
+    journal->log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (journal->log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (lockf(journal->log, F_TLOCK, 0) != 0)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: another %s is at work in this folder", journal->folder,
+                          journal->kind);
+    return read_log(journal, path, err);
+}
+
+bool journal_append(struct journal *journal, json_t *line, struct glint_error *err) {
+    char *text = line ? json_dumps(line, JSON_COMPACT) : NULL;
+    const size_t length = text ? strlen(text) : 0;
+    bool ok = text || no_memory(err);
+    if (ok) text[length] = '\n'; /* in the place of the end: one write of a whole line */
+    if (ok && journal->log > 0 && write(journal->log, text, length + 1) != (ssize_t)(length + 1))
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s/log.jsonl: %s", journal->folder, strerror(errno));
+    if (ok) journal->keep(journal->user, line);
+    free(text);
+    json_decref(line);
+    return ok;
+}
+
+void journal_close(struct journal *journal) {
+    if (journal->log > 0) close(journal->log);
+    journal->log = 0;
+}

@@ -1,0 +1,47 @@
+/* The options that sweep, blame and tune share: what errors are against. */
+#include "options/answer_args.h"
+
+#include <string.h>
+
+error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct answer_args *args) {
+    switch (key) {
+    case KEY_REFERENCE:
+        if (!strcmp(arg, "truth")) args->truth = true;
+        else list_add(&args->references, arg, state);
+        return 0;
+    case KEY_RAYS:
+        args->rays = arg_uint("rays", arg, 1, 1 << 20, state);
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+void answer_args_check(const struct answer_args *args, size_t captures, struct argp_state *state) {
+    if (args->truth && args->references.count) argp_error(state, "--reference: expected runs or the truth, found both");
+    if (args->references.count && args->references.count != captures)
+        argp_error(state, "--reference: expected one run for each of %zu captures, found %zu", captures,
+                   args->references.count);
+}
+
+void answer_args_finish(struct answer_args *args) {
+    list_free(&args->references);
+}
+
+struct glint_judge_options answer_args_judge(const struct answer_args *args, const char *folder, size_t capture) {
+    return (struct glint_judge_options){.reference = !args->truth,
+                                        .truth = args->truth,
+                                        .reference_run =
+                                            args->references.count ? args->references.items[capture] : NULL,
+                                        .reference_folder = folder,
+                                        .reference_rays = args->rays};
+}
+
+bool answer_args_metric(const char *name, enum glint_metric *metric, struct glint_error *err) {
+    uint32_t bits = 1u << *metric;
+    if (name && !glint_metrics_parse(name, &bits, err)) return false;
+    if (bits & (bits - 1)) return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected one metric", name);
+    int first = 0;
+    while (!(bits >> first & 1)) first++;
+    *metric = (enum glint_metric)first;
+    return true;
+}

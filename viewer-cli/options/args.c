@@ -1,0 +1,103 @@
+/* Small helpers that read arguments. */
+#include "options/args.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "options/nearest.h"
+
+void list_add(struct list *list, const char *item, struct argp_state *state) {
+    const char **items = realloc(list->items, (list->count + 2) * sizeof *items);
+    if (!items) {
+        argp_failure(state, STATUS_CHECK, ENOMEM, "arguments");
+        return;
+    }
+    items[list->count++] = item;
+    items[list->count] = NULL;
+    list->items = items;
+}
+
+void list_split(struct list *list, char *text, struct argp_state *state) {
+    for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;) {
+        if (!*piece) argp_error(state, "an empty name in a list");
+        list_add(list, piece, state);
+    }
+}
+
+void list_free(struct list *list) {
+    free(list->items);
+    *list = (struct list){0};
+}
+
+const char *const *list_or_null(const struct list *list) {
+    return list->count ? list->items : NULL;
+}
+
+uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_t highest, struct argp_state *state) {
+    char *end = NULL;
+    errno = 0;
+    unsigned long long value = strtoull(text, &end, 10);
+    if (errno || end == text || *end || text[0] == '-' || value < lowest || value > highest)
+        argp_error(state, "--%s=%s: expected a whole number from %u to %u", option, text, lowest, highest);
+    return (uint32_t)value;
+}
+
+void arg_numbers(const char *option, const char *text, double *out, size_t count, struct argp_state *state) {
+    const char *p = text;
+    for (size_t i = 0; i < count; i++) {
+        char *end = NULL;
+        out[i] = strtod(p, &end);
+        bool last = i + 1 == count;
+        if (end == p || !isfinite(out[i]) || *end != (last ? '\0' : ','))
+            argp_error(state, "--%s=%s: expected %zu number%s%s", option, text, count, count > 1 ? "s" : "",
+                       count > 1 ? " with commas between them" : "");
+        p = end + 1;
+    }
+}
+
+void arg_size(const char *option, const char *text, uint32_t *width, uint32_t *height, struct argp_state *state) {
+    unsigned w = 0, h = 0;
+    int used = 0;
+    if (sscanf(text, "%6ux%6u%n", &w, &h, &used) != 2 || text[used] || w < 1 || h < 1 || w > 32768 || h > 32768)
+        argp_error(state, "--%s=%s: expected WIDTHxHEIGHT, such as 1280x720, at most 32768", option, text);
+    *width = w;
+    *height = h;
+}
+
+char *join_names(const char *before, const char *const *names) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    if (!f) return NULL;
+    fputs(before, f);
+    for (size_t i = 0; names[i]; i++) fprintf(f, "%s%s", i ? ", " : "", names[i]);
+    fclose(f);
+    return text;
+}
+
+int arg_choice(const char *option, const char *text, const char *const *names, struct argp_state *state) {
+    struct nearest near = nearest_to(text);
+    for (int i = 0; names[i]; i++) {
+        if (!strcmp(names[i], text)) return i;
+        nearest_offer(&near, names[i]);
+    }
+    char *all = join_names("", names);
+    argp_error(state, "--%s=%s: expected one of %s%s", option, text, all ? all : "its values", nearest_text(&near));
+    free(all);
+    return -1;
+}
+
+enum status print_json(json_t *json) {
+    int failed = !json || json_dumpf(json, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    json_decref(json);
+    if (!failed) putchar('\n');
+    else fprintf(stderr, "glint: cannot make the JSON text: out of memory, or a text that is not UTF-8\n");
+    return failed ? STATUS_CHECK : STATUS_DONE;
+}
+
+json_t *json_number(double value) {
+    return isfinite(value) ? json_real(value) : json_null();
+}

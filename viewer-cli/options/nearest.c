@@ -1,0 +1,50 @@
+/* "did you mean …?" by edit distance: insertions, removals, changes and swaps of neighbours count one each. */
+#include "options/nearest.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#define LONGEST 64
+
+static size_t smaller(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+static size_t edit_distance(const char *a, const char *b) {
+    size_t na = strlen(a), nb = strlen(b);
+    if (na > LONGEST || nb > LONGEST) return LONGEST;
+    size_t row[3][LONGEST + 1] = {{0}};
+    for (size_t j = 0; j <= nb; j++) row[0][j] = j;
+    for (size_t i = 1; i <= na; i++) {
+        size_t *now = row[i % 3], *above = row[(i + 2) % 3], *above2 = row[(i + 1) % 3];
+        now[0] = i;
+        for (size_t j = 1; j <= nb; j++) {
+            int ca = tolower((unsigned char)a[i - 1]), cb = tolower((unsigned char)b[j - 1]);
+            now[j] = smaller(smaller(now[j - 1], above[j]) + 1, above[j - 1] + (ca != cb));
+            if (i > 1 && j > 1 && ca == tolower((unsigned char)b[j - 2]) && cb == tolower((unsigned char)a[i - 2]))
+                now[j] = smaller(now[j], above2[j - 2] + 1);
+        }
+    }
+    return row[na % 3][nb];
+}
+
+struct nearest nearest_to(const char *wanted) {
+    return (struct nearest){.wanted = wanted, .distance = 2 + strlen(wanted) / 4};
+}
+
+void nearest_offer(struct nearest *nearest, const char *candidate) {
+    if (!candidate || !*candidate) return;
+    size_t distance = edit_distance(nearest->wanted, candidate);
+    /* A beginning or a part of the name is a likely shorthand. */
+    if (strlen(nearest->wanted) >= 3 && strstr(candidate, nearest->wanted)) distance = smaller(distance, 1);
+    if (distance >= nearest->distance) return;
+    nearest->best = candidate;
+    nearest->distance = distance;
+}
+
+const char *nearest_text(struct nearest *nearest) {
+    if (!nearest->best) return "";
+    snprintf(nearest->text, sizeof nearest->text, " (did you mean %s?)", nearest->best);
+    return nearest->text;
+}

@@ -1,0 +1,106 @@
+/* The options of commands that run pipelines. */
+#include "options/pipeline_args.h"
+
+#include <string.h>
+
+#include "options/pass_names.h"
+
+error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct pipeline_args *args) {
+    switch (key) {
+    case 'p':
+        args->preset = arg;
+        return 0;
+    case 'd':
+        args->device = arg;
+        return 0;
+    case KEY_INPUTS:
+        args->replay.inputs = arg;
+        return 0;
+    case KEY_HISTORY:
+        args->replay.history = arg;
+        return 0;
+    case KEY_ALL:
+        args->replay.all = true;
+        return 0;
+    case KEY_USE:
+        list_add(&args->use, arg, state);
+        return 0;
+    case KEY_SET:
+        list_add(&args->set, arg, state);
+        return 0;
+    case KEY_SHADER:
+        list_add(&args->shader, arg, state);
+        return 0;
+    case KEY_PASSES:
+        list_split(&args->passes, arg, state);
+        return 0;
+    case KEY_OUTPUTS:
+        list_split(&args->outputs, arg, state);
+        return 0;
+    case KEY_SKIP:
+        list_split(&args->skip, arg, state);
+        return 0;
+    case KEY_FORCE:
+        list_split(&args->force, arg, state);
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+void pipeline_args_finish(struct pipeline_args *args) {
+    list_free(&args->use);
+    list_free(&args->set);
+    list_free(&args->shader);
+    list_free(&args->passes);
+    list_free(&args->outputs);
+    list_free(&args->skip);
+    list_free(&args->force);
+}
+
+static bool check_slots(const struct list *slots, struct glint_error *err) {
+    for (size_t i = 0; i < slots->count; i++)
+        if (!check_slot(slots->items[i], strlen(slots->items[i]), err)) return false;
+    return true;
+}
+
+typedef bool (*assign)(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
+
+static bool assign_all(struct glint_pipeline *pipeline, const struct list *list,
+                       bool (*check)(const char *, struct glint_error *), assign set, struct glint_error *err) {
+    for (size_t i = 0; i < list->count; i++)
+        if (!check(list->items[i], err) || !set(pipeline, list->items[i], err)) return false;
+    return true;
+}
+
+bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err) {
+    return assign_all(pipeline, &args->use, check_use, glint_pipeline_use, err) &&
+           assign_all(pipeline, &args->set, check_set, glint_pipeline_set, err) &&
+           assign_all(pipeline, &args->shader, check_shader, glint_pipeline_shader, err);
+}
+
+struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err) {
+    for (size_t i = 0; i < args->outputs.count; i++)
+        if (!check_image(args->outputs.items[i], err)) return NULL;
+    if (!check_slots(&args->passes, err) || !check_slots(&args->skip, err) || !check_slots(&args->force, err))
+        return NULL;
+    struct glint_pipeline *pipeline = glint_pipeline_create(args->preset ? args->preset : "mafia3", err);
+    if (pipeline && !pipeline_args_apply(args, pipeline, err)) glint_pipeline_destroy(&pipeline);
+    return pipeline;
+}
+
+struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err) {
+    return glint_device_create(&(struct glint_device_options){.select = args->device}, err);
+}
+
+struct glint_replay_options pipeline_args_options(const struct pipeline_args *args) {
+    struct glint_replay_options options = args->replay;
+    options.passes = list_or_null(&args->passes);
+    options.outputs = list_or_null(&args->outputs);
+    options.skip = list_or_null(&args->skip);
+    options.force = list_or_null(&args->force);
+    return options;
+}
+
+bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err) {
+    return glint_pipeline_set(pipeline, "pipeline.fog=false", err);
+}

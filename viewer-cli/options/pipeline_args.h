@@ -1,0 +1,68 @@
+/* The options of commands that run pipelines: which one, which part of it, on which device. */
+#ifndef GLINT_VIEWER_PIPELINE_ARGS_H
+#define GLINT_VIEWER_PIPELINE_ARGS_H
+
+#include "options/args.h"
+#include "glint/replay.h"
+
+struct pipeline_args {
+    const char *preset; /* NULL: mafia3 */
+    const char *device; /* NULL: the usual one */
+    struct list use, set, shader;
+    struct list passes, outputs, skip, force;
+    struct glint_replay_options replay; /* its lists are filled by pipeline_args_options */
+};
+
+enum {
+    KEY_USE = 512,
+    KEY_SET,
+    KEY_SHADER,
+    KEY_PASSES,
+    KEY_INPUTS,
+    KEY_HISTORY,
+    KEY_OUTPUTS,
+    KEY_SKIP,
+    KEY_FORCE,
+    KEY_ALL
+};
+
+/* clang-format off */
+#define DEVICE_OPTION \
+    {"device",  'd',         "INDEX|NAME",     0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0}
+#define USE_OPTION \
+    {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; none leaves the slot out", 0}
+#define ALL_OPTION \
+    {"all",     KEY_ALL,     NULL,             0, "Run every pass over every pixel: no survey, no list, nothing left out. The picture is the same, bit for bit", 0}
+/* A pipeline, and what it is for the command. */
+#define WHOLE_PIPELINE_OPTIONS(what) \
+    {"preset",  'p',         "NAME|FILE",      0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
+    USE_OPTION, \
+    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter, which glint passes SLOT lists; pipeline.PARAM: in every pass that has it", 0}, \
+    {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead", 0}, \
+    ALL_OPTION, DEVICE_OPTION
+#define SKIP_OPTION \
+    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these; what reads them finds nothing there, and the picture changes", 0}
+/* And which part of it. */
+#define PIPELINE_OPTIONS \
+    WHOLE_PIPELINE_OPTIONS("The pipeline"), \
+    {"passes",  KEY_PASSES,  "SLOT,...",       0, "Only these slots; what they need comes from --inputs", 0}, \
+    {"inputs",  KEY_INPUTS,  "RUN",            0, "A run to read missing images from", 0}, \
+    {"history", KEY_HISTORY, "RUN",            0, "The run of the frame before, for passes that remember it", 0}, \
+    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, from the passes that they need; those of --diagnostics come with them (default: all)", 0}, \
+    SKIP_OPTION, \
+    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when the plan finds nothing for them to do", 0}
+/* clang-format on */
+
+/* Reads one of these; ARGP_ERR_UNKNOWN for any other key. */
+error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct pipeline_args *args);
+void pipeline_args_finish(struct pipeline_args *args);
+/* The pipeline that the arguments ask for; unknown names are errors that name the nearest known one. */
+struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err);
+/* Its --use, --set and --shader on another pipeline. */
+bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err);
+/* Switches fog off, which the truth lacks. */
+bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err);
+struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err);
+struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);
+
+#endif

@@ -1,0 +1,198 @@
+/* --against: how far a run is from a better answer, the truth in the capture, the preset `reference`, or both. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "replay/against.h"
+#include "options/args.h"
+
+void against_parse(struct against *against, char *text, struct argp_state *state) {
+    static const char *const answers[] = {"truth", "reference", "both", NULL};
+    char *run = strchr(text, '=');
+    if (run) *run++ = '\0';
+    int which = arg_choice("against", text, answers, state);
+    against->truth = which != 1;
+    against->reference = which != 0;
+    against->run = run;
+    if (run && !against->reference) argp_error(state, "--against=truth: the truth is in the capture, it takes no run");
+    if (run && !*run) argp_error(state, "--against=%s=RUN: an empty name", text);
+}
+
+bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
+                   struct glint_error *err) {
+    against->device = device;
+    return !against->reference || (against->pipeline = glint_study_reference(pipeline, err)) != NULL;
+}
+
+void against_finish(struct against *against) {
+    glint_replay_destroy(&against->replay);
+    glint_pipeline_destroy(&against->pipeline);
+}
+
+static bool load(struct against *against, struct glint_capture *capture, struct glint_error *err) {
+    if (!against->replay && !(against->replay = glint_replay_create(against->device, err))) return false;
+    return glint_replay_load(against->replay, capture, err);
+}
+
+/* An answer, and the standard error of one that is a mean of samples. */
+struct answer {
+    struct glint_pixels pixels;
+    float *error;
+};
+static void answer_finish(struct answer *answer) {
+    glint_pixels_finish(&answer->pixels);
+    free(answer->error);
+}
+
+static bool is_of_another(const struct glint_run *run, struct glint_capture *capture) {
+    char hash[33];
+    json_t *json = json_loads(glint_run_json(run), 0, NULL);
+    const char *theirs = json_string_value(json_object_get(json_object_get(json, "capture"), "xxh3_128"));
+    const bool other = !theirs || (glint_capture_hash(capture, hash, NULL) && strcmp(theirs, hash) != 0);
+    json_decref(json);
+    return other;
+}
+
+static bool run_answer(const char *folder, struct glint_capture *capture, struct answer *answer, bool *other,
+                       struct glint_error *err) {
+    struct glint_run *run = glint_run_open(folder, err);
+    *other = run && is_of_another(run, capture);
+    bool ok =
+        run && glint_study_run_reflection(run, &answer->pixels, err) && glint_study_run_error(run, &answer->error, err);
+    glint_run_close(&run);
+    return ok;
+}
+
+/* The reference's reflection of this capture. */
+static bool reference_answer(struct against *against, struct glint_capture *capture, struct answer *answer, bool *other,
+                             struct glint_error *err) {
+    const struct glint_reference_options options = {.all = against->all};
+    if (against->run) return run_answer(against->run, capture, answer, other, err);
+    struct glint_reference *reference =
+        load(against, capture, err) ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
+                                    : NULL;
+    bool ok = reference &&
+              glint_reference_trace(reference, glint_pipeline_rays(against->pipeline), 0, against->progress,
+                                    against->user, err) &&
+              glint_reference_pixels(reference, &answer->pixels, &answer->error, err);
+    glint_reference_destroy(&reference);
+    return glint_replay_load(against->replay, NULL, ok ? err : NULL) && ok;
+}
+
+/* Where mirror-like reflections are from, here and in the reference, of which one ray is enough for that: those of rougher surfaces are
+   drawn, and no two are the same. */
+static bool cross_sources(struct against *against, struct glint_capture *capture, const uint8_t *surfaces,
+                          struct comparison *c, struct glint_error *err) {
+    const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
+    const struct glint_replay_options options = {.all = against->all, .diagnostics = true};
+    const size_t pixels = (size_t)gbuffer->width * gbuffer->height;
+    if (!c->found_source.labels) return true;
+    struct glint_pipeline *reference = glint_study_reference(against->pipeline, err);
+    bool ok = reference && glint_pipeline_set(reference, "pipeline.rays=1", err) && load(against, capture, err) &&
+              glint_replay_run(against->replay, reference, &options, against->progress, against->user, err) &&
+              glint_study_source(against->replay, gbuffer->width, gbuffer->height, &c->reference_source, err) &&
+              glint_replay_load(against->replay, NULL, err);
+    if (reference) glint_pipeline_destroy(&reference);
+    if (!ok || !c->reference_source.labels) return ok;
+    uint8_t *mask = malloc(pixels);
+    c->sources = malloc((c->found_source.count + 1) * (c->reference_source.count + 1) * sizeof *c->sources);
+    ok = (mask && c->sources) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; ok && i < pixels; i++) mask[i] = surfaces[i] == GLINT_SURFACE_MIRROR;
+    if (ok) glint_classes_cross(&c->found_source, &c->reference_source, pixels, mask, c->sources);
+    free(mask);
+    return ok;
+}
+
+/* Every class that is known of the pixels. */
+struct sets {
+    struct glint_classes of[GLINT_CAPTURE_CLASSES + 1];
+    size_t own, count; /* own: those that are released with this */
+};
+
+static bool compare(const struct against *against, struct glint_capture *capture, const struct sets *sets,
+                    const struct glint_pixels *found, const struct answer *answer, struct glint_metric_table *table,
+                    struct glint_error *err) {
+    const double exposure = glint_capture_frame(capture)->exposure;
+    struct glint_metric_options options = against->metrics;
+    metric_args_default(&options);
+    options.found_channels = options.truth_channels = "R G B";
+    options.mask = sets->of[GLINT_CLASSES_SURFACE].labels;
+    options.classes = sets->of;
+    options.class_sets = sets->count;
+    options.truth_error = answer->error;
+    options.exposure = exposure > 0 ? log2(exposure) : 0;
+    return glint_metrics_compare(found, &answer->pixels, &options, table, err);
+}
+
+static bool compare_images(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
+                           const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
+    struct glint_pixels found = {0};
+    struct answer truth = {0}, reference = {0};
+    struct sets sets = {0};
+    bool ok = glint_study_reflection(replay, &found, err) &&
+              glint_study_source(replay, found.width, found.height, &c->found_source, err) &&
+              glint_study_classes(capture, sets.of, &sets.own, err);
+    sets.count = sets.own;
+    if (c->found_source.labels) sets.of[sets.count++] = c->found_source;
+    const uint8_t *surfaces = sets.of[GLINT_CLASSES_SURFACE].labels;
+    if (ok && c->truth)
+        ok = glint_study_truth(capture, pipeline, &truth.pixels, &truth.error, err) &&
+             compare(against, capture, &sets, &found, &truth, &c->to_truth, err);
+    if (ok && c->reference)
+        ok = reference_answer(against, capture, &reference, &c->other_capture, err) &&
+             compare(against, capture, &sets, &found, &reference, &c->to_reference, err) &&
+             cross_sources(against, capture, surfaces, c, err);
+    if (ok && c->truth && c->reference)
+        ok = glint_study_missing(&reference.pixels, reference.error, &truth.pixels, truth.error, surfaces, &c->missing,
+                                 err);
+    for (size_t k = 0; k < sets.own; k++) glint_classes_finish(&sets.of[k]);
+    answer_finish(&truth);
+    answer_finish(&reference);
+    glint_pixels_finish(&found);
+    return ok;
+}
+
+void comparison_finish(struct comparison *c) {
+    glint_metric_table_finish(&c->to_truth);
+    glint_metric_table_finish(&c->to_reference);
+    glint_classes_finish(&c->found_source);
+    glint_classes_finish(&c->reference_source);
+    free(c->sources);
+    *c = (struct comparison){0};
+}
+
+bool against_valid(const struct comparison *c, const char *capture, struct glint_error *err) {
+    char what[600];
+    snprintf(what, sizeof what, "%.500s: the reflection against the truth", capture);
+    if (!glint_metrics_valid(&c->to_truth, what, err)) return false;
+    snprintf(what, sizeof what, "%.500s: the reflection against the reference", capture);
+    return glint_metrics_valid(&c->to_reference, what, err);
+}
+
+static bool draws_normals(const struct glint_pipeline *pipeline) {
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        for (size_t r = 0; r < pass->row_count; r++)
+            if (pass->rows[r].kind == GLINT_ROW_SPEC && !strcmp(pass->rows[r].name, "jitter"))
+                return glint_pipeline_value(pipeline, pass, &pass->rows[r]) != 0;
+    }
+    return false;
+}
+
+bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
+                     const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
+    struct glint_error image = {0};
+    *c = (struct comparison){
+        .truth = against->truth, .reference = against->reference, .jittered = draws_normals(pipeline)};
+    if (against->truth && !glint_study_trace(replay, capture, GLINT_MIRROR_ROUGHNESS, &c->rays, err)) return false;
+    c->has_rays = against->truth;
+    c->has_image = compare_images(against, replay, capture, pipeline, c, &image);
+    if (c->has_image) return true;
+    /* Rays can be compared without a picture, as of --passes screen_trace. */
+    if (against->reference || (image.code != GLINT_ERROR_USAGE && image.code != GLINT_ERROR_FORMAT)) {
+        if (err) *err = image;
+        return false;
+    }
+    snprintf(c->no_image, sizeof c->no_image, "%s", image.message);
+    return true;
+}

@@ -1,0 +1,55 @@
+/* --against: how far a run is from a better answer, the truth in the capture, the preset `reference`, or both. */
+#ifndef GLINT_VIEWER_AGAINST_H
+#define GLINT_VIEWER_AGAINST_H
+
+#include <argp.h>
+#include <jansson.h>
+
+#include "glint/reference.h"
+#include "options/metric_args.h"
+
+struct against {
+    bool truth, reference;
+    bool all;                /* the reference runs every pass too */
+    glint_progress progress; /* of the reference's replay */
+    void *user;
+    const char *run;                     /* the reference's run folder; NULL: it is replayed */
+    struct glint_metric_options metrics; /* those of METRIC_OPTIONS */
+    struct glint_device *device;
+    struct glint_pipeline *pipeline;
+    struct glint_replay
+        *replay; /* its own, so that the history of the run it is compared with stays; NULL until it is needed */
+};
+
+/* Reads "truth", "reference", "reference=RUN", "both" or "both=RUN". */
+void against_parse(struct against *against, char *text, struct argp_state *state);
+/* Makes ready for runs of `pipeline`; does nothing when there is nothing to compare with. */
+bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
+                   struct glint_error *err);
+void against_finish(struct against *against);
+
+/* With a reference as well as a truth their images say what an error comes from: what a run is off the reference is its
+   algorithms' error, and what the reference is off the truth is information that the capture's data lack. */
+struct comparison {
+    bool truth, reference; /* what it is compared with */
+    bool has_rays, has_image, jittered;
+    struct glint_trace_table rays;
+    struct glint_metric_table to_truth, to_reference;
+    struct glint_image_errors missing;
+    bool other_capture;  /* the run that holds the reference was made from another one, as a frame of its shot */
+    char no_image[1024]; /* why, when there is none */
+    /* Where both have mirror-like reflections from, after a run with diagnostics: glint_classes_cross. */
+    struct glint_classes found_source, reference_source;
+    uint64_t *sources;
+};
+/* After a run. Release it by comparison_finish, whether this succeeded or not. */
+bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
+                     const struct glint_pipeline *pipeline, struct comparison *comparison, struct glint_error *err);
+void against_print(const struct comparison *comparison);
+/* Adds "against_truth", "against_reference", "missing_information" to what is said of a run. */
+void against_json(const struct comparison *comparison, json_t *run);
+/* False when one of the images is NaN or infinite somewhere: how many pixels, and which is the first. */
+bool against_valid(const struct comparison *comparison, const char *capture, struct glint_error *err);
+void comparison_finish(struct comparison *comparison);
+
+#endif
