@@ -308,7 +308,7 @@ static void the_handbook_shows_references(void **state) {
     assert_contains(text, "The slot's reference, with skip=true, cubemap_mips.join=nearest");
     free(text);
     text = glint_ok("passes", "blur");
-    assert_contains(text, "The reference leaves this slot out: rays of a pixel share nothing");
+    assert_contains(text, "The reference leaves this slot out: a pixel of the reference uses only its own rays");
     free(text);
     text = glint_ok("passes", "lit_mips", "--json");
     json_t *passes = parse_json(text);

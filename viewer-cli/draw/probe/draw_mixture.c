@@ -171,7 +171,7 @@ static void draw_layer(struct drawing *d, const struct ray_records *records, con
     const struct glint_probe_word under = glint_probe_word("image", (float)draw_value(layer, "under"));
     const double share =
         (draw_value(layer, "share_r") + draw_value(layer, "share_g") + draw_value(layer, "share_b")) / 3;
-    head(d, records, "lays a colour over another");
+    head(d, records, "blends a colour over another");
     for (int k = 0; k < 2; k++) {
         double rgb[3];
         char text[128];
