@@ -80,7 +80,7 @@ static bool add_image(struct glint_run *run, const json_t *pass, const json_t *i
     return true;
 }
 
-static bool parse(struct glint_run *run, struct glint_error *err) {
+static bool parse_run(struct glint_run *run, struct glint_error *err) {
     json_error_t fault;
     json_t *pass, *image;
     size_t p, i;
@@ -120,7 +120,7 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err) {
         return NULL;
     }
     snprintf(path, sizeof path, "%s/run.json", folder);
-    if (!is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse(run, err))
+    if (!is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse_run(run, err))
         glint_run_close(&run);
     return run;
 }

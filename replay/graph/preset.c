@@ -20,7 +20,7 @@ const char *glint_preset(size_t i) {
     return i < BUILTIN ? builtin_presets[i].name : NULL;
 }
 
-static char *copy(const char *text, struct glint_error *err) {
+static char *copy_text(const char *text, struct glint_error *err) {
     char *result = strdup(text);
     if (!result) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     return result;
@@ -33,7 +33,7 @@ static char *preset_text(const char *preset, char **where, struct glint_error *e
     size_t length = strlen(preset);
     *where = NULL;
     if (strchr(preset, '/') || (length > 5 && strcmp(preset + length - 5, ".json") == 0)) {
-        if (!(*where = copy(preset, err))) return NULL;
+        if (!(*where = copy_text(preset, err))) return NULL;
         return file_text(preset, LIMIT, err);
     }
     const char *folder = getenv("GLINT_PRESETS");
@@ -41,15 +41,15 @@ static char *preset_text(const char *preset, char **where, struct glint_error *e
         FILE *file = fopen(path, "rb");
         if (file) {
             fclose(file);
-            if (!(*where = copy(path, err))) return NULL;
+            if (!(*where = copy_text(path, err))) return NULL;
             return file_text(path, LIMIT, err);
         }
     }
     char known[512] = "";
     for (size_t i = 0; i < BUILTIN; i++) {
         if (strcmp(builtin_presets[i].name, preset) == 0) {
-            if (!(*where = copy(preset, err))) return NULL;
-            return copy(builtin_presets[i].text, err);
+            if (!(*where = copy_text(preset, err))) return NULL;
+            return copy_text(builtin_presets[i].text, err);
         }
         text_list(known, sizeof known, builtin_presets[i].name);
     }
