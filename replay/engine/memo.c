@@ -28,16 +28,13 @@ static uint64_t table_key(const struct glint_table *table) {
 static bool sibling_key(const struct run *run, uint64_t *key) {
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     const double scale[] = {frame->pre_exposure, frame->metres_per_unit};
-    const struct glint_part_info **parts = NULL;
-    size_t count = 0;
     uint64_t own = mix_bytes(*key, scale, sizeof scale);
-    bool siblings = cubemap_parts(run->source->capture, &parts, &count, NULL);
+    bool siblings = true;
     for (uint32_t i = 0; siblings && i < run->sizes->active; i++) {
-        const struct glint_part_info *part = parts[run->plan->active[i]];
+        const struct glint_part_info *part = run->source->cubemaps[run->plan->active[i]];
         siblings = part->sibling_hash[0] != 0;
         own = mix_text(mix_text(own, part->name), part->sibling_hash);
     }
-    free(parts);
     if (siblings) *key = own;
     return siblings;
 }

@@ -52,6 +52,7 @@ bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct g
     if (run) return plan_complete(plan, planner, &inputs, err) && plan_workload(plan, &inputs, true, err);
     if (!graph_link(&plan->graph, &inputs, err)) return false;
     struct glint_error ignored = {0}; /* what cannot be run may be planned */
-    const bool sized = tables_fill(plan->tables, &plan->graph, capture, &ignored) && plan_find_sizes(plan, &ignored);
+    const bool sized =
+        tables_fill(plan->tables, &plan->graph, plan->source, &ignored) && plan_find_sizes(plan, &ignored);
     return (!sized || plan_reach(plan, &planner->survey.figures, err)) && plan_workload(plan, &inputs, sized, err);
 }
