@@ -1,6 +1,7 @@
 /* Look-ups in declarations. */
 #include "row.h"
 
+#include <stdio.h>
 #include <string.h>
 
 bool glint_row_is_output(const struct glint_row *row) {
@@ -75,6 +76,14 @@ const struct glint_row *glint_pass_parameter(const struct glint_pass *pass, cons
 const double *parameter_value(const struct glint_pass *pass, const double *values, const char *parameter) {
     const struct glint_row *row = parameter && values ? glint_pass_parameter(pass, parameter) : NULL;
     return row ? &values[row - pass->rows] : NULL;
+}
+
+void channel_names(struct channel_names *names, const char *channels) {
+    char *rest = NULL;
+    snprintf(names->text, sizeof names->text, "%s", channels);
+    names->count = 0;
+    for (char *word = strtok_r(names->text, " ", &rest); word && names->count < 4; word = strtok_r(NULL, " ", &rest))
+        names->list[names->count++] = word;
 }
 
 const char *channel_word(const char *channels, size_t place, size_t *length) {

@@ -24,7 +24,13 @@ const struct glint_row *capture_row(const char *image);
 const char *cubemap_order_image(void);
 /* The value of a parameter among those beside a pass's rows; NULL: the pass has no such parameter. */
 const double *parameter_value(const struct glint_pass *pass, const double *values, const char *parameter);
-/* The word of a row's channels at a place: *length receives how long it is. */
+/* The word of a row's channels at a place: *length receives how long it is. All of them, at most four, as words of their own. */
 const char *channel_word(const char *channels, size_t place, size_t *length);
+struct channel_names {
+    char text[256];
+    const char *list[4];
+    size_t count;
+};
+void channel_names(struct channel_names *names, const char *channels);
 
 #endif

@@ -9,35 +9,32 @@
 
 #include "timing.h"
 
-static uint64_t mix(uint64_t key, const void *data, size_t size) {
+static uint64_t mix_bytes(uint64_t key, const void *data, size_t size) {
     return XXH3_64bits_withSeed(data, size, key);
 }
 static uint64_t mix_text(uint64_t key, const char *text) {
-    return mix(key, text, strlen(text) + 1);
+    return mix_bytes(key, text, strlen(text) + 1);
 }
 static uint64_t mix_number(uint64_t key, uint64_t number) {
-    return mix(key, &number, sizeof number);
+    return mix_bytes(key, &number, sizeof number);
 }
 
 static uint64_t table_key(const struct glint_table *table) {
     uint64_t key = mix_number(mix_text(1, table->name), ((uint64_t)table->width << 32) | table->height);
-    return mix(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
+    return mix_bytes(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
 }
 
 /* Cube maps in a file beside the capture: told apart by what the file holds. False when some are in the capture. */
 static bool sibling_key(const struct run *run, uint64_t *key) {
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     const double scale[] = {frame->pre_exposure, frame->metres_per_unit};
-    const struct glint_part_info **parts = NULL;
-    size_t count = 0;
-    uint64_t own = mix(*key, scale, sizeof scale);
-    bool siblings = cubemap_parts(run->source->capture, &parts, &count, NULL);
+    uint64_t own = mix_bytes(*key, scale, sizeof scale);
+    bool siblings = true;
     for (uint32_t i = 0; siblings && i < run->sizes->active; i++) {
-        const struct glint_part_info *part = parts[run->plan->active[i]];
+        const struct glint_part_info *part = run->source->cubemaps[run->plan->active[i]];
         siblings = part->sibling_hash[0] != 0;
         own = mix_text(mix_text(own, part->name), part->sibling_hash);
     }
-    free(parts);
     if (siblings) *key = own;
     return siblings;
 }
@@ -56,7 +53,7 @@ static bool sky_key(const struct run *run, const struct graph_image *image, uint
     if (!channels_add_row(sky, image->row, err) || !channels_read(sky, capture, err)) return false;
     run->source->seconds[PHASE_READ] += glint_now_seconds() - start;
     run->source->sky_hash =
-        mix(1, sky->data, (size_t)sky->part->width * sky->part->height * sky->count * sizeof *sky->data);
+        mix_bytes(1, sky->data, (size_t)sky->part->width * sky->part->height * sky->count * sizeof *sky->data);
     *key = mix_number(*key, run->source->sky_hash);
     return true;
 }
@@ -76,16 +73,16 @@ static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct g
 static bool given_key(struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->image.desc.format), image->name);
-    if (image->source == SOURCE_NOTHING) *key = mix(*key, &image->row->nothing, sizeof image->row->nothing);
+    if (image->source == SOURCE_NOTHING) *key = mix_bytes(*key, &image->row->nothing, sizeof image->row->nothing);
     else if (image->source != SOURCE_RUN && !capture_key(run, i, key, err)) return false;
     if (size_is_array(image->row->size) && run->plan->active)
-        *key = mix(*key, run->plan->active, run->sizes->active * sizeof *run->plan->active);
+        *key = mix_bytes(*key, run->plan->active, run->sizes->active * sizeof *run->plan->active);
     uint8_t faces[GLINT_SURVEY_CUBEMAPS];
-    if (plan_captured_faces(run->plan, i, faces)) *key = mix(*key, faces, run->sizes->active);
+    if (plan_captured_faces(run->plan, i, faces)) *key = mix_bytes(*key, faces, run->sizes->active);
     if (image->source != SOURCE_RUN) return true;
     size_t bytes = 0;
     if (!run_read_given(run, i, &bytes, err)) return false;
-    *key = mix(*key, run->given[i], bytes);
+    *key = mix_bytes(*key, run->given[i], bytes);
     return true;
 }
 
@@ -106,8 +103,8 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
     /* The first constants switch diagnostics and probes on, which changes nothing else; what a user's shader makes of them is
        not known. */
     const uint32_t skipped = step->pass->entry->shader ? 0 : 2;
-    key = mix(key, step->constants.data + skipped, (step->constants.count - skipped) * sizeof(uint32_t));
-    key = mix(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));
+    key = mix_bytes(key, step->constants.data + skipped, (step->constants.count - skipped) * sizeof(uint32_t));
+    key = mix_bytes(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));
     uint32_t words[FRAME_WORDS];
     memcpy(words, &run->plan->block, sizeof words);
     for (uint64_t w = 0; w < FRAME_WORDS; w++)

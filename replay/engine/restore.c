@@ -52,18 +52,16 @@ static bool read_level(struct run *run, struct pooled *image, uint32_t l, struct
                        struct glint_error *err) {
     struct pool *pool = run->pool;
     const struct glint_image *level = &image->levels[l].info;
-    char names[128], *rest = NULL;
-    const char *channels[4];
-    size_t count = 0, p = 0;
-    snprintf(names, sizeof names, "%s", level->row->channels);
-    for (char *word = strtok_r(names, " ", &rest); word && count < 4; word = strtok_r(NULL, " ", &rest))
-        channels[count++] = word;
+    struct channel_names names;
+    size_t p = 0;
+    channel_names(&names, level->row->channels);
     while (p < glint_exr_part_count(exr) && strcmp(glint_exr_part(exr, p)->name, level->name) != 0) p++;
-    if (p == glint_exr_part_count(exr) || count != level->components || glint_exr_part(exr, p)->width != level->width ||
-        glint_exr_part(exr, p)->height != level->height)
+    if (p == glint_exr_part_count(exr) || names.count != level->components ||
+        glint_exr_part(exr, p)->width != level->width || glint_exr_part(exr, p)->height != level->height)
         return false;
     if (!pool_stage(pool, image_bytes(&image->image.desc, l), err) ||
-        !glint_exr_read(exr, p, channels, count, type_of(image->image.desc.format), pool->staging.map, 0, err) ||
+        !glint_exr_read(exr, p, names.list, names.count, type_of(image->image.desc.format), pool->staging.map, 0,
+                        err) ||
         !device_begin(run->gpu, err))
         return false;
     image_record_upload(&image->image, run->gpu, &pool->staging, 0, l, 0, image_layers(&image->image.desc), l == 0);

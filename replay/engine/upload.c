@@ -90,18 +90,14 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
 }
 
 static bool upload_cubemaps(struct run *run, const char *role, struct glint_error *err) {
-    const struct glint_part_info **parts;
-    size_t count;
-    if (!cubemap_parts(run->source->capture, &parts, &count, err)) return false;
     bool ok = true;
     for (uint32_t i = 0; ok && i < run->sizes->active; i++) {
+        const struct glint_part_info *part = run->source->cubemaps[run->plan->active[i]];
         struct channels channels = {0};
-        ok = glint_report_progress(run->progress, run->user, parts[run->plan->active[i]]->name,
-                                   (double)i / run->sizes->active * 0.2, err) &&
-             upload_part(run, parts[run->plan->active[i]], role, &channels, 6 * i, 6, err);
+        ok = glint_report_progress(run->progress, run->user, part->name, (double)i / run->sizes->active * 0.2, err) &&
+             upload_part(run, part, role, &channels, 6 * i, 6, err);
         channels_finish(&channels);
     }
-    free(parts);
     return ok;
 }
 

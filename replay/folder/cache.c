@@ -20,7 +20,7 @@ static bool is_entry(const char *name) {
            strspn(name + DIGITS + 1, "0123456789abcdef") == DIGITS && strcmp(name + NAME - 4, ".exr") == 0;
 }
 
-static bool join(char *path, size_t size, const char *folder, const char *name) {
+static bool join_path(char *path, size_t size, const char *folder, const char *name) {
     return snprintf(path, size, "%s/%s", folder, name) < (int)size;
 }
 
@@ -51,7 +51,7 @@ static bool look_up(const char *folder, const char *key, char *path, size_t size
     bool found = false;
     for (struct dirent *entry; entries && !found && (entry = readdir(entries));) {
         found = is_entry(entry->d_name) && strncmp(entry->d_name, key, DIGITS) == 0 &&
-                join(path, size, folder, entry->d_name);
+                join_path(path, size, folder, entry->d_name);
         if (found) snprintf(hash, CACHE_KEY_SIZE, "%.*s", DIGITS, entry->d_name + DIGITS + 1);
     }
     if (entries) closedir(entries);
@@ -67,7 +67,7 @@ bool cache_find(const char *folder, const char *key, char *path, size_t size) {
 }
 
 /* A copy beside `to`, which it is not called before it is whole. No link: a run's files are its owner's to change. */
-static bool copy(const char *from, const char *folder, char path[PATH_SIZE], char hash[CACHE_KEY_SIZE]) {
+static bool copy_beside(const char *from, const char *folder, char path[PATH_SIZE], char hash[CACHE_KEY_SIZE]) {
     if (snprintf(path, PATH_SIZE, "%s/%s%ld", folder, temporary, (long)getpid()) >= PATH_SIZE) return false;
     unlink(path);
     const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -81,7 +81,7 @@ bool cache_give(const char *folder, const char *key, const char *to) {
     char from[PATH_SIZE], path[PATH_SIZE], beside[PATH_SIZE], hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
     const char *slash = strrchr(to, '/');
     snprintf(beside, sizeof beside, "%.*s", slash ? (int)(slash - to) : 1, slash ? to : ".");
-    if (!look_up(folder, key, from, sizeof from, hash) || !copy(from, beside, path, found)) return false;
+    if (!look_up(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, path, found)) return false;
     if (strcmp(found, hash) == 0 && rename(path, to) == 0) return true;
     unlink(path);
     return false;
@@ -111,7 +111,7 @@ static int oldest_first(const void *a, const void *b) {
 }
 
 /* Also removes what an interrupted process left behind. */
-static void trim(const char *folder, uint64_t most) {
+static void trim_folder(const char *folder, uint64_t most) {
     enum { ENTRIES_MAX = 1 << 14, ABANDONED_SECONDS = 3600 };
     DIR *entries = opendir(folder);
     struct entry *list = calloc(ENTRIES_MAX, sizeof *list);
@@ -120,7 +120,7 @@ static void trim(const char *folder, uint64_t most) {
     char path[PATH_SIZE];
     struct stat file;
     for (struct dirent *entry; entries && list && count < ENTRIES_MAX && (entry = readdir(entries));) {
-        if (!join(path, sizeof path, folder, entry->d_name) || lstat(path, &file) != 0) continue;
+        if (!join_path(path, sizeof path, folder, entry->d_name) || lstat(path, &file) != 0) continue;
         if (strncmp(entry->d_name, temporary, sizeof temporary - 1) == 0 &&
             file.st_mtim.tv_sec + ABANDONED_SECONDS < time(NULL))
             unlink(path);
@@ -134,16 +134,16 @@ static void trim(const char *folder, uint64_t most) {
     if (entries) closedir(entries);
     if (list) qsort(list, count, sizeof *list, oldest_first);
     for (size_t i = 0; i < count && bytes > most; i++)
-        if (join(path, sizeof path, folder, list[i].name) && unlink(path) == 0) bytes -= list[i].bytes;
+        if (join_path(path, sizeof path, folder, list[i].name) && unlink(path) == 0) bytes -= list[i].bytes;
     free(list);
 }
 
 void cache_store(const char *folder, const char *key, const char *file, uint64_t most) {
     char hash[CACHE_KEY_SIZE], old[CACHE_KEY_SIZE], name[NAME + 1], copied[PATH_SIZE], path[PATH_SIZE];
-    if (!make_folders(folder) || !copy(file, folder, copied, hash)) return;
+    if (!make_folders(folder) || !copy_beside(file, folder, copied, hash)) return;
     while (look_up(folder, key, path, sizeof path, old) && unlink(path) == 0) {
     }
     snprintf(name, sizeof name, "%s-%s.exr", key, hash);
-    if (!join(path, sizeof path, folder, name) || rename(copied, path) != 0) unlink(copied);
-    trim(folder, most);
+    if (!join_path(path, sizeof path, folder, name) || rename(copied, path) != 0) unlink(copied);
+    trim_folder(folder, most);
 }

@@ -80,7 +80,7 @@ static bool add_image(struct glint_run *run, const json_t *pass, const json_t *i
     return true;
 }
 
-static bool parse(struct glint_run *run, struct glint_error *err) {
+static bool parse_run(struct glint_run *run, struct glint_error *err) {
     json_error_t fault;
     json_t *pass, *image;
     size_t p, i;
@@ -120,7 +120,7 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err) {
         return NULL;
     }
     snprintf(path, sizeof path, "%s/run.json", folder);
-    if (!is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse(run, err))
+    if (!is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse_run(run, err))
         glint_run_close(&run);
     return run;
 }
@@ -170,19 +170,15 @@ bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, 
     if (stored == run->images + run->count)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: the image is not one of this run's", run->folder);
     if (!open_file(run, stored->file, err)) return false;
-    char names[256], *rest = NULL;
-    const char *channels[4];
-    size_t count = 0;
-    snprintf(names, sizeof names, "%s", image->channels);
-    for (char *word = strtok_r(names, " ", &rest); word && count < image->components; word = strtok_r(NULL, " ", &rest))
-        channels[count++] = word;
+    struct channel_names names;
+    channel_names(&names, image->channels);
     for (size_t p = 0; p < glint_exr_part_count(run->exr); p++) {
         const struct glint_exr_part_info *part = glint_exr_part(run->exr, p);
         if (strcmp(part->name, stored->part) != 0) continue;
         if (part->width != image->width || part->height != image->height)
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s/%s: part %s: expected %u x %u, found %u x %u", run->folder,
                               stored->file, part->name, image->width, image->height, part->width, part->height);
-        return glint_exr_read(run->exr, p, channels, count, type, out, 0, err);
+        return glint_exr_read(run->exr, p, names.list, names.count, type, out, 0, err);
     }
     return glint_fail(err, GLINT_ERROR_FORMAT, "%s/%s: part %s: missing", run->folder, stored->file, stored->part);
 }

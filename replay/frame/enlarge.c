@@ -33,7 +33,7 @@ static struct between between(const struct enlarging *e, uint32_t i) {
     return b;
 }
 
-static double mix(const double v[4], double x, double y) {
+static double mix_four(const double v[4], double x, double y) {
     return (v[0] * (1 - x) + v[1] * x) * (1 - y) + (v[2] * (1 - x) + v[3] * x) * y;
 }
 
@@ -53,7 +53,7 @@ static float distance_at(const struct enlarging *e, const float *const texels[4]
         inverse[k] = slant(k & 1 ? x.high : x.low, k & 2 ? y.high : y.low, e->own) / distance;
         least = fmin(least, inverse[k]), most = fmax(most, inverse[k]);
     }
-    return most <= ONE_SURFACE * least ? (float)(slanted / mix(inverse, x.part, y.part)) : nearest;
+    return most <= ONE_SURFACE * least ? (float)(slanted / mix_four(inverse, x.part, y.part)) : nearest;
 }
 
 static void enlarge_rows(void *user, size_t first, size_t last) {
@@ -70,7 +70,7 @@ static void enlarge_rows(void *user, size_t first, size_t last) {
             for (size_t c = 0; c < e->channels; c++) {
                 const double v[4] = {(double)texels[0][c], (double)texels[1][c], (double)texels[2][c],
                                      (double)texels[3][c]};
-                if (c != e->distance) to[c] = (float)mix(v, fmin(fmax(x.part, 0), 1), fmin(fmax(y.part, 0), 1));
+                if (c != e->distance) to[c] = (float)mix_four(v, fmin(fmax(x.part, 0), 1), fmin(fmax(y.part, 0), 1));
             }
             if (e->distance == e->channels) continue;
             const float nearest = face[((size_t)y.nearest * e->own + x.nearest) * e->channels + e->distance];

@@ -15,9 +15,29 @@ bool frame_source_hash(struct frame_source *source, char hash[33], struct glint_
     return true;
 }
 
-void frame_source_load(struct frame_source *source, struct glint_capture *capture) {
-    frame_source_release(source);
+static int by_number(const void *a, const void *b) {
+    const struct glint_part_info *const *left = a, *const *right = b;
+    return ((*left)->index > (*right)->index) - ((*left)->index < (*right)->index);
+}
+
+bool frame_source_load(struct frame_source *source, struct glint_capture *capture, struct glint_error *err) {
+    const size_t parts = capture ? glint_capture_part_count(capture) : 0;
+    frame_source_finish(source);
     *source = (struct frame_source){.capture = capture, .serial = source->serial + 1};
+    if (!(source->cubemaps = calloc(parts + 1, sizeof *source->cubemaps)))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < parts; i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        if (part->has_cubemap && !part->previous) source->cubemaps[source->cubemap_count++] = part;
+    }
+    qsort(source->cubemaps, source->cubemap_count, sizeof *source->cubemaps, by_number);
+    return true;
+}
+
+void frame_source_finish(struct frame_source *source) {
+    frame_source_release(source);
+    free(source->cubemaps);
+    source->cubemaps = NULL;
 }
 
 void frame_source_release(struct frame_source *source) {

@@ -19,6 +19,8 @@ enum {
 /* The frame that is loaded, and what was read of it so far. */
 struct frame_source {
     struct glint_capture *capture;
+    const struct glint_part_info **cubemaps; /* its cube maps, in order of their numbers */
+    size_t cubemap_count;
     uint64_t serial;         /* of the load: contents of another capture never pass for this one's */
     char hash[33];           /* of the capture; "": not known yet */
     struct channels gbuffer; /* read for the survey, kept for the upload that follows it */
@@ -28,7 +30,8 @@ struct frame_source {
 };
 /* The capture's hash, found once. */
 bool frame_source_hash(struct frame_source *source, char hash[33], struct glint_error *err);
-void frame_source_load(struct frame_source *source, struct glint_capture *capture);
+bool frame_source_load(struct frame_source *source, struct glint_capture *capture, struct glint_error *err);
+void frame_source_finish(struct frame_source *source);
 /* Forgets pixels that were kept. */
 void frame_source_release(struct frame_source *source);
 

@@ -95,12 +95,9 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
                                   .tile_wide = plan->tile_wide};
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     if (pipeline_traces_all_pixels(plan->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
-    const struct glint_part_info **parts;
-    size_t count;
-    if (!cubemap_parts(capture, &parts, &count, err)) return false;
+    const size_t count = plan->source->cubemap_count;
     for (size_t i = 0; i < count; i++)
-        if (parts[i]->width > sizes->cube_face) sizes->cube_face = parts[i]->width;
-    free(parts);
+        if (plan->source->cubemaps[i]->width > sizes->cube_face) sizes->cube_face = plan->source->cubemaps[i]->width;
     for (size_t i = 0; i < plan->graph.image_count; i++) {
         const struct graph_image *image = &plan->graph.images[i];
         uint32_t size[2];

@@ -1,5 +1,5 @@
 /* Host passes: small tables made from the capture's attributes. */
-#include "tables.h"
+#include "frame_plan.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -48,25 +48,6 @@ static struct glint_table *make_table(struct glint_host_context *context, const 
     return table;
 }
 
-static int by_number(const void *a, const void *b) {
-    const struct glint_part_info *const *left = a, *const *right = b;
-    return ((*left)->index > (*right)->index) - ((*left)->index < (*right)->index);
-}
-
-bool cubemap_parts(const struct glint_capture *capture, const struct glint_part_info ***parts, size_t *count,
-                   struct glint_error *err) {
-    size_t part_count = glint_capture_part_count(capture);
-    *count = 0;
-    *parts = calloc(part_count + 1, sizeof **parts);
-    if (!*parts) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < part_count; i++) {
-        const struct glint_part_info *part = glint_capture_part(capture, i);
-        if (part->has_cubemap && !part->previous) (*parts)[(*count)++] = part;
-    }
-    qsort(*parts, *count, sizeof **parts, by_number);
-    return true;
-}
-
 static bool check_all_made(const struct tables *tables, const struct glint_pass *pass, struct glint_error *err) {
     for (size_t i = 0; i < pass->row_count; i++)
         if (glint_row_is_output(&pass->rows[i]) && !tables_find(tables, pass->rows[i].name))
@@ -81,22 +62,19 @@ static bool are_made(const struct tables *tables, const struct glint_pass *pass)
     return false;
 }
 
-bool tables_fill(struct tables *tables, const struct graph *graph, const struct glint_capture *capture,
+bool tables_fill(struct tables *tables, const struct graph *graph, const struct frame_source *source,
                  struct glint_error *err) {
-    const struct glint_part_info **parts = NULL;
-    struct glint_cubemap *cubemaps = NULL;
-    size_t count = 0;
-    bool ok = cubemap_parts(capture, &parts, &count, err);
-    if (ok && !(cubemaps = calloc(count + 1, sizeof *cubemaps)))
-        ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; ok && i < count; i++) cubemaps[i] = parts[i]->cubemap;
+    const struct glint_frame *frame = glint_capture_frame(source->capture);
+    struct glint_cubemap *cubemaps = calloc(source->cubemap_count + 1, sizeof *cubemaps);
+    bool ok = cubemaps || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; ok && i < source->cubemap_count; i++) cubemaps[i] = source->cubemaps[i]->cubemap;
     for (size_t i = 0; ok && i < graph->pass_count; i++) {
         const struct graph_pass *pass = &graph->passes[i];
         if (!pass->runs || !pass->pass->host || are_made(tables, pass->pass)) continue;
         struct host_run run = {tables, pass->entry};
-        struct glint_host_context context = {.frame = glint_capture_frame(capture),
+        struct glint_host_context context = {.frame = frame,
                                              .cubemaps = cubemaps,
-                                             .cubemap_count = count,
+                                             .cubemap_count = source->cubemap_count,
                                              .value = value_of,
                                              .table = make_table,
                                              .user = &run};
@@ -106,7 +84,6 @@ bool tables_fill(struct tables *tables, const struct graph *graph, const struct 
         ok = pass->pass->host(&context, err) && check_all_made(tables, pass->pass, err);
         for (size_t k = first; k < tables->count; k++) tables->seconds[k] = glint_now_seconds() - start;
     }
-    free(parts);
     free(cubemaps);
     return ok;
 }

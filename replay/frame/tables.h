@@ -12,15 +12,12 @@ struct tables {
     size_t count;
 };
 /* Runs every host pass of the graph that runs and has not run yet. */
-bool tables_fill(struct tables *tables, const struct graph *graph, const struct glint_capture *capture,
+struct frame_source;
+bool tables_fill(struct tables *tables, const struct graph *graph, const struct frame_source *source,
                  struct glint_error *err);
 void tables_finish(struct tables *tables);
 const struct glint_table *tables_find(const struct tables *tables, const char *image);
 /* What the pass took; 0 when it did not run. */
 double tables_seconds(const struct tables *tables, const struct glint_pass *pass);
-
-/* The capture's cube maps in order of their numbers. The caller frees *parts. */
-bool cubemap_parts(const struct glint_capture *capture, const struct glint_part_info ***parts, size_t *count,
-                   struct glint_error *err);
 
 #endif

@@ -167,7 +167,7 @@ static size_t type_rank(VkPhysicalDeviceType type) {
     return TYPES - 1;
 }
 
-static size_t describe(VkPhysicalDevice physical, struct glint_device_info *info) {
+static size_t describe_device(VkPhysicalDevice physical, struct glint_device_info *info) {
     VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                               .pNext = &driver};
@@ -197,7 +197,7 @@ bool instance_devices(VkInstance instance, VkPhysicalDevice **physical, struct g
     uint32_t n = 64;
     VkResult result = vkEnumeratePhysicalDevices(instance, &n, found);
     if (result != VK_SUCCESS && result != VK_INCOMPLETE) return vk_fail(err, "listing devices", result);
-    for (uint32_t i = 0; i < n; i++) rank[i] = describe(found[i], &info[i]);
+    for (uint32_t i = 0; i < n; i++) rank[i] = describe_device(found[i], &info[i]);
     *physical = calloc(n + 1, sizeof **physical);
     *infos = calloc(n + 1, sizeof **infos);
     if (!*physical || !*infos) {

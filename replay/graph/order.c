@@ -84,7 +84,7 @@ void graph_find_loop(struct graph *graph, uint32_t rays) {
 }
 
 /* Cube maps and the tables about them stay from frame to frame, and so does what is made from them alone. */
-static bool stays(const struct graph *graph, const struct graph_image *image) {
+static bool image_stays(const struct graph *graph, const struct graph_image *image) {
     if (image->source == SOURCE_MADE && !image->pass->host) return graph->passes[image->maker].cached_work;
     return image->source == SOURCE_NOTHING || size_is_cube(image->row->size) || image->row->size == GLINT_SIZE_ACTIVE ||
            image->row->size == GLINT_SIZE_CHAIN;
@@ -97,7 +97,7 @@ void graph_find_cached_work(struct graph *graph) {
         for (size_t r = 0; still && r < pass->pass->row_count; r++) {
             const struct glint_row *row = &pass->pass->rows[r];
             const struct graph_image *image = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
-            if (row->kind == GLINT_ROW_HISTORY || (image && !stays(graph, image))) still = false;
+            if (row->kind == GLINT_ROW_HISTORY || (image && !image_stays(graph, image))) still = false;
             cubes |= image && size_is_cube(image->row->size);
         }
         pass->cached_work = still && cubes;

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <jansson.h>
 
@@ -14,42 +15,29 @@ struct builtin_preset {
     const char *name, *text;
 };
 #include "builtin_presets.h"
-enum { BUILTIN = sizeof builtin_presets / sizeof builtin_presets[0] };
+enum { PATH_SIZE = 4096, BUILTIN = sizeof builtin_presets / sizeof builtin_presets[0] };
 
 const char *glint_preset(size_t i) {
     return i < BUILTIN ? builtin_presets[i].name : NULL;
 }
 
-static char *copy(const char *text, struct glint_error *err) {
-    char *result = strdup(text);
-    if (!result) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    return result;
-}
-
-/* The JSON text by name or path; *where names the place. The caller frees both. */
-static char *preset_text(const char *preset, char **where, struct glint_error *err) {
+/* The JSON text by name or path, which the caller frees; `where` names the place. */
+static char *preset_text(const char *preset, char where[PATH_SIZE], struct glint_error *err) {
     enum { LIMIT = 1 << 20 };
-    char path[4096];
-    size_t length = strlen(preset);
-    *where = NULL;
-    if (strchr(preset, '/') || (length > 5 && strcmp(preset + length - 5, ".json") == 0)) {
-        if (!(*where = copy(preset, err))) return NULL;
-        return file_text(preset, LIMIT, err);
-    }
+    const size_t length = strlen(preset);
     const char *folder = getenv("GLINT_PRESETS");
-    if (folder && folder[0] && snprintf(path, sizeof path, "%s/%s.json", folder, preset) < (int)sizeof path) {
-        FILE *file = fopen(path, "rb");
-        if (file) {
-            fclose(file);
-            if (!(*where = copy(path, err))) return NULL;
-            return file_text(path, LIMIT, err);
-        }
-    }
     char known[512] = "";
+    const bool is_path = strchr(preset, '/') || (length > 5 && strcmp(preset + length - 5, ".json") == 0);
+    if (!is_path && folder && folder[0] && snprintf(where, PATH_SIZE, "%s/%s.json", folder, preset) < PATH_SIZE &&
+        access(where, F_OK) == 0)
+        return file_text(where, LIMIT, err);
+    snprintf(where, PATH_SIZE, "%s", preset);
+    if (is_path) return file_text(preset, LIMIT, err);
     for (size_t i = 0; i < BUILTIN; i++) {
         if (strcmp(builtin_presets[i].name, preset) == 0) {
-            if (!(*where = copy(preset, err))) return NULL;
-            return copy(builtin_presets[i].text, err);
+            char *text = strdup(builtin_presets[i].text);
+            if (!text) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+            return text;
         }
         text_list(known, sizeof known, builtin_presets[i].name);
     }
@@ -99,34 +87,21 @@ static void apply_preset(struct glint_pipeline *pipeline, json_t *root, struct f
 }
 
 struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err) {
-    char *where = NULL, *text = preset_text(preset, &where, err);
+    char where[PATH_SIZE], *text = preset_text(preset, where, err);
     struct glint_pipeline *pipeline = text ? calloc(1, sizeof *pipeline) : NULL;
-    json_t *root = NULL;
-    bool ok = false;
-    if (!text) goto done;
-    if (!pipeline) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        goto done;
-    }
     json_error_t fault;
-    root = json_loads(text, JSON_REJECT_DUPLICATES, &fault);
-    if (!root) {
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s:%d:%d: %s", where, fault.line, fault.column, fault.text);
-        goto done;
-    }
+    json_t *root = text ? json_loads(text, JSON_REJECT_DUPLICATES, &fault) : NULL;
     const char *name = json_string_value(json_object_get(root, "name"));
-    pipeline->name = strdup(name ? name : preset);
-    if (!pipeline->name) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        goto done;
-    }
     struct faults faults = {0};
-    apply_preset(pipeline, root, &faults);
-    ok = faults_none(&faults, where, err);
-done:
+    bool ok = text && (pipeline || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory"));
+    if (ok && !root)
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s:%d:%d: %s", where, fault.line, fault.column, fault.text);
+    if (ok && !(pipeline->name = strdup(name ? name : preset)))
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok) apply_preset(pipeline, root, &faults);
+    ok = ok && faults_none(&faults, where, err);
     json_decref(root);
     free(text);
-    free(where);
     if (!ok) glint_pipeline_destroy(&pipeline);
     return pipeline;
 }

@@ -30,9 +30,9 @@ static void fill_block(struct frame_plan *plan) {
 bool plan_complete(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,
                    struct glint_error *err) {
     const struct glint_replay_options *options = plan->options;
-    if (!graph_link(&plan->graph, inputs, err) ||
-        !tables_fill(plan->tables, &plan->graph, plan->source->capture, err) || !plan_find_sizes(plan, err) ||
-        !plan_history(plan, planner->pool, err) || !plan_reach(plan, &planner->survey.figures, err))
+    if (!graph_link(&plan->graph, inputs, err) || !tables_fill(plan->tables, &plan->graph, plan->source, err) ||
+        !plan_find_sizes(plan, err) || !plan_history(plan, planner->pool, err) ||
+        !plan_reach(plan, &planner->survey.figures, err))
         return false;
     fill_block(plan);
     if (options->cache && !frame_source_hash(plan->source, plan->content, NULL)) plan->content[0] = 0;

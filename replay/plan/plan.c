@@ -27,8 +27,8 @@ static bool fact_holds(void *user, const char *fact, char *reason, size_t size, 
 
 /* Which passes run. What the cube maps show is looked at only where a pass that runs asks for it, and then all is decided
    again. */
-static bool decide(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,
-                   struct glint_error *err) {
+static bool decide_passes(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,
+                          struct glint_error *err) {
     struct glint_survey *figures = &planner->survey.figures;
     if (plan->options->all) return graph_decide(&plan->graph, inputs, err);
     const uint32_t before = figures->looked_at;
@@ -48,10 +48,11 @@ bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct g
     if (options->history && !glint_capture_frame(capture)->cut) planner->survey.figures.has_history = true;
     struct fact_source source = {planner, pipeline, options};
     const struct graph_inputs inputs = {options, capture, plan->inputs, {fact_holds, survey_fact_about, &source}};
-    if (!graph_init(&plan->graph, pipeline, err) || !decide(plan, planner, &inputs, err)) return false;
+    if (!graph_init(&plan->graph, pipeline, err) || !decide_passes(plan, planner, &inputs, err)) return false;
     if (run) return plan_complete(plan, planner, &inputs, err) && plan_workload(plan, &inputs, true, err);
     if (!graph_link(&plan->graph, &inputs, err)) return false;
     struct glint_error ignored = {0}; /* what cannot be run may be planned */
-    const bool sized = tables_fill(plan->tables, &plan->graph, capture, &ignored) && plan_find_sizes(plan, &ignored);
+    const bool sized =
+        tables_fill(plan->tables, &plan->graph, plan->source, &ignored) && plan_find_sizes(plan, &ignored);
     return (!sized || plan_reach(plan, &planner->survey.figures, err)) && plan_workload(plan, &inputs, sized, err);
 }

@@ -33,7 +33,8 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
 enum fact_about survey_fact_about(const char *fact);
 bool survey_fact(const struct glint_survey *survey, bool shows_all, const char *fact, char *reason, size_t size);
 
-/* survey_record.c: as run.json has it. */
+/* survey_record.c: as run.json has it, and times. */
+json_t *time_record(const struct glint_time *time);
 json_t *survey_record(const struct survey_state *state, const struct glint_frame *frame);
 
 #endif

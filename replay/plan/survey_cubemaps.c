@@ -19,20 +19,16 @@ static bool asks_about_faces(const struct graph *graph) {
 }
 
 /* Of what the active cube maps hold: their files', or this load's. */
-static bool find_cubemaps_key(const struct frame_source *source, const struct glint_table *active, uint64_t *key,
-                              struct glint_error *err) {
-    const struct glint_part_info **parts;
-    size_t count;
-    if (!cubemap_parts(source->capture, &parts, &count, err)) return false;
-    *key = 1 + glint_capture_perturbed(source->capture);
+static uint64_t cubemaps_key(const struct frame_source *source, const struct glint_table *active) {
+    uint64_t key = 1 + glint_capture_perturbed(source->capture);
     for (uint32_t i = 0; i < active->width; i++) {
-        const char *hash = active->texels.u[i] < count ? parts[active->texels.u[i]]->sibling_hash : "";
-        *key = XXH3_64bits_withSeed(&active->texels.u[i], sizeof active->texels.u[i], *key);
-        *key = hash[0] ? XXH3_64bits_withSeed(hash, strlen(hash), *key)
-                       : XXH3_64bits_withSeed(&source->serial, sizeof source->serial, *key);
+        const uint32_t number = active->texels.u[i];
+        const char *hash = number < source->cubemap_count ? source->cubemaps[number]->sibling_hash : "";
+        key = XXH3_64bits_withSeed(&number, sizeof number, key);
+        key = hash[0] ? XXH3_64bits_withSeed(hash, strlen(hash), key)
+                      : XXH3_64bits_withSeed(&source->serial, sizeof source->serial, key);
     }
-    free(parts);
-    return true;
+    return key;
 }
 
 enum { SQUARES = 6 * COCOON_SIZE * COCOON_SIZE /* of a cube map */, NEARBY_WORDS = 4 /* where they begin */ };
@@ -108,11 +104,11 @@ static bool look_at_cubemaps(const struct looking *l, bool mirrors, uint32_t bef
     struct survey_state *state = &l->planner->survey;
     struct glint_survey *figures = &state->figures;
     const uint32_t count = l->active->width;
-    uint64_t key = 0, rays = mirrors ? rays_key(l->planner->source, l->active) : 0;
+    uint64_t key = cubemaps_key(l->planner->source, l->active),
+             rays = mirrors ? rays_key(l->planner->source, l->active) : 0;
     if (mirrors && before == count && state->followed_key == rays) figures->followed = count;
     else if (mirrors && !follow_rays(l, err)) return false;
     state->followed_key = rays;
-    if (!find_cubemaps_key(l->planner->source, l->active, &key, err)) return false;
     for (uint32_t i = 0; i < count; i++) key = key * 31 + (figures->followed ? figures->active[i].crossed : 63);
     for (uint32_t i = 0; i < count; i++) key = key * 31 + (figures->followed ? figures->active[i].nearby : 63);
     if (state->cubes.key != key) {
@@ -143,7 +139,7 @@ bool survey_cubemaps(struct planner *planner, struct frame_plan *plan, uint32_t 
     if (!planner->engine || !asks_about_faces(graph) || (is_outdoors(&planner->survey.figures) && !mirrors) ||
         maker == graph->pass_count || !graph->passes[maker].runs)
         return true;
-    if (!tables_fill(plan->tables, graph, planner->source->capture, err)) return false;
+    if (!tables_fill(plan->tables, graph, planner->source, err)) return false;
     const struct glint_table *active = tables_find(plan->tables, order);
     if (!active || !active->texels.u || active->width > GLINT_SURVEY_CUBEMAPS) return true;
     return look_at_cubemaps(&(struct looking){planner, plan, graph->passes[maker].entry, active}, mirrors, before, err);

@@ -47,7 +47,7 @@ const char *glint_survey_motion(const struct glint_survey *survey) {
     return survey->moving ? "objects" : survey->moved ? "camera" : "none";
 }
 
-static json_t *time_record(const struct glint_time *time) {
+json_t *time_record(const struct glint_time *time) {
     return json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
                      (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns);
 }

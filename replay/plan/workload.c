@@ -88,7 +88,7 @@ static void find_whole_work(struct frame_plan *plan, const struct graph_inputs *
     const bool ok =
         graph_copy(&whole.graph, &plan->graph, &ignored) && graph_decide(&whole.graph, &whole_inputs, &ignored) &&
         graph_link(&whole.graph, &whole_inputs, &ignored) &&
-        tables_fill(whole.tables, &whole.graph, plan->source->capture, &ignored) && plan_find_sizes(&whole, &ignored);
+        tables_fill(whole.tables, &whole.graph, plan->source, &ignored) && plan_find_sizes(&whole, &ignored);
     for (size_t p = 0; ok && p < whole.graph.pass_count; p++)
         plan->whole[p] = (struct whole_work){texels_of(&whole, &whole.graph.passes[p], &ignored) *
                                                  pass_rays(&whole.graph, &whole.graph.passes[p]),

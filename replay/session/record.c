@@ -47,10 +47,7 @@ static json_t *pass_record(const struct results *results, const struct run *run,
     if (shader) json_object_set_new(object, "shader", json_string(shader));
     json_object_set_new(object, "parameters", parameters);
     json_object_set_new(object, "images", json_array());
-    json_object_set_new(object, "time_ns",
-                        json_pack("{sIsIsIsI}", "n", (json_int_t)result->time.n, "min", (json_int_t)result->time.min_ns,
-                                  "median", (json_int_t)result->time.median_ns, "max",
-                                  (json_int_t)result->time.max_ns));
+    json_object_set_new(object, "time_ns", time_record(&result->time));
     return object;
 }
 

@@ -33,15 +33,9 @@ struct part_memory {
     struct glint_exr_channel channels[CHANNELS];
     struct glint_exr_attribute attributes[8];
     double level;
-    char names[128];
+    struct channel_names names;
     uint32_t *widened;
 };
-
-static void split_channels(const struct glint_row *row, char *names, size_t size, const char *list[CHANNELS]) {
-    snprintf(names, size, "%s", row->channels);
-    char *rest = NULL, *word = strtok_r(names, " ", &rest);
-    for (size_t i = 0; i < CHANNELS && word; i++, word = strtok_r(NULL, " ", &rest)) list[i] = word;
-}
 
 static bool fill_part(const struct job *job, size_t i, struct part_memory *memory, struct glint_exr_part *part,
                       struct glint_error *err) {
@@ -49,8 +43,8 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
     const struct glint_row *row = image->row;
     const uint32_t components = image->components;
     const size_t bytes = format_bytes(image->format) / components;
-    const char *data = (const char *)job->buffer.map + job->offsets[i], *names[CHANNELS] = {"R", "G", "B", "A"};
-    split_channels(row, memory->names, sizeof memory->names, names);
+    const char *data = (const char *)job->buffer.map + job->offsets[i];
+    channel_names(&memory->names, row->channels);
     if (bytes == 1) { /* EXR has no smaller integer than 32 bits */
         const size_t texels = (size_t)image->width * image->height * components;
         if (!(memory->widened = malloc(texels * sizeof(uint32_t))))
@@ -61,7 +55,7 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
     const size_t stored_bytes = bytes == 1 ? 4 : bytes;
     for (uint32_t c = 0; c < components; c++)
         memory->channels[c] =
-            (struct glint_exr_channel){.name = names[c],
+            (struct glint_exr_channel){.name = memory->names.list[c],
                                        .stored = glint_format_is_uint(image->format) ? GLINT_STORED_UINT
                                                  : bytes == 2                        ? GLINT_STORED_HALF
                                                                                      : GLINT_STORED_FLOAT,

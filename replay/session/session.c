@@ -24,7 +24,7 @@ void glint_replay_destroy(struct glint_replay **pointer) {
     *pointer = NULL;
     if (!replay) return;
     results_forget(replay);
-    frame_source_release(&replay->source);
+    frame_source_finish(&replay->source);
     pool_finish(&replay->pool);
     engine_finish(&replay->engine);
     free(replay->plan);
@@ -40,7 +40,7 @@ bool glint_replay_load(struct glint_replay *replay, struct glint_capture *captur
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing, and a replay needs it",
                           glint_capture_path(capture));
     if (capture) pool_age(&replay->pool, glint_capture_frame(capture));
-    frame_source_load(&replay->source, capture);
+    if (!frame_source_load(&replay->source, capture, err)) return false;
     planner_load(&replay->planner);
     results_forget(replay);
     return true;

@@ -20,7 +20,7 @@ struct flatten {
     bool foreign;   /* something came from the folder */
 };
 
-static bool append(struct flatten *out, const char *text, size_t length, struct glint_error *err) {
+static bool append_text(struct flatten *out, const char *text, size_t length, struct glint_error *err) {
     if (out->size + length + 1 > out->capacity) {
         size_t capacity = (out->size + length + 1) * 2;
         char *larger = capacity <= TEXT_MAX ? realloc(out->text, capacity) : NULL;
@@ -40,7 +40,7 @@ static bool append_line_directive(struct flatten *out, size_t line, const char *
     int length = snprintf(directive, sizeof directive, "#line %zu \"%s\"\n", line, file);
     for (int i = 0; i < length; i++)
         if (directive[i] == '\\') directive[i] = '/';
-    return append(out, directive, (size_t)length, err);
+    return append_text(out, directive, (size_t)length, err);
 }
 
 /* The file name of an #include line, or an empty string. */
@@ -148,10 +148,10 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
             if (!flatten_include(out, file, line, name, on_disk, depth, err) ||
                 !append_line_directive(out, line + 1, file, err))
                 return false;
-        } else if (!append(out, text, length, err) || !append(out, "\n", 1, err)) return false;
+        } else if (!append_text(out, text, length, err) || !append_text(out, "\n", 1, err)) return false;
         if (!out->versioned && is_version(text, length)) {
             out->versioned = true;
-            if (!append(out, names_in_lines, sizeof names_in_lines - 1, err) ||
+            if (!append_text(out, names_in_lines, sizeof names_in_lines - 1, err) ||
                 !append_line_directive(out, line + 1, file, err))
                 return false;
         }

@@ -38,7 +38,7 @@ struct compiled {
     struct compiled *next;
 };
 
-static bool compile(struct compiled *out, const char *path, const char *code, struct glint_error *err) {
+static bool compile_text(struct compiled *out, const char *path, const char *code, struct glint_error *err) {
     const glslang_input_t input = {.language = GLSLANG_SOURCE_GLSL,
                                    .stage = GLSLANG_STAGE_COMPUTE,
                                    .client = GLSLANG_CLIENT_VULKAN,
@@ -86,7 +86,7 @@ static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const ch
         /* glslang starts and ends for a process, and does not ask whether another thread is about to. */
         static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
         pthread_mutex_lock(&one_at_a_time);
-        const bool ok = found && compile(found, path, code, err);
+        const bool ok = found && compile_text(found, path, code, err);
         pthread_mutex_unlock(&one_at_a_time);
         if (!ok) {
             if (!found) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);

@@ -67,7 +67,7 @@ static bool slot_differs(const struct glint_players *players, const struct excha
     return false;
 }
 
-static void append(char *text, size_t size, const char *item, const char *between) {
+static void append_item(char *text, size_t size, const char *item, const char *between) {
     const size_t length = strlen(text);
     snprintf(text + length, size - length, "%s%s", length ? between : "", item);
 }
@@ -83,7 +83,7 @@ static bool leads(const struct glint_players *players, const struct exchange *sl
     return true;
 }
 
-static void describe(const struct glint_players *players, struct player *player, bool leaders) {
+static void describe_player(const struct glint_players *players, struct player *player, bool leaders) {
     for (size_t i = 0; i < players->slot_count; i++) {
         const struct exchange *slot = &players->slots[i];
         const struct glint_pass *own = slot->pass[MODE_OWN], *theirs = slot->pass[MODE_REFERENCE];
@@ -95,8 +95,8 @@ static void describe(const struct glint_players *players, struct player *player,
         else
             snprintf(text, sizeof text, "%s %s → %s", slot->slot, own ? own->variant : GLINT_NO_VARIANT,
                      theirs->variant);
-        append(player->name, sizeof player->name, slot->slot, "+");
-        append(player->change, sizeof player->change, text, ", ");
+        append_item(player->name, sizeof player->name, slot->slot, "+");
+        append_item(player->change, sizeof player->change, text, ", ");
         if (slot->depth > player->depth) player->depth = slot->depth;
     }
 }
@@ -116,8 +116,8 @@ static bool find_players(struct glint_players *players, struct glint_error *err)
     for (size_t i = 0; i < players->slot_count; i++) {
         struct player leading = {.group = i}, player = {.group = i};
         if (players->slots[i].group != i) continue;
-        describe(players, &leading, true);
-        describe(players, &player, false);
+        describe_player(players, &leading, true);
+        describe_player(players, &player, false);
         if (!player.change[0]) continue;
         if (leading.name[0]) {
             memcpy(player.name, leading.name, sizeof player.name);

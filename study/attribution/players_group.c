@@ -75,7 +75,7 @@ static bool go_together(const struct exchange *a, const struct exchange *b, char
     return declared(a, b, text, size) || needs_image(a, b, text, size) || makes_the_same(a, b, text, size);
 }
 
-static void join(struct glint_players *players, size_t a, size_t b) {
+static void join_groups(struct glint_players *players, size_t a, size_t b) {
     const size_t from = players->slots[a].group, to = players->slots[b].group;
     for (size_t i = 0; i < players->slot_count; i++)
         if (players->slots[i].group == (from > to ? from : to)) players->slots[i].group = from > to ? to : from;
@@ -134,7 +134,7 @@ void players_find_groups(struct glint_players *players) {
         for (size_t j = 0; j < players->slot_count; j++) {
             const struct exchange *a = &players->slots[i], *b = &players->slots[j];
             if (i != j && a->differs && b->differs && a->matters && b->matters && go_together(a, b, NULL, 0))
-                join(players, i, j);
+                join_groups(players, i, j);
         }
 }
 

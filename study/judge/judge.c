@@ -140,8 +140,8 @@ static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict
     return true;
 }
 
-static bool compare(struct glint_judge *judge, const struct answer *answer, struct glint_verdict *verdict,
-                    struct glint_error *err) {
+static bool compare_with_answer(struct glint_judge *judge, const struct answer *answer, struct glint_verdict *verdict,
+                                struct glint_error *err) {
     const struct glint_classes classes = glint_surface_classes(judge->surfaces);
     const struct glint_metric_options options = {.metrics = judge->options.metrics,
                                                  .found_channels = "R G B",
@@ -198,7 +198,8 @@ bool glint_judge_look(struct glint_judge *judge, const struct glint_pipeline *pi
     ok = ok && glint_replay_run(judge->replay, pipeline, &options, progress, user, err) &&
          read_reflection(judge, verdict, err) && read_passes(judge, verdict, err);
     const double ran = glint_now_seconds();
-    for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++) ok = !answers[k] || compare(judge, answers[k], verdict, err);
+    for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++)
+        ok = !answers[k] || compare_with_answer(judge, answers[k], verdict, err);
     const struct answer *best = answers[answers[GLINT_ANSWER_TRUTH] ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE];
     ok = ok && count_rays(judge, pipeline, best, verdict, err);
     verdict->run_seconds = ran - start;

@@ -71,8 +71,8 @@ static uint64_t kept_bytes(const struct glint_device_info *info) {
     return info->memory_bytes / 4 < most ? info->memory_bytes / 4 : most;
 }
 
-static bool measure(struct turns *t, struct glint_savings *savings, glint_progress progress, void *user,
-                    struct glint_error *err) {
+static bool measure_turns(struct turns *t, struct glint_savings *savings, glint_progress progress, void *user,
+                          struct glint_error *err) {
     const struct glint_plan_entry *entries;
     struct glint_replay_options first = t->options[PLANNED];
     first.repeat = t->rounds; /* of the surveys, which are made now */
@@ -114,7 +114,7 @@ bool glint_study_savings(struct glint_replay *replay, const struct glint_pipelin
         t.options[side].keep_bytes = kept_bytes(info);
         t.options[side].lineage = 1 + (uint32_t)side;
     }
-    const bool ok = measure(&t, savings, progress, user, err);
+    const bool ok = measure_turns(&t, savings, progress, user, err);
     free(t.ns);
     if (!ok) glint_savings_finish(savings);
     return ok;

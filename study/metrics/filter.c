@@ -20,7 +20,7 @@ static size_t clamped(ptrdiff_t at, uint32_t size) {
     return at < 0 ? 0 : at < (ptrdiff_t)size ? (size_t)at : size - 1;
 }
 
-static void rows(void *user, size_t first, size_t last) {
+static void filter_some_rows(void *user, size_t first, size_t last) {
     const struct filter *f = user;
     const int radius = f->kernel->radius;
     float ends[2 * MAX_RADIUS + SPAN];
@@ -64,7 +64,7 @@ static void columns(void *user, size_t first, size_t last) {
 
 void filter_rows(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel) {
     struct filter filter = {from, to, width, height, kernel};
-    parallel_rows(height, rows, &filter);
+    parallel_rows(height, filter_some_rows, &filter);
 }
 
 void filter_columns(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel) {

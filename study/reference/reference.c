@@ -67,7 +67,7 @@ static double rays_expected(const struct glint_reference_state *state, uint32_t 
     return fmin(rays, state->rays * fmax(1, now * now / (noise * noise)));
 }
 
-static bool reached(const struct glint_reference_state *state, uint32_t rays, double noise) {
+static bool is_reached(const struct glint_reference_state *state, uint32_t rays, double noise) {
     return state->rays >= rays || (noise > 0 && state->rays > 0 && state->noise[0].relative <= noise);
 }
 
@@ -99,7 +99,7 @@ static bool trace_part(struct glint_reference *reference, struct glint_progress_
 }
 
 /* `kept`: the rays of the complete reference in the folder, which what is under way goes on from. */
-static bool save(struct glint_reference *reference, uint32_t *kept, struct glint_error *err) {
+static bool save_reference(struct glint_reference *reference, uint32_t *kept, struct glint_error *err) {
     const uint32_t rays = reference->state.rays;
     if (rays != *kept && !reference_save(reference, err)) return false;
     *kept = rays;
@@ -116,18 +116,18 @@ bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, dou
     bool unsaved = false;
     bool ok = rays <= GLINT_REFERENCE_RAYS_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "rays: expected at most %d, found %u", GLINT_REFERENCE_RAYS_MAX, rays);
-    while (ok && !reached(state, rays, noise)) {
+    while (ok && !is_reached(state, rays, noise)) {
         const uint32_t before = all_rays(state);
         describe_part(&part, state, first, rays_expected(state, rays, noise));
         ok = trace_part(reference, &part, err);
         unsaved = unsaved || (reference->folder && all_rays(state) != before);
         if (!ok || !unsaved || glint_now_seconds() - saved < SAVE_SECONDS) continue;
-        ok = save(reference, &kept, err);
+        ok = save_reference(reference, &kept, err);
         saved = glint_now_seconds();
         unsaved = !ok;
     }
     if (!unsaved) return ok;
-    return save(reference, &kept, ok ? err : NULL) && ok;
+    return save_reference(reference, &kept, ok ? err : NULL) && ok;
 }
 
 const struct glint_reference_state *glint_reference_state(const struct glint_reference *reference) {

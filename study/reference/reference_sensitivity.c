@@ -31,8 +31,8 @@ static void list_assumptions(const struct glint_pipeline *pipeline, struct glint
     }
 }
 
-static bool trace(const struct glint_reference *reference, struct glint_pipeline *pipeline, uint32_t rays,
-                  struct glint_progress_part part, struct halves *halves, struct glint_error *err) {
+static bool trace_rounds(const struct glint_reference *reference, struct glint_pipeline *pipeline, uint32_t rays,
+                         struct glint_progress_part part, struct halves *halves, struct glint_error *err) {
     const uint32_t rounds = (rays + GLINT_REFERENCE_ROUND - 1) / GLINT_REFERENCE_ROUND;
     part.share /= rounds;
     for (uint32_t r = 0; r < rounds; r++, part.done += part.share)
@@ -43,8 +43,8 @@ static bool trace(const struct glint_reference *reference, struct glint_pipeline
 /* Turns the halves of `changed` into what they differ by from those of `base`. With changes D of both halves the mean
    change is (D_A + D_B)/2 and its noise (D_A - D_B)/2, and the first one's square less the second's is D_A · D_B, which no
    noise adds to: they share none. */
-static bool compare(const struct halves *base, struct halves *changed, const uint8_t *surfaces,
-                    struct glint_reference_assumption *row, struct glint_error *err) {
+static bool compare_halves(const struct halves *base, struct halves *changed, const uint8_t *surfaces,
+                           struct glint_reference_assumption *row, struct glint_error *err) {
     struct glint_pixels mean = {0}, before = {0};
     struct glint_image_errors noise, change;
     bool ok = reference_mean(changed, &mean, NULL, err) && reference_mean(base, &before, NULL, err) &&
@@ -73,8 +73,8 @@ static bool try_row(const struct glint_reference *reference, uint32_t rays, cons
     snprintf(assignment, sizeof assignment, "%s.%s=%.17g", row->pass->slot, row->row->name, row->tried);
     snprintf(part->text, sizeof part->text, "%s %g", row->row->name, row->tried);
     bool ok = pipeline && glint_pipeline_set(pipeline, assignment, err) &&
-              trace(reference, pipeline, rays, *part, &halves, err) &&
-              compare(base, &halves, reference->surfaces, row, err);
+              trace_rounds(reference, pipeline, rays, *part, &halves, err) &&
+              compare_halves(base, &halves, reference->surfaces, row, err);
     halves_finish(&halves);
     glint_pipeline_destroy(&pipeline);
     return ok;
@@ -105,7 +105,7 @@ bool glint_reference_sensitivity(struct glint_reference *reference, uint32_t ray
     part.share = 1 / (double)runs;
     bool ok = (rays > 0 && rays <= GLINT_REFERENCE_RAYS_MAX) ||
               glint_fail(err, GLINT_ERROR_USAGE, "rays: expected 1 to %d, found %u", GLINT_REFERENCE_RAYS_MAX, rays);
-    ok = ok && trace(reference, reference->pipeline, rays, part, &base, err);
+    ok = ok && trace_rounds(reference, reference->pipeline, rays, part, &base, err);
     for (size_t i = 0; ok && i < sensitivity->count; i++) {
         if (!sensitivity->rows[i].ran) continue;
         part.done += part.share;

@@ -42,8 +42,8 @@ static bool matters(const struct search *search, const struct glint_search_figur
 }
 
 /* Tries one move; false at an error. *tried: there was a try left for it. */
-static bool look(struct search *search, struct profile *profile, size_t axis, double to, bool *tried,
-                 struct glint_error *err) {
+static bool look_along(struct search *search, struct profile *profile, size_t axis, double to, bool *tried,
+                       struct glint_error *err) {
     const double from = profile->centre[axis];
     profile->centre[axis] = to;
     const struct glint_search_point *point = search_at(search, profile->centre, err);
@@ -94,7 +94,7 @@ static bool take_profile(struct search *search, struct profile *profile, double 
         profile->weight[a] = 0;
         for (uint32_t i = 0; more; i++) {
             const double to = place(&search->axes[a], profile->centre[a], step, i, &more);
-            if (isfinite(to) && !look(search, profile, a, to, &tried, err)) return false;
+            if (isfinite(to) && !look_along(search, profile, a, to, &tried, err)) return false;
         }
         if (!tried) return true;
     }
@@ -137,7 +137,7 @@ static bool take_first_profile(struct search *search, struct profile *profile, d
 }
 
 /* For each axis the move that is worth most at this price of what is limited; returns what they all change of it. */
-static double choose(const struct search *search, struct profile *profile, double price) {
+static double choose_point(const struct search *search, struct profile *profile, double price) {
     double sum = 0;
     memset(profile->chosen, 0, search->count * sizeof *profile->chosen);
     for (size_t i = 0; i < profile->count; i++) {
@@ -156,14 +156,14 @@ static double choose(const struct search *search, struct profile *profile, doubl
 static double fit(const struct search *search, struct profile *profile, double room) {
     const double scale = fabs(profile->at.wanted / profile->at.limited) + 1e-30;
     double low = 1e-6 * scale, high = 1e6 * scale;
-    double sum = choose(search, profile, 0);
+    double sum = choose_point(search, profile, 0);
     if (sum <= room) return sum;
     for (int i = 0; i < 60; i++) {
         const double middle = sqrt(low * high);
-        if (choose(search, profile, middle) <= room) high = middle;
+        if (choose_point(search, profile, middle) <= room) high = middle;
         else low = middle;
     }
-    return choose(search, profile, high);
+    return choose_point(search, profile, high);
 }
 
 /* Tries the chosen moves together; *limited receives what they came to. `worth` > 0: only those that change as much alone. */
@@ -322,7 +322,7 @@ static bool try_known(struct search *search, struct profile *profile, struct gli
     return true;
 }
 
-static bool run(struct search *search, struct profile *profile, struct glint_error *err) {
+static bool run_search(struct search *search, struct profile *profile, struct glint_error *err) {
     for (size_t a = 0; a < search->count; a++) profile->centre[a] = axis_steps(&search->axes[a], search->axes[a].start);
     const struct glint_search_point *start = search_at(search, profile->centre, err);
     if (!start) return err->code == GLINT_OK;
@@ -374,7 +374,7 @@ bool glint_search(const struct glint_search_axis *axes, size_t count, const stru
     bool ok = (search.scratch && profile.centre && profile.moves && profile.chosen && profile.skip && profile.weight &&
                profile.before && profile.order && result->matters) ||
               no_memory(&own);
-    ok = ok && run(&search, &profile, &own);
+    ok = ok && run_search(&search, &profile, &own);
     if (!ok) glint_fail(err, own.code, "%s", own.message);
     free(profile.order);
     free(profile.before);

@@ -32,8 +32,8 @@ static double moved(const struct glint_search_axis *axis, double from) {
 }
 
 /* *tried: there was a try left for it. */
-static bool measure(struct search *search, const double *centre, const struct glint_search_figures *at,
-                    struct group *group, double *steps, bool *tried, struct glint_error *err) {
+static bool measure_effects(struct search *search, const double *centre, const struct glint_search_figures *at,
+                            struct group *group, double *steps, bool *tried, struct glint_error *err) {
     memcpy(steps, centre, search->count * sizeof *steps);
     for (size_t a = group->first; a < group->first + group->count; a++) steps[a] = moved(&search->axes[a], centre[a]);
     const struct glint_search_point *point = search_at(search, steps, err);
@@ -50,11 +50,11 @@ static bool split(struct search *search, const double *centre, const struct glin
                   struct group *whole, struct group *rest, double *steps, bool *tried, struct glint_error *err) {
     struct group half = {.first = whole->first, .count = whole->count / 2};
     *rest = (struct group){.first = half.first + half.count, .count = whole->count - half.count};
-    if (!measure(search, centre, at, &half, steps, tried, err) || !*tried) return err->code == GLINT_OK;
+    if (!measure_effects(search, centre, at, &half, steps, tried, err) || !*tried) return err->code == GLINT_OK;
     if (isfinite(whole->wanted) && isfinite(half.wanted)) {
         rest->wanted = whole->wanted - half.wanted;
         rest->limited = whole->limited - half.limited;
-    } else if (!measure(search, centre, at, rest, steps, tried, err)) return false;
+    } else if (!measure_effects(search, centre, at, rest, steps, tried, err)) return false;
     else if (!*tried) rest->wanted = INFINITY;
     *whole = half;
     *tried = true;
@@ -79,7 +79,7 @@ bool search_screen(struct search *search, const double *centre, const struct gli
     bool tried = true, ok = (groups && steps) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (ok) {
         groups[0] = (struct group){.first = 0, .count = search->count};
-        ok = measure(search, centre, at, &groups[0], steps, &tried, err);
+        ok = measure_effects(search, centre, at, &groups[0], steps, &tried, err);
     }
     while (ok && tried && search->result->count < last && (g = heaviest(search, groups, count)) < count) {
         ok = split(search, centre, at, &groups[g], &groups[count], steps, &tried, err);

@@ -229,7 +229,7 @@ struct sorting {
     double *ranks;
 };
 
-static int compare(const void *a, const void *b) {
+static int by_order(const void *a, const void *b) {
     const struct sorting *x = a, *y = b;
     for (size_t i = 0; i < x->axes; i++)
         if (x->ranks[i] != y->ranks[i]) return x->ranks[i] < y->ranks[i] ? -1 : 1;
@@ -258,7 +258,7 @@ bool glint_space_sort(struct glint_space *space, const char *const *slots, struc
         for (size_t a = 0; a < axes; a++)
             ranks[i * axes + a] = rank_of(&space->axes[order[a]], value_at(space, i, order[a]));
     }
-    if (ok) qsort(sorting, space->count, sizeof *sorting, compare);
+    if (ok) qsort(sorting, space->count, sizeof *sorting, by_order);
     for (size_t i = 0; ok && i < space->count; i++)
         memcpy(values[i * axes], value_at(space, sorting[i].point, 0), axes * sizeof *values);
     if (ok) memcpy(space->values, values, space->count * axes * sizeof *values);

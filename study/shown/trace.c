@@ -69,7 +69,7 @@ static void summarize(const struct sample *samples, size_t count, uint32_t first
     }
 }
 
-static void fill(struct sample *samples, size_t count, struct glint_trace_table *table) {
+static void fill_table(struct sample *samples, size_t count, struct glint_trace_table *table) {
     qsort(samples, count, sizeof *samples, by_error);
     for (uint32_t group = 0; group < GROUPS; ++group) {
         const struct glint_probe_word reason = glint_probe_word("end reason", (float)(group % REASONS));
@@ -157,7 +157,7 @@ static double fetches_at(const struct pixels *image, size_t i) {
 }
 
 /* One texel of the run, unless it has no ray to compare. */
-static void compare(const struct inputs *in, size_t i, struct rays *rays) {
+static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) {
     uint32_t scale = in->travelled.width == in->width && in->travelled.height == in->height ? 1 : 2;
     uint32_t pick = in->pick.data.u[i] < 4 && scale == 2 ? in->pick.data.u[i] : 0;
     uint32_t x = scale * (uint32_t)(i % in->travelled.width) + (pick & 1);
@@ -198,8 +198,8 @@ bool glint_study_trace(struct glint_replay *replay, struct glint_capture *captur
     bool ok = read_inputs(&in, replay, capture, err);
     size_t texels = (size_t)in.travelled.width * in.travelled.height;
     if (ok) ok = allocate_rays(&rays, texels, err);
-    for (size_t i = 0; ok && i < texels; ++i) compare(&in, i, &rays);
-    if (ok && rays.sample_count > 0) fill(rays.samples, rays.sample_count, table);
+    for (size_t i = 0; ok && i < texels; ++i) compare_texel(&in, i, &rays);
+    if (ok && rays.sample_count > 0) fill_table(rays.samples, rays.sample_count, table);
     if (ok) ok = glint_study_distances(rays.found, rays.truth, rays.surfaces, rays.count, &table->surfaces, err);
     for (size_t k = 1; ok && k < GLINT_SURFACE_COUNT; ++k) {
         uint64_t all = table->surfaces.of[0].rays, here = table->surfaces.of[k].rays;

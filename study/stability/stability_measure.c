@@ -149,7 +149,7 @@ static bool link_all(struct measuring *m, struct glint_error *err) {
     return true;
 }
 
-static bool begin(struct measuring *m, struct glint_error *err) {
+static bool begin_measuring(struct measuring *m, struct glint_error *err) {
     struct glint_stability *s = m->out;
     const struct glint_part_info *gbuffer = glint_capture_find(m->capture, GLINT_PART_GBUFFER);
     const size_t images = glint_replay_image_count(m->replay), pixels = (size_t)gbuffer->width * gbuffer->height;
@@ -169,7 +169,7 @@ static bool begin(struct measuring *m, struct glint_error *err) {
 
 /* ---- A seed ---- */
 
-static bool compare(const struct measuring *m, struct tracked *t, struct glint_error *err) {
+static bool compare_image(const struct measuring *m, struct tracked *t, struct glint_error *err) {
     const struct glint_image *image = glint_replay_find_image(m->replay, t->out->name);
     if (!image || image->width != t->out->width || image->height != t->out->height)
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
@@ -188,7 +188,7 @@ static bool compare_all(const struct measuring *m, struct glint_error *err) {
     memset(m->decided[0], 0, (size_t)s->width * s->height * sizeof *m->decided[0]);
     for (int decides = 1; decides >= 0; decides--) {
         for (size_t i = 0; i < s->image_count; i++)
-            if (s->images[i].decides == decides && !compare(m, &m->tracked[i], err)) return false;
+            if (s->images[i].decides == decides && !compare_image(m, &m->tracked[i], err)) return false;
         if (decides) texels_spread(m);
     }
     return true;
@@ -207,7 +207,7 @@ bool glint_stability_measure(struct glint_replay *replay, struct glint_capture *
     bool ok = stability->seeds <= UINT8_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "seeds: expected 1 to %d, found %u", UINT8_MAX, stability->seeds);
     ok = ok && run_frame(&m, pipeline, 0, &part, err) && (m.surfaces = glint_study_surfaces(capture, err)) &&
-         begin(&m, err);
+         begin_measuring(&m, err);
     for (uint32_t seed = 1; ok && seed <= stability->seeds; seed++)
         ok = run_frame(&m, pipeline, seed, &part, err) && compare_all(&m, err);
     ok = ok && stability_sum_up(&m, err);
