@@ -12,9 +12,10 @@ vec2 first_numbers(uvec2 pixel) {
     if (pattern == pattern_sobol) return ray_points2(pixel, number, frame.flags.w);
     if (pattern == pattern_blue) return blue_noise2(pixel, number, frame.flags.w);
     vec2 u = random4(pixel, random_frame(), RANDOM_NDF).xy;
-    if (pattern == pattern_strata) return plus_strata(pixel, number + 2u * frame.flags.w, u);
-    // φ = 2π (0.2 · rnd + class / 5), the class another one in each frame and for each ray.
-    if (pattern == pattern_plus) u.y = 0.2 * (u.y + float(plus_class(pixel, number + 2u * frame.flags.w)));
+    uint shift = number + 2u * frame.flags.w; // another class in each frame and for each ray
+    if (pattern == pattern_strata) return plus_strata(pixel, shift, u);
+    // φ = 2π (0.2 · rnd + class / 5).
+    if (pattern == pattern_plus) u.y = 0.2 * (u.y + float(plus_class(pixel, shift)));
     return u;
 }
 
