@@ -14,9 +14,9 @@
 #define KINDS {{"gbuffer", "depth.Z", NAN}, {"gbuffer", "depth.Z", 0}, {"gbuffer", "depth.Z", -3}, {"gbuffer", "depth.Z", 1e-30f}, {"gbuffer", "depth.Z", 3.2e38f}, {"gbuffer", "depth.Z", INFINITY}, {"gbuffer", "normal.Y", NAN}, {"gbuffer", "normal.X", INFINITY}, {"gbuffer", "normal.Y", 0}, {"gbuffer", "material.roughness", NAN}, {"gbuffer", "material.roughness", -1}, {"gbuffer", "material.roughness", 1e9f}, {"gbuffer", "motion.X", NAN}, {"gbuffer", "motion.Y", INFINITY}}
 #define PRESET(name, reach) {"bad pixels of every kind, " name, "14 kinds in pixels of the floor: every other pixel is as without them, and all are finite", name, .list = KINDS, .roughness = 0.3f, .reach_px = reach, .bound = 1e-6, .reason = ROUNDS}
 #define SKY(name) {"stale channels under sky, " name, "normals, roughness, colours and motion of the sky's pixels, which mean nothing: nothing changes", name, .where = GARBAGE_SKY, .list = {{"gbuffer", "normal.X", NAN}, {"gbuffer", "normal.Y", 1e9f}, {"gbuffer", "normal.Z", -1}, {"gbuffer", "material.roughness", INFINITY}, {"gbuffer", "material.metalness", NAN}, {"gbuffer", "material.specular", 1}, {"gbuffer", "albedo.R", INFINITY}, {"gbuffer", "albedo.G", 1}, {"gbuffer", "albedo.B", NAN}, {"gbuffer", "motion.X", NAN}, {"gbuffer", "motion.Y", 5}}, .roughness = 0.3f, .frames = 2, .reason = "nothing reads them"}
-/* The lobe is cut, so that how far from its mirror direction a ray may look follows from the roughness: a ray of the whole lobe's
-   tail may end anywhere, and whether one of them meets the bad pixels is a matter of the random numbers. */
-#define LIGHT(name, with, bare, last, bad, part, value) {name, "two pixels of walls: what does not mirror them is as without them, and all but them are finite", with, "downsample.split=cut", .direct = bare, .where = GARBAGE_WALL, .list = {{part, "G", value}}, .roughness = 0.05f, .frames = last, .bad_frame = bad, .reach_px = 16, .bound = 1e-6, .reason = ROUNDS}
+/* `only` may cut the lobe: a ray of its far tail has a cone that spans much of the picture, bad pixels included, and whether some pixel
+   draws one is a matter of the random numbers. Of the lobe's middle the reach is known. */
+#define LIGHT(name, with, only, bare, last, bad, part, value) {name, "two pixels of walls: what does not mirror them is as without them, and all but them are finite", with, only, .direct = bare, .where = GARBAGE_WALL, .list = {{part, "G", value}}, .roughness = 0.05f, .frames = last, .bad_frame = bad, .reach_px = 16, .bound = 1e-6, .reason = ROUNDS}
 #define ROUGH(name, part, only, place, last) {name, "what many rays of a rough floor look at, in pixels of walls or in a texel: all but it is finite", "mafia3", only, .where = place, .list = {{part, "G", NAN}}, .roughness = 0.5f, .frames = last, .bad_frame = 1, .cube_size = 64, .reach_px = INFINITY, .reason = "filters drop it"}
 #define TEXEL(name, with, bare, channel, value) {name, "one texel of each cube map, and no screen: rays that end elsewhere bring what they do without it", with, bare ? NULL : "screen_trace.length_m=0", .cube_size = bare ? 32 : 64, .direct = bare, .where = GARBAGE_TEXEL, .list = {{"cubemap", channel, value}}, .roughness = 0.05f, .bound = 1e-6, .reason = ROUNDS}
 
@@ -38,16 +38,16 @@ static const struct garbage_case bads[] = {
     ONE("roughness negative", "material.roughness", -1),
     PRESET("mafia3", 12), PRESET("kf2", 12), PRESET("gtav", 12), PRESET("mafia_de", 40),
     SKY("mafia3"), SKY("kf2"), SKY("gtav"), SKY("mafia_de"),
-    LIGHT("light NaN", "mafia3", false, 1, 1, "lit", NAN),
-    LIGHT("light infinite", "mafia3", false, 1, 1, "lit", INFINITY),
+    LIGHT("light NaN", "mafia3", "downsample.split=cut", false, 1, 1, "lit", NAN),
+    LIGHT("light infinite", "mafia3", "downsample.split=cut", false, 1, 1, "lit", INFINITY),
     ROUGH("light NaN, rough floor", "lit", NULL, GARBAGE_WALL, 1),
     ROUGH("light NaN in the first frame, rough floor", "lit", NULL, GARBAGE_WALL, 2),
     ROUGH("cube colour NaN, rough floor", "cubemap", "screen_trace.length_m=0", GARBAGE_TEXEL, 1),
-    LIGHT("light NaN, kf2", "kf2", true, 1, 1, "scene", NAN),
-    LIGHT("light NaN, mafia_de", "mafia_de", true, 1, 1, "lit", NAN),
-    LIGHT("light of 10^6", "mafia3", false, 1, 1, "lit", 1e6f),
-    LIGHT("light NaN in the first frame", "mafia3", false, 4, 1, "lit", NAN),
-    LIGHT("light NaN in the first frame, mafia_de", "mafia_de", false, 4, 1, "lit", NAN),
+    LIGHT("light NaN, kf2", "kf2", NULL, true, 1, 1, "scene", NAN),
+    LIGHT("light NaN, mafia_de", "mafia_de", NULL, true, 1, 1, "lit", NAN),
+    LIGHT("light of 10^6", "mafia3", "downsample.split=cut", false, 1, 1, "lit", 1e6f),
+    LIGHT("light NaN in the first frame", "mafia3", NULL, false, 4, 1, "lit", NAN),
+    LIGHT("light NaN in the first frame, mafia_de", "mafia_de", NULL, false, 4, 1, "lit", NAN),
     MOVES("motion NaN", NAN),
     MOVES("motion infinite", INFINITY),
     TEXEL("cube colour NaN", "mafia3", false, "G", NAN),
