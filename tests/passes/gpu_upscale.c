@@ -110,6 +110,88 @@ static void smooth_pixels_are_resolved_by_their_own_normals(void **state) {
     free(upscaled), free(sharp), free(source);
 }
 
+/* Upright bars of 2.2 pixels on the wall, with the sky between them. The mirror ray of a floor pixel seems to come from below it, from
+   the camera's mirror image, and so meets the wall in the pixel's own column. */
+static double per_pixel(void) {
+    return 2 * tan(30 * M_PI / 180) / SIZE;
+}
+static bool is_bar(int x) {
+    return (int)(5 * (x + 0.5 - SIZE / 2) * per_pixel() / 0.1 + 1000) % 2 == 1;
+}
+static void barred_wall(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        const bool floor = values[PLAIN_NORMAL_Y * pixels + i] > 0.5f, bar = is_bar((int)(i % SIZE));
+        if (!floor && !bar) values[PLAIN_DEPTH * pixels + i] = INFINITY;
+        for (uint32_t k = 0; k < 3; ++k) values[(PLAIN_LIT_R + k) * pixels + i] = floor ? 0 : bar ? 1 : 4;
+    }
+}
+static void bright(const double direction[3], float out[3]) {
+    (void)direction;
+    for (int k = 0; k < 3; ++k) out[k] = 4;
+}
+static void nothing_but_sky(uint32_t number, const double direction[3], float out[5]) {
+    (void)number, (void)direction;
+    const float sky[5] = {4, 4, 4, 0, INFINITY};
+    for (int k = 0; k < 5; ++k) out[k] = sky[k];
+}
+
+/* Whether a ray of the texels around the pixel hit a bar. */
+static bool bar_was_hit_around(const float *travelled_m, const uint32_t *finished, int pixel) {
+    const int x = pixel % SIZE / 2, y = pixel / SIZE / 2;
+    for (int k = 0; k < 9; ++k) {
+        const int u = x + k % 3 - 1, v = y + k / 3 - 1;
+        if (u < 0 || v < 0 || u >= SIZE / 2 || v >= SIZE / 2) continue;
+        if (finished[v * SIZE / 2 + u] && isfinite(travelled_m[v * SIZE / 2 + u])) return true;
+    }
+    return false;
+}
+
+/* What each floor pixel has to show is known: what stands in its column, at the height where its mirror ray meets the wall. The ray
+   that upscale chose may have met the other. With `neighbours` a pixel misses no bar that a ray around hit, and few show one
+   that is not there: those around which every ray hit one. */
+static void the_own_ray_takes_the_hits_around_that_it_meets(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    plain_capture(gpu_path(gpu, "bars", path), &(struct plain){.width = SIZE,
+                                                               .height = SIZE,
+                                                               .fov_y_degrees = 60,
+                                                               .floor = true,
+                                                               .spoil = barred_wall,
+                                                               .sky = bright,
+                                                               .cube = nothing_but_sky,
+                                                               .cube_size = 8,
+                                                               .cube_count = 1});
+    int missed[2] = {0}, invented[2] = {0}, bars_seen = 0;
+    for (int on = 0; on < 2; ++on) {
+        gpu_load(gpu, "bars");
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_use(gpu, "screen_trace=hiz");
+        gpu_use(gpu, "hiz=nearest");
+        gpu_use(gpu, "upscale=best_match");
+        gpu_use(gpu, "resolve_sharp=hit");
+        gpu_set(gpu, "resolve_sharp.check_depth=true");
+        gpu_set(gpu, on ? "resolve_sharp.neighbours=true" : "resolve_sharp.neighbours=false");
+        gpu_run(gpu);
+        float *sharp = gpu_floats(gpu, "reflection_sharp", NULL, NULL),
+              *travelled_m = gpu_floats(gpu, "travelled", NULL, NULL);
+        uint32_t *finished = gpu_uints(gpu, "screen_finished", NULL, NULL);
+        for (int i = 0; i < SIZE * SIZE; ++i) {
+            if (5 * (i / SIZE + 0.5 - SIZE / 2) * per_pixel() < 1.1) continue; /* the wall, and the floor at its foot */
+            const bool shows = fabsf(sharp[4 * i] - 1) < 0.5f, bar = is_bar(i % SIZE);
+            missed[on] += bar && !shows && bar_was_hit_around(travelled_m, finished, i);
+            invented[on] += !bar && shows;
+            bars_seen += on && bar && shows;
+        }
+        free(sharp), free(travelled_m), free(finished);
+    }
+    print_message("# bars hit around and not shown: %d, with neighbours %d; shown and not there: %d, with neighbours "
+                  "%d; shown: %d\n",
+                  missed[0], missed[1], invented[0], invented[1], bars_seen);
+    assert_true(missed[0] > 10 && missed[1] == 0 && 4 * invented[1] < invented[0] && bars_seen > SIZE);
+}
+
 /* Rough pixels are no smooth ones, and a frame of them has nothing to resolve anew. */
 static void rough_pixels_keep_what_was_upscaled(void **state) {
     struct gpu *gpu = *state;
@@ -259,6 +341,7 @@ int main(void) {
         cmocka_unit_test(rounding_chooses_no_other_sample),
         cmocka_unit_test(the_last_of_the_images_is_taken),
         cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),
+        cmocka_unit_test(the_own_ray_takes_the_hits_around_that_it_meets),
         cmocka_unit_test(rough_pixels_keep_what_was_upscaled),
         cmocka_unit_test(what_has_no_ray_darkens_nothing),
     };

@@ -24,6 +24,83 @@ bool has_ray(ivec2 texel) {
     return texelFetch(depth_half, texel, 0).x < LARGEST && is_pick_shown(texelFetch(pick, texel, 0).x);
 }
 
+struct End {
+    float travelled_m;
+    bool finished; // on screen
+    uint place;    // of the cube map
+};
+End end_of(ivec2 texel) {
+    return End(texelFetch(travelled, texel, 0).x, texelFetch(screen_finished, texel, 0).x != 0u,
+               texelFetch(cubemap_index, texel, 0).x);
+}
+
+bool hit_on_screen(End end) { return end.finished && end.travelled_m < LARGEST; }
+
+// What the picture shows where a point of the ray lies.
+struct Seen {
+    bool found;             // the point lies in the picture
+    float depth_m, point_m; // of the surface that is shown, +inf for sky, and of the point
+    vec3 position, normal;  // of that surface
+};
+Seen seen_at(vec3 point) {
+    precise vec3 view = mat3(frame.view_from_world) * point;
+    Seen seen = Seen(false, INFINITE, view.z * frame.depth_range.z, vec3(0.0), vec3(0.0));
+    vec2 uv = project(view, frame.uv_from_view, frame.depth_range.z), size = vec2(frame.size.xy);
+    if (!(seen.point_m > 0.0) || any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return seen;
+    ivec2 pixel = ivec2(uv * size);
+    seen.found = true;
+    seen.depth_m = texelFetch(depth_full, pixel, 0).x;
+    vec4 surface = texelFetch(normal_full, pixel, 0);
+    if (!reflects(seen.depth_m, surface.xyz)) return seen;
+    seen.normal = normalize(surface.xyz);
+    seen.position = mat3(frame.world_from_view) *
+                    view_position((vec2(pixel) + 0.5) / size, seen.depth_m, frame.view_from_uv, frame.depth_range.z);
+    return seen;
+}
+
+// Where the pixel's own ray meets a surface near the place where a ray beside it hit one after `first_m`: it is cut with the
+// plane of the surface that is shown there, and again with that of what is shown at the cut, until the end lies on the
+// surface that is shown. 0 when it never does: only what is seen to be hit counts.
+const int PLANES = 3;
+const float ON_SURFACE = 1e-3; // of the depth, twice the rounding of depths and normals in half floats
+float own_hit(vec3 position, vec3 direction, float first_m) {
+    precise float travelled_m = first_m;
+    for (int i = 0; i < PLANES && travelled_m > 0.0 && travelled_m < LARGEST; ++i) {
+        precise vec3 end = position + direction * travelled_m;
+        Seen seen = seen_at(end);
+        float toward = -dot(direction, seen.normal);
+        if (!(toward > 0.0)) return 0.0;
+        if (in_plane(end - seen.position, seen.normal, seen.depth_m, ON_SURFACE)) return travelled_m;
+        travelled_m += dot(end - seen.position, seen.normal) / toward;
+    }
+    return 0.0;
+}
+
+// At the outline of what is reflected, rays of neighbouring texels end on different surfaces, and which of them was chosen says
+// nothing of the pixel's own ray. The chosen ray's hit holds where the own ray has it, too. Otherwise the nearest hit of the rays
+// around that the own ray meets takes its place, unless the chosen ray ended off screen before that. When there is none, and
+// the own ray is seen to pass in front of what the chosen one hit, it ends as a ray around that hit nothing on screen.
+End own_end(ivec2 pixel, ivec2 chosen, vec3 position, vec3 direction) {
+    End end = end_of(chosen), past = end;
+    if (end.finished && own_hit(position, direction, end.travelled_m) > 0.0) return end;
+    ivec2 own = pixel / int(reduction(frame.size)), last = ivec2(frame.size.zw) - 1;
+    float limit_m = end.finished ? INFINITE : end.travelled_m, nearest_m = limit_m;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 texel = clamp(own + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+        if (!has_ray(texel)) continue;
+        End beside = end_of(texel);
+        if (!hit_on_screen(beside)) past = hit_on_screen(past) ? beside : past;
+        else {
+            float hit_m = own_hit(position, direction, beside.travelled_m);
+            if (hit_m > 0.0) nearest_m = min(nearest_m, hit_m);
+        }
+    }
+    if (nearest_m < limit_m) return End(nearest_m, true, end.place);
+    if (!hit_on_screen(end)) return end;
+    Seen seen = seen_at(position + direction * end.travelled_m);
+    return seen.found && seen.point_m < seen.depth_m * (1.0 - ON_SURFACE) ? past : end;
+}
+
 void main() {
     load_active_centers();
     ivec2 pixel = tile_texel(1.0);
@@ -40,9 +117,10 @@ void main() {
         float lobe = ndf == ndf_ggx ? ggx_cone(roughness * roughness, 0.0, threshold, 1.0)
                                     : blinn_phong_cone(roughness, 0.0, threshold, 1.0);
         float cone = min(cone_factor * lobe, WIDEST_CONE);
-        Ray ray = ended_ray(mat3(frame.world_from_view) * view, surface.xyz, texelFetch(travelled, texel, 0).x, cone);
-        vec4 sharp =
-            color_at_end(ray, texelFetch(screen_finished, texel, 0).x != 0u, texelFetch(cubemap_index, texel, 0).x);
+        vec3 position = mat3(frame.world_from_view) * view;
+        End end = end_of(texel);
+        if (neighbours) end = own_end(pixel, texel, position, mirror_direction(position, surface.xyz));
+        vec4 sharp = color_at_end(ended_ray(position, surface.xyz, end.travelled_m, cone), end.finished, end.place);
         if (sharp.a > 0.0) color = mix(sharp, color, blend > 0.0 ? fade(roughness, sharp_roughness - blend, sharp_roughness) : 0.0);
     }
     imageStore(reflection_sharp, pixel, finite(color) || !sharpened ? color : vec4(0.0));
