@@ -15,7 +15,7 @@ static void roles(FILE *out) {
     static const char *const shapes[] = {"frame", "cube", "any"};
     size_t count = 0;
     const struct glint_role *all = glint_roles(&count);
-    fprintf(out, "| role | shape | required | previous | meaning |\n| --- | --- | --- | --- | --- |\n");
+    fprintf(out, "| role | shape | required | `previous.ROLE` allowed | meaning |\n| --- | --- | --- | --- | --- |\n");
     for (size_t i = 0; i < count; i++) {
         const struct glint_role *role = &all[i];
         const bool free_rest = role->name[strlen(role->name) - 1] == '.';
@@ -23,7 +23,7 @@ static void roles(FILE *out) {
                 free_rest        ? "*"
                 : role->numbered ? ".NNN"
                                  : "",
-                shapes[role->shape], role->required ? "yes" : "–", role->may_be_previous ? "yes" : "–",
+                shapes[role->shape], role->required ? "yes" : "no", role->may_be_previous ? "yes" : "no",
                 role->reserved ? "*reserved:* " : "", role->meaning);
     }
 }
@@ -38,14 +38,14 @@ static void channels(FILE *out) {
         for (size_t c = 0; c < all[i].channel_count; c++) {
             const struct glint_role_channel *row = &all[i].channels[c];
             fprintf(out, "| %s%s%s | `%s` | %s | %s | %s | %s |\n", c ? "" : "`", c ? "" : all[i].name, c ? "" : "`",
-                    row->name, row->required ? "yes" : "–", row->unit, or_dash(row->encoding), or_dash(row->meaning));
+                    row->name, row->required ? "yes" : "no", row->unit, or_dash(row->encoding), or_dash(row->meaning));
         }
 }
 
 static void encodings(FILE *out) {
     size_t count = 0;
     const struct glint_encoding_row *rows = glint_encoding_rows(&count);
-    fprintf(out, "| encoding | attribute | value | stored |\n| --- | --- | --- | --- |\n");
+    fprintf(out, "| encoding | attribute | value | what is stored |\n| --- | --- | --- | --- |\n");
     for (size_t i = 0; i < count; i++)
         for (int v = 0; v < rows[i].count; v++)
             fprintf(out, "| %s | %s%s%s | `%s` | %s |\n", v ? "" : rows[i].which, v ? "" : "`",
@@ -53,12 +53,12 @@ static void encodings(FILE *out) {
 }
 
 static void attributes(FILE *out) {
-    static const char *const ranges[] = {"–", "> 0", "≥ 0", "(0, 1]"};
+    static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]"};
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
     for (int scope = 0; scope < GLINT_SCOPE_COUNT; scope++) {
         fprintf(out,
-                "%sStanding %s:\n\n| attribute | type | required | range | absent | unit | meaning |\n"
+                "%sAttributes %s:\n\n| attribute | type | required | range | value when absent | unit | meaning |\n"
                 "| --- | --- | --- | --- | --- | --- | --- |\n",
                 scope ? "\n" : "", glint_scope_place((enum glint_scope)scope));
         for (size_t i = 0; i < count; i++) {
@@ -67,7 +67,7 @@ static void attributes(FILE *out) {
             char absent[32] = "–";
             if (row->kind == GLINT_KIND_DOUBLE && !row->required) snprintf(absent, sizeof absent, "%g", row->fallback);
             fprintf(out, "| `%s` | %s | %s | %s | %s | %s | %s |\n", row->name, glint_kind_type(row->kind),
-                    !row->required                 ? "–"
+                    !row->required                 ? "no"
                     : row->group == GLINT_NO_GROUP ? "yes"
                                                    : "with its group",
                     ranges[row->range], absent, or_dash(row->unit), row->meaning);
@@ -77,7 +77,7 @@ static void attributes(FILE *out) {
 
 static void rules(FILE *out) {
     const struct glint_rule_row *rows = glint_rule_rows();
-    fprintf(out, "| rule | |\n| --- | --- |\n");
+    fprintf(out, "| rule | what must hold |\n| --- | --- |\n");
     for (int i = 0; i < GLINT_RULE_COUNT; i++) fprintf(out, "| `%s` | %s |\n", rows[i].name, rows[i].text);
 }
 

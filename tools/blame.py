@@ -31,19 +31,21 @@ def measure(glint, record, rays, player_rays, rounds):
 
 
 def number(value, digits=4):
-    return "–" if value is None else f"{value:.{digits}f}".replace("-", "−")
+    return "unknown" if value is None else f"{value:.{digits}f}".replace("-", "−")
 
 
 def brief(value):
-    return "–" if value is None else f"{value:.3g}".replace("-", "−")
+    return "not timed" if value is None else f"{value:.3g}".replace("-", "−")
 
 
 def bought(player, cost):
     """As glint blame has it: what the reference buys, or what the slot's own milliseconds do already."""
     removed, ms = player["removed"], cost["added_ms"]
-    if ms is None or removed * ms <= 0:
-        return "–"
-    return brief(removed / ms) + (" already" if ms < 0 else "")
+    if ms is None:
+        return "not timed"
+    if removed * ms <= 0:
+        return "better and faster" if removed > 0 else "no gain"
+    return brief(removed / ms) + (" (spent already)" if ms < 0 else "")
 
 
 def shares(told, answer):
@@ -58,8 +60,8 @@ def shares(told, answer):
     if abs(sums["share"] - total) > 1e-9:
         raise SystemExit(f"shares add up to {sums['share']}, expected {total}")
     rows.append(["sum", number(sums["share"]), "100 %", number(sums["removed"]), number(sums["made"]), "", "", "", ""])
-    return (f"Error of `{PRESET}` {number(errors['preset'])}, of its reference {number(errors['reference'])}: {number(total)} to share out.\n\n" +
-            table(["", "share", "", "removes", "makes", "adds ms", "buys per ms", "adds fetches/px", "saves ms"], rows))
+    return (f"Error of `{PRESET}` {number(errors['preset'])}, of its reference {number(errors['reference'])}: the difference of {number(total)} is shared out.\n\n" +
+            table(["player", "share of the error", "of the difference", "removes, exchanged alone", "makes, kept alone", "ms added by the exchange", "error removed per ms added", "fetches a pixel added", "ms saved by keeping it"], rows))
 
 
 def by_surface(told):
@@ -67,7 +69,7 @@ def by_surface(told):
     names = [s for s in SURFACES if s in classes]
     rows = [[f"`{name}`", *(number(classes[s]["players"][name]["share"]) for s in names)] for name in classes["all"]["players"]]
     rows += [[f"*{what}*", *(number(classes[s][key]) for s in names)] for what, key in (("error of the preset", "preset"), ("of its reference", "reference"))]
-    return table(["share of the error of", *names], rows)
+    return table(["player", *(f"share, {name}" for name in names)], rows)
 
 
 def scene(told):
@@ -86,10 +88,10 @@ def said(mean):
              if p["removed"] > 0 and (mean["costs"][name]["added_ms"] or 0) > 0}
     removed, made = (sum(p[key] for p in players.values()) for key in ("removed", "made"))
     best = max(rates, key=rates.get) if rates else None
-    return (f"`{most}` has the largest share, {100 * players[most]['share'] / total:.0f} % of the difference; alone, `{alone}` mends most, {number(players[alone]['removed'])}. "
-            f"`{saves}` is worth most as it is: {number(-players[saves]['share'])}. "
-            + (f"A millisecond more is spent best on `{best}`. " if best else "")
-            + f"How much is interaction: single exchanges in the preset add up to {number(removed)}, those in the reference to {number(made)}, the difference is {number(total)}.")
+    return (f"`{most}` has the largest share, {100 * players[most]['share'] / total:.0f} % of the difference; exchanged alone, `{alone}` removes most, {number(players[alone]['removed'])}. "
+            f"`{saves}` reduces the error most as it is, by {number(-players[saves]['share'])}. "
+            + (f"An added millisecond removes most on `{best}`. " if best else "")
+            + f"Players interact: single exchanges in the preset add up to {number(removed)}, those in the reference to {number(made)}, while the difference is {number(total)}.")
 
 
 def players(told):
@@ -120,28 +122,28 @@ against a reference of {told['reference_rays']} rays a pixel; the error of the p
 {shares(mean, 'reference')}{"".join(scene(c) for c in told["captures"])}
 ## The players
 
-Slots that cannot be exchanged alone are one player; the declarations say so, or an image that only one variant makes. So are, in `kf2`, which
-has no cube maps, `resolve` and the slots of the cube maps: the reference's `hit` reads where rays ended in them, which nothing in `kf2` tells, and
-`kf2`'s own `blurred` asks for none of it. Cube maps without the other resolve change nothing, the other resolve without them does not run:
-no measurement tells the shares of the two apart.
+Slots that cannot be exchanged alone form one player: their declarations say so, or only one variant makes an image that another needs. In `kf2`, which
+has no cube maps, one player is `resolve` and the slots of the cube maps: the reference's `hit` reads where rays ended in them, which no pass of `kf2` computes, and
+`kf2`'s own `blurred` does not read it. Cube maps without the other resolve change nothing, and the other resolve does not run without them, so that
+no measurement can separate their shares.
 
 {players(told)}
 """
     (docs / "blame.md").write_text(f"""# Where the error comes from
 
 Generated by `./dev docs` from what `tools/blame.py measure` recorded (`glint blame`): `{PRESET}` on {' and '.join(SCENES)},
-{SIZE.replace('x', '×')}, cube maps of {CUBE}², fog off. Each slot is exchanged for its reference as its passes declare it, everything
-that follows is run again, and the error is the mean of |found − reference| over their sum (0 to 1; noise counts).
+{SIZE.replace('x', '×')}, cube maps of {CUBE}², fog off. Each [player](glossary.md#player), a slot or several, is exchanged for its reference as its
+passes declare it, everything after it runs again, and the error is the [symmetric error](metrics.md#values) (0 to 1, noise included).
 
-- **share**: the mean of what a player changes over all orders in which players can be exchanged one after the other (Shapley
-  value). Shares add up to the error of the preset less that of its reference, which the script checks. A negative one: the
-  player makes the picture better than it would be without.
-- **removes**: the error that goes when this player alone is exchanged in the preset; **adds** ms and fetches for that.
-- **makes**: the error that comes when this player alone is kept and all others are the reference's; **saves** ms by that.
-- **buys**: error removed for each ms; *already*: the reference does without the slot, and its own milliseconds buy that much.
+- **Share of the error**: what exchanging a player changes, averaged over all orders in which players can be exchanged one after the other (the Shapley
+  value). Shares add up to the error of the preset less that of its reference. A negative share means that the player reduces the
+  error.
+- **Removes, exchanged alone**: the error that goes when only this player is exchanged in the preset; the columns of ms and fetches *added* are what that costs.
+- **Makes, kept alone**: the error that comes when only this player is kept and all others are the reference's; *ms saved* belongs to it.
+- **Error removed per ms added**: *spent already* where the reference does without the slot, so that the preset's own milliseconds remove that much.
 
-Where *removes* and *makes* differ, players interact, and neither column adds up. What the reference does not do better shows
-against the truth: there the shares say what mending a slot is worth in the end, with what the capture's data lack taken as given.
+Where *removes* and *makes* differ, players interact, and neither column adds up to the total. An error that the reference has, too, shows only
+against the truth: there the shares say what improving a slot is worth in the end, with the capture's missing data taken as given.
 {text}""")
 
 

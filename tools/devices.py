@@ -112,23 +112,23 @@ def census(args):
 # ---- the page ----
 
 def share(part, of):
-    return "–" if not part else f"{100 * part / of:.2g} %"
+    return "none" if not part else f"{100 * part / of:.2g} %"
 
 
 def largest(row):
     found = row["largest"]
     if not row["differing"]:
-        return "–"
+        return "none"
     by = found["by"] if isinstance(found["by"], str) else f"{found['by']:.2g}"
     a, b = ("∞" if found[k] is None else f"{found[k]:.5g}" for k in ("a", "b"))
     return f"{by} at {found['x']},{found['y']} {found['channel']}: {a}, {b}"
 
 
 def images_table(found):
-    rows = [[row["slot"], f"`{row['name']}`", share(row["differing"], row["pixels"]), str(row["failed"] or "–"), f"{row['rms']:.2g}" if isinstance(row["rms"], (int, float)) else "∞",
+    rows = [[row["slot"], f"`{row['name']}`", share(row["differing"], row["pixels"]), str(row["failed"] or "none"), f"{row['rms']:.2g}" if isinstance(row["rms"], (int, float)) else "∞",
              largest(row)] for row in found["images"] if row["differing"]]
     same = [f"`{row['name']}`" for row in found["images"] if not row["differing"]]
-    text = table(["pass", "image", "differ at all", "by a thousandth", "rms", "largest difference"], rows)
+    text = table(["pass", "image", "texels that differ at all", "texels that differ by more than a thousandth", "RMS difference", "largest difference"], rows)
     return text + (f"\n\nThe same bits: {', '.join(same)}." if same else "")
 
 
@@ -137,12 +137,12 @@ def ends_table(made):
     for name, found in made["runs"].items():
         for row in found["images"]:
             if row["unit"] == "end reason":
-                rows.append([name, f"`{row['name']}`", str(row["pixels"]), str(row["differing"] or "–"), str(row.get("ties", "–"))])
-    return table(["run", "image", "rays", "end otherwise", "of these ties"], rows)
+                rows.append([name, f"`{row['name']}`", str(row["pixels"]), str(row["differing"] or "none"), str(row.get("ties", "none"))])
+    return table(["run", "image", "rays", "rays that end otherwise", "of these, ties"], rows)
 
 
 def filters_table(made):
-    return table(["device", "from exact weights", "from weights of 8 bits"],
+    return table(["device", "largest difference from exact weights", "largest difference from weights of 8 bits"],
                  [[d["as"], f"{d['filter']['exact']:.2g}", f"{d['filter']['eight_bits']:.2g}"] for d in made["devices"]])
 
 

@@ -88,7 +88,7 @@ def paraboloids(program):
     seams = re.search(r"at the rim, five levels: .*", said).group(0)
     texel = re.search(r"texel spans ([\d.]+)", said).group(1)
     rows = [("within 20° of the pole; angles within 45°", density[0], *angles["pole"]), ("within 20° of the rim; angles within 45°", density[1], *angles["rim"]),
-            ("in the middle of a cube map's face", density[2], "–", "–")]
+            ("in the middle of a cube map's face", density[2], "exact", "exact")]
     return rows, texel, seams
 
 
@@ -113,10 +113,10 @@ Written by `./dev docs`; do not edit. Scenes at {SIZE}, cube maps of {CUBE}²; e
 `lake` against its path traced picture (`scene`: Fresnel's and Snell's formulas, both rays followed to their ends), pixels of water
 alone; planar map of 240 × 120.
 
-{table(("", "error", *times.heads), rows)}
+{table(("settings", "error of the water", *times.heads), rows)}
 By size of the planar map, with and without ripples in the lookup:
 
-{table(("size", "error", "flat"), sizes)}
+{table(("size of the planar map", "error", "error without ripples"), sizes)}
 ![Truth, gtav, without the planar map, without refraction](lake.jpg)
 
 Path traced; `gtav`; without the planar map; without refraction.
@@ -125,7 +125,7 @@ Path traced; `gtav`; without the planar map; without refraction.
 
 Error of the reflection of mirror-like, glossy and rough surfaces, no rays on screen and no fog:
 
-{table(("", *(f"`{s}`" for s in SCENES), *(f"{head}, street" for head in times.heads)), looked_up)}
+{table(("lookup", *(f"error in `{s}`: mirror-like, glossy, rough" for s in SCENES), *(f"{head}, street" for head in times.heads)), looked_up)}
 The captures' inner volumes are boxes of air that keep away from the walls; without one the proxy is 10 m away. The paraboloids
 have levels, which `lookup` here has not; the march finds what is seen, and takes its colour from either.
 
@@ -134,7 +134,7 @@ have levels, which `lookup` here has not; the march finds what is seen, and take
 A map of 64² with a cube map of 64² behind it, whose colours are the directions, so that what comes back tells where it was looked
 up. A face's texel spans {texel} rad.
 
-{table(("", "texels a steradian", "angle off, median, rad", "at most"), map_rows)}
+{table(("place", "texels per steradian", "error of the direction, median, rad", "error of the direction, at most, rad"), map_rows)}
 The article says that the projection preserves the details at the top and the bottom at the expense of the sides. It is the other
 way around: a piece of the plane spans 4 / (1 + r²)² of its area, so the pole has a quarter of the rim's texels a steradian, and a
 quarter of what the middle of a cube map's face has. Texels outside the discs are filled with what lies beyond the rim before

@@ -62,18 +62,18 @@ def trust(program, captures, scenes, wanted, times):
     for (name, words), *told in zip(wanted, *found):
         cells = [f"{100 * r['hits'] / r['rays']:.1f}, {100 * r['recall']:.1f}, {100 * r['precision']:.1f}" for r in told]
         rows.append([name, *cells, f"{sum(r['fetches'] for r in told) / len(told):.1f}", *times.cells('street', words)])
-    return table(['', *scenes, 'fetches', *(f'{head}, street' for head in times.heads)], rows)
+    return table(['settings', *(f'{scene}: coverage, recall, precision, %' for scene in scenes), 'texture fetches per ray', *(f'{head}, street' for head in times.heads)], rows)
 
 
 def colour(glint, captures, times):
     rows = [[name, *(errors(glint, capture, 'kf2', words)[0] for capture in captures), *times.cells('street', words)] for name, words in COLOUR]
-    return table(['', *SCENES, *(f'{head}, street' for head in times.heads)], rows)
+    return table(['settings', *(f'RMSE in {scene}: mirror-like, glossy, rough' for scene in SCENES), *(f'{head}, street' for head in times.heads)], rows)
 
 
 def deferred(glint, captures):
     rows = [[name, *(cell for capture in captures for cell in errors(glint, capture, 'kf2', words, figures=('symmetric', 'rmse')))]
             for name, words in DEFERRED]
-    return table(['', *(f'{scene}, {figure}' for scene in FINISHED_SCENES for figure in ('error', 'RMSE'))], rows)
+    return table(['settings', *(f'{figure} in {scene}: mirror-like, glossy, rough' for scene in FINISHED_SCENES for figure in ('error', 'RMSE'))], rows)
 
 
 def replayed(glint, capture, folder, name, words):

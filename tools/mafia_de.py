@@ -59,14 +59,15 @@ def timed():
 
 def colour(glint, captures, scenes, wanted, times):
     rows = [[name, *(errors(glint, capture, 'mafia_de', words, *FOG)[0] for capture in captures), *times.cells('street', words)] for name, words in wanted]
-    return table(['', *scenes, *(f'{head}, street' for head in times.heads)], rows)
+    return table(['settings', *(f'RMSE in {scene}: mirror-like, glossy, rough' for scene in scenes), *(f'{head}, street' for head in times.heads)], rows)
 
 
 def glass(glint, folder, times):
     capture = sample(glint, 'glasshouse', folder, SIZE, CUBE, '--unjittered')
     found = compare(glint, capture, {words: preset('mafia_de', f'{words} compose.intensity=0') for _, words in GLASS}, 1)[1]
-    rows = [[name, f"{found[words]['over'][0]['symmetric']:.4f}", *times.cells('glasshouse', words)] for name, words in GLASS]
-    return table(['', 'panes', *times.heads], rows)
+    heads, timed = times.timed_columns('glasshouse', [words for _, words in GLASS])
+    rows = [[name, f"{found[words]['over'][0]['symmetric']:.4f}", *timed[words]] for name, words in GLASS]
+    return table(['settings', 'error of the panes', *heads], rows)
 
 
 def replayed(glint, capture, folder, name, words):

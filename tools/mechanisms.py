@@ -234,7 +234,7 @@ def ray_counts(bench, docs):
     for rays in RAY_COUNTS:
         against, noise, _, run = compared(bench, f"rays-{rays}", [f"set pipeline.rays={rays}"])
         rows.append((rays, *(number(surface(against["image"]["surfaces"], k)["rmse"]) for k in ("mirror-like", "glossy", "rough")),
-                     *(number(noise[k]) if rays < 128 else "–" for k in ("glossy", "rough")), f"{against['ms']:.1f}"))
+                     *(number(noise[k]) if rays < 128 else "compared with" for k in ("glossy", "rough")), f"{against['ms']:.1f}"))
         runs.append(run)
     bench.run("view", *runs, "--sheet", "--image", "reflection_half,composed", "-o", docs / "rays.png")
     return rows
@@ -299,14 +299,14 @@ def formula_tables():
                    [(f"{r:g}", f"{formulas.power_of_roughness(r):.6g}",
                      f"{formulas.angle_of_power(formulas.power_of_roughness(r)):.4f}")
                     for r in (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)])
-    lobes = table(("power", "share by rays", "whole lobe: rms, rad", "slides' cone, rad", "rms", "apart",
-                   "cone by mean direction, rad", "rms", "apart"),
+    lobes = table(("power", "share by rays", "whole lobe: RMS angle, rad", "slides' cone, rad", "its RMS angle", "its difference",
+                   "cone by mean direction, rad", "its RMS angle", "its difference"),
                   [(r["power"], f"{round(100 * r['share'])} %", f"{r['target']:.3f}",
                     *(t for k in ("slides", "ours")
                       for t in (f"{r[k]['cone']:.3f}", f"{r[k]['rms']:.3f}", f"{r[k]['apart']:.3f}")))
                    for r in formulas.combined_rows((2, 6, 14, 30, 62, 126, 254, 1022, 4094, 16382), (0.25, 0.5, 0.75))])
     held = (0.7, 0.8, 0.9, 0.95, 1)
-    ggx = table(("roughness", "normals kept", *(f"{part:g} held: cone, rad; apart" for part in held)),
+    ggx = table(("roughness", "normals kept", *(f"{part:g} of the lobe held: cone, rad; difference" for part in held)),
                 [(f"{r['roughness']:g}", f"{r['kept']:.2f}", *(f"{h['cone']:.3f}; {h['apart']:.3f}" for h in r["held"]))
                  for r in formulas.ggx_rows((0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7), held)])
     series = table(("length, m", "ratio", "steps", "first step, m", "last step, m"),
@@ -337,43 +337,43 @@ def write(bench, docs, only):
 Written by `./dev docs`; do not edit. Sample scenes at {SIZE} with {TRUTH} rays a pixel of truth, shots of {FRAMES} frames
 at {SHOT_SIZE}, cube maps of {CUBE}², preset `mafia3` without fog (the truth has none). Errors are against the truth: the mean of
 |found − truth|/(found + truth + 0.05), which no outlier rules, where nothing else is said. Noise is RMSE against what the same
-settings converge to with many rays. Times are of all passes at {FULL_SIZE} with cube maps of {FULL_CUBE}² on {device}.
+settings converge to with many rays. Times (ms) are of all passes at {FULL_SIZE} with cube maps of {FULL_CUBE}² on {device}.
 
-Scenes: `still:` a shot of a camera that stands, jittered, with the truth of the pixels' areas; `centred:` the same through the
-pixels' centres; `moving:` a camera that moves aside, through them too; `full:` a frame at {FULL_SIZE}. Of shots the last frame
-counts, where nothing else is said.
+Scenes are named `KIND:SCENE`. `still:` is a shot with a still camera, jittered, with the truth of the pixels' areas; `centred:` the same through the
+pixels' centres; `moving:` a camera that moves sideways, through the centres too; `full:` a frame at {FULL_SIZE}. Of shots the figures are those of the last
+frame, where nothing else is said.
 
 ## On and off
 
-Shown is what is looked at with everything on, and with the mechanism alone off. A change below 0.5 % is marked, and so is one
-for the better, each with the reason that was found.
+Each row has one figure with the whole pipeline (*with it*) and with this mechanism alone switched off (*without it*). A change of less than 0.5 %
+is marked, and so is an improvement, each with the reason that was found. *What it trades* names what the mechanism gives for what.
 
-{table(("step", "mechanism", "scene", "off", "what is looked at", "on", "off", "off makes it", "traded"), rows)}
+{table(("step", "mechanism", "scene", "switched off by", "figure", "with it", "without it", "change without it", "what it trades"), rows)}
 """
     if not only:
         text += attempt("Length of the chain", "Cube maps alone in `room`, mirror rays.",
-                        ("chain", RAYS[0], SMOOTH[0], "ms"), chains, bench)
-        text += attempt("Fallbacks", "Mirror rays that no cube map could follow, in a shot of 16 frames of a camera that moves, one ray a texel and "
-                        "nothing shared: their error, and how much those change from frame to frame that fell back before or after, where "
-                        "their best cube map changes and where it stays. Change is measured as errors are; the truth's own is beside it.",
-                        ("scene", "", "fallback", "rays", "error", "best map changes: rays", "change", "truth's",
-                         "it stays: rays", "change", "truth's"), fallbacks, bench)
+                        ("cube maps in the chain", RAYS[0], SMOOTH[0], "ms"), chains, bench)
+        text += attempt("Fallbacks", "Mirror rays that no cube map could follow, in a shot of 16 frames of a moving camera, with one ray a texel and "
+                        "no reuse: their error, and how much they change from frame to frame, where their best cube map changes and where it "
+                        "stays. Change is measured as errors are; the truth's own change is beside it.",
+                        ("scene", "setting", "fallback", "rays", "error", "best map changes: rays", "their change", "the truth's change",
+                         "best map stays: rays", "their change", "the truth's change"), fallbacks, bench)
         text += attempt("When the best cube map changes", "The same frame, cube maps alone, with the best cube map chosen by nearness and by "
-                        "the ray's direction: how far the two pictures are apart, and the error.",
-                        ("scene", "fallback", "apart, mirror-like", "all", "error, mirror-like", "all"), exchanged, bench)
-        text += attempt("Importance sampling against pre-filtering", "The slides' comparison in `room`, Blinn-Phong. Noise: "
-                        "RMSE against the same pipeline's mean of 128 rays; with those, what error is left.\n\n"
-                        "![](shares.png)", ("rays : cone", "surfaces", "RMSE", "noise", "RMSE of 128 rays", "ms"), shares, bench, docs)
+                        "the ray's direction: how far the two pictures differ, and the error.",
+                        ("scene", "fallback", "difference of the two pictures, mirror-like", "difference, all", "error, mirror-like", "error, all"), exchanged, bench)
+        text += attempt("Importance sampling against pre-filtering", "The slides' comparison in `room`, Blinn-Phong. Noise is "
+                        "the RMSE against the same pipeline's mean of 128 rays; the error that is left with those stands beside it.\n\n"
+                        "![](shares.png)", ("share of rays : of cones", "surfaces", "RMSE against the truth", "noise", "RMSE left with 128 rays", "ms"), shares, bench, docs)
         text += attempt("Rays for every four pixels", "The slides' comparison in `room`. Mirror-like surfaces are resolved anew, "
                         "with one ray whatever their number.\n\n![](rays.png)",
-                        ("rays", "RMSE, mirror-like", "glossy", "rough", "noise, glossy", "noise, rough", "ms"), ray_counts, bench, docs)
+                        ("rays", "RMSE, mirror-like", "RMSE, glossy", "RMSE, rough", "noise, glossy", "noise, rough", "ms"), ray_counts, bench, docs)
         text += attempt("Noise of a shot", "A camera that stands, rough pixels: RMSE against a mean of 64 rays in each of 16 frames, as a part of "
                         "the first frame's own. Each of n frames weighs 1/n up to 16, as the slides' 15:1 has it, which leaves 1/√n; from there "
                         "on the new frame weighs 1/16, and noise settles at √(1/31) = 0.180 (`glint selftest --only noise` follows it there). With `extra`, "
                         "the first frame has up to 25 samples instead of five.",
-                        ("frames", "1/√n", "room", "street", "room, `extra`"), noise_of_frames, bench)
+                        ("frame n", "expected: 1/√n", "measured: room", "measured: street", "measured: room with `extra`"), noise_of_frames, bench)
         text += attempt("Error of a shot", "Against the truth: mean of the symmetric error, and RMSE.",
-                        ("scene", "camera", "frame", "mirror-like", "RMSE", "glossy", "RMSE", "rough", "RMSE"), frames, bench)
+                        ("scene", "camera", "frame", *(f"{figure}, {kind}" for kind in ("mirror-like", "glossy", "rough") for figure in ("error", "RMSE"))), frames, bench)
     text += f"""## Formulas
 
 By quadrature in double precision (`tests/formulas.py`).
@@ -382,11 +382,11 @@ Power of a roughness, and its angle:
 
 {angles}
 Rays whose normals are cut at a share of the angle, and the cone of a pre-filtered level around them, beside the lobe that they
-stand for, Blinn-Phong seen along the normal, without what goes below the horizon. Apart: the greatest difference of the shares
-of directions within an angle.
+stand for, Blinn-Phong seen along the normal, without directions below the horizon. *Its difference* is the greatest difference between the shares
+of directions within an angle and those of the whole lobe.
 
 {lobes}
-GGX, half of its angle by rays. A cone that held the whole tail would blur all of it; `apart` is from the whole lobe.
+GGX, half of its angle by rays. A cone that held the whole tail would blur all of it; the difference is from the whole lobe.
 
 {ggx}
 Steps of a geometric series that sum to a length:

@@ -20,7 +20,7 @@ below does not know.
 
 def share(rows):
     killed = sum(m.get("verdict") == "killed" for m in rows)
-    return [str(len(rows)), str(killed), f"{100 * killed / len(rows):.0f} %" if rows else "–"]
+    return [str(len(rows)), str(killed), f"{100 * killed / len(rows):.0f} %" if rows else "none made"]
 
 
 def reason_of(m):
@@ -83,15 +83,15 @@ def of_record(record):
              f"{late} were noticed by taking {mutant_rows.SLOWER} times as long as unchanged sources and half a minute at least. In all "
              f"{sum(m.get('seconds', 0) for m in mutants) / 60:.0f} minutes of processor time, after {sum(c['seconds'] for c in record['control'].values()) / 60:.0f} "
              f"for unchanged sources; sources {record['sources']}.\n",
-             table(["slot", "mutants", "noticed", ""], grouped(mutants, lambda m: {p.split("/")[-2] for p in m["passes"]} if not m["file"].startswith("shared/")
+             table(["slot", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: {p.split("/")[-2] for p in m["passes"]} if not m["file"].startswith("shared/")
                                                               else {"shared"})),
-             table(["what was changed", "mutants", "noticed", ""], grouped(mutants, lambda m: [m["operator"]])),
-             table(["noticed first by", "mutants"], [[f"`{name}`", str(n)] for name, n in
+             table(["what was changed", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: [m["operator"]])),
+             table(["test or case that notices first", "mutants"], [[f"`{name}`", str(n)] for name, n in
                                                      collections.Counter(m["by"] for m in mutants if "by" in m).most_common()]),
-             "Mechanisms of Mafia III's pipeline:\n", table(["mechanism", "mutants", "noticed", ""], grouped(mutants, lambda m: m["mechanisms"])),
+             "Mechanisms of Mafia III's pipeline:\n", table(["mechanism", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: m["mechanisms"])),
              "### What nobody notices\n"]
     rows = [[f"`{m['file']}`:{m['line']}", m["operator"], *parted(m["before"], m["after"]), reason_of(m) or (f"**a case is missing**: {missing(m)}" if missing(m) else "**no reason is known**")] for m in survivors]
-    return "\n".join(lines + [table(["where", "", "is", "becomes", "why it is harmless, or what case is missing"], rows).replace("---:", "---")])
+    return "\n".join(lines + [table(["where", "kind of change", "original", "mutant", "why it is harmless, or what case is missing"], rows).replace("---:", "---")])
 
 
 def write(records, path):

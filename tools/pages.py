@@ -113,15 +113,33 @@ class Times:
     def __init__(self, page=None):
         """No page: no columns."""
         self.records = [json.loads(path.read_text()) for path in sorted(RECORDS.glob("*.json"))] if page else []
-        self.page, self.heads = page, [f"ms, {r['as']}" for r in self.records]
+        self.page = page
+        self.heads = [self.head(r) for r in self.records]
+
+    def scene(self, record, scene):
+        return record["pages"].get(self.page, {}).get(scene, {})
+
+    def head(self, record, scenes=None):
+        there = record["pages"].get(self.page, {})
+        changes = any(ms["cubemaps"] for scene in scenes or there for ms in there.get(scene, {}).values())
+        return f"GPU ms a frame{' (+ when cube maps change)' if changes else ''}, {record['as']}"
 
     def cells(self, scene, key):
-        return [self.cell(r["pages"].get(self.page, {}).get(scene, {}).get(key)) for r in self.records]
+        return [self.cell(self.scene(r, scene).get(key)) for r in self.records]
+
+    def timed_columns(self, scene, keys):
+        """Heads and {key: cells} of the devices that the scene was timed on."""
+        records = [r for r in self.records if self.scene(r, scene)]
+        return [self.head(r, [scene]) for r in records], {key: [self.cell(self.scene(r, scene).get(key)) for r in records] for key in keys}
+
+    def untimed(self, scene):
+        """The devices that it was not timed on."""
+        return ", ".join(r["as"] for r in self.records if not self.scene(r, scene))
 
     @staticmethod
     def cell(ms):
         if ms is None:
-            return "–"
+            return "not timed"
         return f"{ms['frame']:.3g}" + (f" + {ms['cubemaps']:.3g}" if ms["cubemaps"] else "")
 
     def told(self):
@@ -129,4 +147,4 @@ class Times:
             return ""
         devices = "; ".join(f"{r['as']}: {r['size'].replace('x', '×')}, cube maps of {r['cube']}², median of {r['rounds']} rounds in turns"
                             + (f", the fastest of {r['tries']} times" if "tries" in r else "") for r in self.records)
-        return f"Times are of all passes of a frame, after + of work on cube maps that is done when one changes ({devices}).\n"
+        return f"GPU times are of all passes of a frame; after a + stands work on cube maps that is done only when one changes ({devices}).\n"

@@ -110,7 +110,7 @@ def record(given):
 # ---- the page ----
 
 def percent(part, of=1):
-    return f"{100 * part / of:.3g} %" if of else "–"
+    return f"{100 * part / of:.3g} %" if of else "none"
 
 
 def ran(row):
@@ -123,16 +123,16 @@ def ratio(time):
 
 
 def times(r):
-    titles = ["scene", "passes run", "planned, ms", "survey in it, ms", "`--all`, ms", "planned of `--all`", "every frame alone"]
+    titles = ["scene", "passes run", "planned, ms", "of these the survey, ms", "`--all`, ms", "planned / `--all`", "planned / `--all`, without work on cube maps"]
     return pages.table(titles, [[f"`{scene}`: {SCENES[scene]}", f"{len(ran(row))} of {len(row['passes'])}", f"{row['all']['planned']:.3f}",
                                  f"{row['survey']:.3f}", f"{row['all']['whole']:.3f}", ratio(row["all"]), ratio(row["frame"])]
                                 for scene, row in r["scenes"].items()])
 
 
 def faces(counts, kind):
-    """Of counts: faces of cube maps; "–" in records from before they were counted."""
+    """Of counts: faces of cube maps, which records from before they were counted lack."""
     done, of = counts["faces"][kind] if "faces" in counts else (0, 0)
-    return f"{done} of {of}" if of else "–"
+    return f"{done} of {of}" if of else "not counted"
 
 
 def worked(r):
@@ -144,7 +144,7 @@ def worked(r):
         part = [f"`{slot}` {percent(done, of)}" for slot, (done, of) in p["texels"].items() if 0 < done < of]
         rows.append([f"`{scene}`", percent(p["reflecting"]), f"{p['rays']} of {w['rays']} ({percent(p['rays'], w['rays'])})",
                      f"{percent(p['cubes'], w['cubes'])}", faces(p, "uploaded"), faces(p, "filtered"), ", ".join(left) or "none", ", ".join(part) or "none"])
-    return pages.table(["scene", "pixels that reflect", "rays traced of `--all`", "cube texels filtered of `--all`", "cube faces uploaded", "filtered", "passes left out", "passes in part"], rows)
+    return pages.table(["scene", "pixels that reflect", "screen rays traced, of those of `--all`", "cube-map texels filtered, of those of `--all`", "cube-map faces uploaded", "cube-map faces filtered", "passes left out", "passes over a part of their texels"], rows)
 
 
 def everything_ran(r):
@@ -168,7 +168,7 @@ def bounds(r, cpu):
     told = f"`matte` takes {matte['all']['planned']:.3f} ms, {times_read:.2f} times what reading its inputs once takes ({matte['read']:.3f} ms)"
     lines.append(told + ("." if cpu else f"; at most twice: {verdict(times_read <= 2)}."))
     late = street["all"]["planned"] - street["all"]["whole"]
-    lines.append(f"`street` later than `--all` by at most 2 % or 0.03 ms, survey included: by {late:.3f} ms, {percent(street['all']['ratio'][1] - 1)} in the "
+    lines.append(f"`street` takes at most 2 % or 0.03 ms longer than with `--all`, survey included: {late:.3f} ms, {percent(street['all']['ratio'][1] - 1)} in the "
                  f"median of the rounds; {verdict(late <= 0.03 or street['all']['ratio'][1] <= 1.02)}.")
     if "counts" in desert:
         part = desert["counts"]["planned"]["cubes"] / desert["counts"]["whole"]["cubes"]
@@ -205,14 +205,14 @@ def chart(r):
 
 
 def follows(r):
-    titles = ["pixels that reflect", *(f"{s} %" for s in SHARES), "constant, ms", "ms for each percent", "largest error of the fit"]
+    titles = ["reflecting pixels", *(f"ms at {s} %" for s in SHARES), "fit: constant, ms", "fit: ms per percent", "fit: largest relative error"]
     rows = []
     for kind in KINDS:
         found = points(r, kind)
         constant, slope, off = fit(found)
         rows.append([KINDS[kind], *(f"{y:.3f}" for _, y in found), f"{constant:.3f}", f"{slope:.4f}", percent(off)])
     whole = [[statistics.median(r["series"][f"room-{kind}-{share}"]["frame"]["whole"] for kind in KINDS) for share in SHARES]]
-    rows.append(["`--all`", *(f"{y:.3f}" for y in whole[0]), "", "", ""])
+    rows.append(["`--all`, either", *(f"{y:.3f}" for y in whole[0]), "no fit", "no fit", "no fit"])
     return pages.table(titles, rows)
 
 
@@ -222,7 +222,7 @@ def rules(r):
         found = r["scenes"][scene]["rules"]
         rows += [[f"`{scene}`: `{rule}`", percent(1 - row["rays"] / found[""]["rays"]), percent(1 - row["frame"] / found[""]["frame"]), f"{row['rms']:.2g}"]
                  for rule, row in found.items() if rule]
-    return pages.table(["rule", "rays saved on screen", "of the frame's time", "RMS difference of the picture"], rows)
+    return pages.table(["scene: parameter", "screen rays saved", "frame time saved", "RMS difference of the picture"], rows)
 
 
 def page(given):

@@ -33,59 +33,75 @@ def surface(preset, name):
 def error(row):
     """Error, and the share of pixels that it is over."""
     if row is None:
-        return "–"
-    return f"{row['symmetric']:.3f} of {100 * row['coverage']:.0f} %" if row.get("symmetric") is not None else "none"
+        return "no such surface"
+    return f"{row['symmetric']:.3f} ({100 * row['coverage']:.0f} %)" if row.get("symmetric") is not None else "none covered"
 
 
-def hits(preset):
-    """Share of rays that met something, by tracer."""
-    tracers = dict.fromkeys(e["tracer"] for e in preset["ends"])
-    return ", ".join(f"{t} {100 * sum(e['share'] for e in preset['ends'] if e['tracer'] == t and e['reason'] in FOUND):.0f}"
-                     for t in tracers) or "–"
+def kinds(compared):
+    """The classes of surfaces that the scene has, all of them together last."""
+    return [s for s in SURFACES if any(surface(p, s) for p in compared)]
 
 
-def errors(scene, compared, times):
-    rows = []
-    for p in compared:
-        row = [error(surface(p, s)) for s in SURFACES] if p["ran"] else ["–"] * len(SURFACES)
-        row += [hits(p), f"{p['steps']:.1f}", f"{p['fetches']:.1f}"] if p["ran"] and p["rays"] else ["–"] * 3
-        rows.append([f"`{p['preset']}`", *row, *times.cells(scene, p["preset"])])
-    return table(["", *SURFACES, "rays that met something, %", "steps", "fetches", *times.heads], rows)
+def errors(compared):
+    """Over what each preset covers."""
+    there = kinds(compared)
+    rows = [[f"`{p['preset']}`", *(error(surface(p, s)) if p["ran"] else "failed" for s in there)] for p in compared]
+    return table(["preset", *(f"error, {s} (covered)" for s in there)], rows)
 
 
 def shared(compared):
-    """Errors over the pixels that every preset gives."""
+    """Over the pixels that every preset covers."""
     def cell(p, name):
         both = (surface(p, name) or {}).get("shared")
-        return f"{both['symmetric']:.3f}" if both else "–"
+        return f"{both['symmetric']:.3f}" if both else "none shared"
 
-    rows = [[f"`{p['preset']}`", *(cell(p, s) for s in SURFACES)] for p in compared if p["ran"] and surface(p, "all")]
-    return table(["shared", *SURFACES], rows)
+    there = kinds(compared)
+    rows = [[f"`{p['preset']}`", *(cell(p, s) for s in there)] for p in compared if p["ran"] and surface(p, "all")]
+    return table(["preset", *(f"error, {s}" for s in there)], rows)
+
+
+def cost(scene, compared, times):
+    """What rays found and what finding it took."""
+    tracers = dict.fromkeys(e["tracer"] for p in compared if p["ran"] for e in p["ends"])
+
+    def found(p, tracer):
+        ends = [e for e in p["ends"] if e["tracer"] == tracer]
+        return f"{100 * sum(e['share'] for e in ends if e['reason'] in FOUND):.0f} %" if ends else "not used"
+
+    heads, cells = times.timed_columns(scene, [p["preset"] for p in compared])
+    rows = [[f"`{p['preset']}`", *([*(found(p, t) for t in tracers), f"{p['steps']:.1f}", f"{p['fetches']:.1f}"]
+                                   if p["ran"] and p["rays"] else ["no rays"] * (len(tracers) + 2)), *cells[p["preset"]]] for p in compared]
+    text = table(["preset", *(f"rays that found a surface or the sky, {t}" for t in tracers), "steps per ray", "texture fetches per ray", *heads], rows)
+    missing = times.untimed(scene)
+    return text + (f"\nNo GPU times: this scene was not among those timed on {missing}.\n" if missing else "")
 
 
 def over(compared):
     """The finished picture where water or glass covers what the other tables compare."""
     parts = dict.fromkeys(o["part"] for p in compared if p["ran"] for o in p["over"])
+
     def cell(p, part):
         there = next(o for o in p["over"] if o["part"] == part)
-        return f"{there['symmetric']:.3f}" + ("" if there["drawn"] else ", not drawn")
+        return f"{there['symmetric']:.3f}" + ("" if there["drawn"] else " (not drawn by this preset)")
 
     rows = [[f"`{p['preset']}`", *(cell(p, part) for part in parts)] for p in compared if p["ran"]]
-    return "\nThe finished picture against the capture's, where these cover the opaque surfaces:\n\n" + table(["", *parts], rows) if parts else ""
+    return ("\nError of the finished picture, against the capture's own, where something of these kinds covers the opaque surfaces:\n\n"
+            + table(["preset", *(f"error, {part}" for part in parts)], rows)) if parts else ""
 
 
 def ends(compared):
     """Why rays ended: a row for each reason that occurs, a column for each preset with rays."""
     traced = [p for p in compared if p["ran"] and p["rays"]]
-    kinds = dict.fromkeys((e["tracer"], e["reason"]) for p in traced for e in p["ends"])
+    reasons = dict.fromkeys((e["tracer"], e["reason"]) for p in traced for e in p["ends"])
     rows = []
-    for kind in sorted(kinds, key=lambda k: [*dict.fromkeys(t for t, _ in kinds)].index(k[0])):
+    for kind in sorted(reasons, key=lambda k: [*dict.fromkeys(t for t, _ in reasons)].index(k[0])):
         row = [f"{kind[0]}: {kind[1].replace('_', ' ')}"]
         for p in traced:
             end = next((e for e in p["ends"] if (e["tracer"], e["reason"]) == kind), None)
-            row.append("" if end is None else f"{100 * end['share']:.1f}" + (f", {end['error']:.3f}" if end["error"] is not None else ""))
+            row.append("none" if end is None else
+                       f"{100 * end['share']:.1f} %" + (f" ({end['error']:.3f})" if end["error"] is not None else ""))
         rows.append(row)
-    return table(["ended", *(f"`{p['preset']}`" for p in traced)], rows) if rows else ""
+    return table(["tracer: why it ended the ray", *(f"`{p['preset']}`, rays (error)" for p in traced)], rows) if rows else ""
 
 
 def notes(compared):
@@ -94,16 +110,16 @@ def notes(compared):
         said = "; ".join(filter(None, (p.get("failure") or p.get("not_compared"), p["notes"])))
         if said:
             lines.append(f"- `{p['preset']}`{'' if p['ran'] else ' failed'}: {said}")
-    return "\n".join(lines) + ("\n" if lines else "")
+    return "Passes that the plan left out, and why:\n\n" + "\n".join(lines) + "\n" if lines else ""
 
 
 def summary(found, names):
     def cell(name, compared):
         p = next(p for p in compared if p["preset"] == name)
         row = surface(p, "all") if p["ran"] else None
-        return "nothing reflects" if p["ran"] and row is None else error(row)
+        return "nothing reflects" if p["ran"] and row is None else error(row) if p["ran"] else "failed"
 
-    return table(["", *found], [[f"`{n}`", *(cell(n, c) for c in found.values())] for n in names])
+    return table(["preset", *(f"{scene}: error (covered)" for scene in found)], [[f"`{n}`", *(cell(n, c) for c in found.values())] for n in names])
 
 
 def measure(glint, scenes, names, docs):
@@ -124,10 +140,22 @@ def section(scene, compared, times):
 
 ![{scene}: the true reflection, what each preset gives, its error, the composed picture](presets-{scene}.jpg)
 
-{errors(scene, compared, times)}"""
-    if any(p.get("surfaces") for p in compared):
-        text += "\n" + shared(compared) + over(compared)
-        text += f"\nWhy rays ended: share of all rays in %, error of their pixels.\n\n{ends(compared)}"
+"""
+    if kinds(compared):
+        text += f"""Error of the reflection over the pixels that each preset covers, by class of surface, and the share of them that it covers:
+
+{errors(compared)}
+The same over the pixels that every preset covers:
+
+{shared(compared)}{over(compared)}
+What rays found, and what it took:
+
+{cost(scene, compared, times)}
+Why rays ended: the share of all rays, and in brackets the error of their pixels:
+
+{ends(compared)}"""
+    else:
+        text += "No pixel reflects here, so that no preset traces a ray or takes GPU time for a pass.\n"
     told = notes(compared)
     return text + (f"\n{told}" if told else "")
 
@@ -136,13 +164,15 @@ def write(docs, found, names):
     times = Times("presets")
     (docs / "presets.md").write_text(f"""# Presets beside each other
 
-Generated by `./dev docs` (`glint compare`): every preset on the same captures, {SIZE.replace('x', '×')} with cube maps of {CUBE}²
-and a truth of {TRUTH} rays a pixel. Fog is off, which the truth lacks.
-{times.told()}
-Each cell: **error** of the reflection where the preset gives one, the mean of |found − truth| over their sum (0 to 1),
-**of** the share of reflecting pixels for which it does: at least half of what is there is its own, by the reflection's
-alpha and, for presets that weigh their reflections, their weight. What gives little may give only what is easy: **shared** is the error over
-the pixels that every preset gives. The truth is the lobe that the preset draws from; its own noise is in all figures alike.
+Generated by `./dev docs`, which runs `glint compare`: every preset on the same captures, {SIZE.replace('x', '×')} with cube maps of {CUBE}²
+and a truth of {TRUTH} rays a pixel, without fog.
+
+- **Error** is the [symmetric error](metrics.md#values) of the reflection against the path traced truth: 0 is right, 1 is as wrong as can be. The
+  truth is of the lobe that each preset draws from, and its own noise is in all errors alike.
+- **Covered** is the share of the reflecting pixels for which a preset gives a reflection of its own: at least half of what is there, by the reflection's
+  alpha and by the weight of presets that weigh their reflections. A preset that covers little may cover only what is easy; hence the tables over the pixels
+  that every preset covers.
+- {times.told().strip() or 'No device has been timed.'}
 
 {summary(found, names)}{"".join(section(scene, compared, times) for scene, compared in found.items())}""")
 

@@ -9,10 +9,11 @@ record, all else from the one with the most rays."""
 import argparse
 import json
 import pathlib
+import re
 import shutil
 import tempfile
 
-from pages import HERE, KINDS, options, run, sample, table
+from pages import HERE, KINDS, options, preset, run, sample, table
 
 RECORDS = HERE / "records/reference"
 SCENES = ("street", "room")
@@ -115,44 +116,52 @@ def pixels(record):
 def times_table(records):
     rows = [[f"{r['as']}, `{scene}`", told(r["size"]), f"{r['rays'][-1]}", f"{found['seconds']:.1f} s", f"{1e6 * found['seconds'] / pixels(r) / r['rays'][-1]:.3g} µs",
              f"{found['process_bytes'] / 2**20:.0f} MiB", f"{found['folder_bytes'] / 2**20:.1f} MiB"] for r in records for scene, found in r["scenes"].items()]
-    return table(["device, scene", "picture", "rays", "all", "a ray", "process", "folder"], rows)
+    return table(["device, scene", "picture", "rays a pixel", "total time", "time of a ray", "peak memory of the process", "size of the folder"], rows)
 
 
 def noise_table(record):
-    cell = lambda found, kind: f"{found[kind]['error']:.4f}, {100 * found[kind]['relative']:.1f} %" if found else "–"
+    cell = lambda found, kind: f"{found[kind]['error']:.4f} ({100 * found[kind]['relative']:.1f} %)" if found else "not measured"
     rows = [[f"`{scene}`, {kind}", f"{n}", cell(found["noise"][str(n)], kind), cell(found["independent"].get(str(n)), kind)]
             for scene, found in record["scenes"].items() for kind in KINDS for n in record["rays"]]
-    return table(["scene, surfaces", "rays", "standard error, of the mean", "with independent rays"], rows)
+    return table(["scene, surfaces", "rays a pixel", "standard error (relative to the mean)", "the same with independent rays"], rows)
 
 
 def sensitivity_table(record):
     scenes = list(record["scenes"].values())
-    cell = lambda row: f"{row['rmse']:.3f}, {100 * row['relative']:.1f} %"
+    cell = lambda row: f"{row['rmse']:.3f} ({100 * row['relative']:.1f} %)"
     rows = [[f"`{first['parameter']}`", f"{first['value']:g}", f"{first['tried']:g}"] + [cell(f["sensitivity"][i]) for f in scenes]
             for i, first in enumerate(scenes[0]["sensitivity"])]
-    return table(["assumed", "value", "tried", *(f"`{scene}`: RMSE, of the mean" for scene in SCENES)], rows)
+    return table(["assumed parameter", "its value", "value tried", *(f"`{scene}`: RMSE between both (relative to the mean)" for scene in SCENES)], rows)
 
 
 def mirror_table(record, names):
     rows = [[name] + [cell for f in record["scenes"].values() for cell in (f"{100 * f['mirror'][name]['right']:.1f} %", f"{f['mirror'][name]['rmse']:.3f}")]
             for name in names]
-    return table(["mirror rays", *(title for scene in SCENES for title in (f"`{scene}`: right", "RMSE"))], rows)
+    return table(["tracer", *(title for scene in SCENES for title in (f"`{scene}`: right rays", f"`{scene}`: RMSE"))], rows)
 
 
 def skip_table(record):
     rows = [[f"`{scene}`", f"{100 * f['mirror'][CHOSEN]['cubemap_ns'] / f['mirror'][CHOSEN]['ns']:.0f} %",
              f"{f['mirror'][CHOSEN]['cubemap_ns'] / f['mirror'][UNSKIPPED]['cubemap_ns']:.2f}"] for scene, f in record["scenes"].items()]
-    return table(["mirror rays", "`cubemap_trace/exact`, part of the time", "its time with `skip` / without"], rows)
+    return table(["scene", "share of the time that `cubemap_trace/exact` takes", "its time with `skip` / without"], rows)
 
 
 def parts_table(record):
     rows = [[f"`{scene}`, `{preset}`, {kind}", *(f"{found[key][kind]:.3f}" for key in ("against_reference", "missing_information", "against_truth"))]
             for scene, f in record["scenes"].items() for preset, found in f["parts"].items() for kind in ("all", *KINDS)]
-    return table(["scene, preset, surfaces", "algorithms", "missing information", "together"], rows)
+    return table(["scene, preset, surfaces", "algorithms: preset against reference", "missing information: reference against truth", "together: preset against truth"], rows)
 
 
 def told(size):
     return size.replace("x", "×")
+
+
+def helps(names):
+    """What the handbook says of parameters of the preset reference."""
+    variants = preset("reference")["slots"]
+    sections = dict(re.findall(r"^#### `([^`]+)`\n(.*?)(?=^#|\Z)", (HERE.parent / "docs/passes.md").read_text(), re.M | re.S))
+    rows = {name: re.search(rf"^\| {re.escape(name)} \|.*\| ([^|]+) \|$", sections[f"{(slot := name.split('.')[0])}/{variants[slot]}"], re.M) for name in names}
+    return {name: re.sub(r" \(assumed: [^)]*\)$", "", row[1]) for name, row in rows.items()}
 
 
 def page(given):
@@ -162,7 +171,7 @@ def page(given):
     places = {
         "DEVICE": f"{best['as']}, {told(best['size'])}, cube maps of {best['cube']}²", "TRUTH": best["truth"], "RAYS": f"{best['rays'][-1]}",
         "TIMES": times_table(records), "NOISE": noise_table(best), "SENSITIVITY": sensitivity_table(best), "SENSITIVITY_RAYS": f"{best['sensitivity_rays']}",
-        "ASSUMED": "\n".join(f"- `{name}`: {words}" for name, words in best["assumed"].items()) + "\n",
+        "ASSUMED": "\n".join(f"- `{name}`: {words}" for name, words in helps(best["assumed"]).items()) + "\n",
         "TRACES": mirror_table(best, [name for name, _ in TRACES]), "SKIP": skip_table(best), "UNSKIPPED": mirror_table(best, [CHOSEN, UNSKIPPED]),
         "MIRROR": f"{told(MIRROR_SIZE)}, cube maps of {MIRROR_CUBE}², truth of {MIRROR_TRUTH} rays", "PARTS": parts_table(best),
     }

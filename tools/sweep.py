@@ -179,10 +179,10 @@ def rows(found):
         yield [steps, *cells, f"{statistics.mean(s['fetches'] for s in curves['both'][steps]):.0f}"]
     full, own, half = found["reference"], found["own"], told(*estimate(found["half"], "reference"))
     between, truth = told(*estimate(own, "reference")), told(*estimate(full, "truth"))
-    yield ["the reference", "0", "–", "0", "–", "0", truth, truth, truth, f"{statistics.mean(s['fetches'] for s in full):.0f}"]
-    yield ["the march's limit", "–", "0", between, "0", between, "–", *[told(*estimate(own, "truth"))] * 2,
+    yield ["the reference", "0", "n/a", "0", "n/a", "0", truth, truth, truth, f"{statistics.mean(s['fetches'] for s in full):.0f}"]
+    yield ["the march's limit", "n/a", "0", between, "0", between, "n/a", *[told(*estimate(own, "truth"))] * 2,
            f"{statistics.mean(s['fetches'] for s in own):.0f}"]
-    yield ["the same by half texels", "–", half, "–", half, "–", "–", "–", "–", f"{statistics.mean(s['fetches'] for s in found['half']):.0f}"]
+    yield ["the march's limit in half texels", "n/a", half, "n/a", half, "n/a", "n/a", "n/a", "n/a", f"{statistics.mean(s['fetches'] for s in found['half']):.0f}"]
 
 
 def fall(found, key, answer):
@@ -213,7 +213,7 @@ def page(given):
     text = pathlib.Path(__file__).with_name("sweep.md.in").read_text()
     parts = []
     for scene, found in record["scenes"].items():
-        titles = ["steps", *(f"{CURVES[key][0]}, {ANSWERS[answer]}" for key, answer in COLUMNS), "fetches a ray, both"]
+        titles = ["steps", *(f"RMSE of {CURVES[key][0]} against {ANSWERS[answer]}" for key, answer in COLUMNS), "texture fetches a ray, both tracers"]
         parts.append(f"## {scene}\n\n![{scene}: error against the reference](sweep-{scene}-reference.svg)\n"
                      f"![{scene}: error against the truth](sweep-{scene}-truth.svg)\n\n{pages.table(titles, rows(found))}\n" + "\n".join(falls(found)))
     for name, value in {"SIZE": record["size"].replace("x", "×"), "CUBE": record["cube"], "RAYS": record["rays"], "SETS": record["sets"],

@@ -65,14 +65,14 @@ def percent(value):
 
 
 def quality(record, rows, times):
-    timing = ' µs trace | µs pyramid |' if times else ''
-    lines = ['| | ' + ' | '.join(record['small']) + ' | cells or samples | fetches |' + timing, '| --- |' + ' --- |' * (len(SCENES) + (4 if times else 2))]
-    lines.append('| oracle | ' + ' | '.join(f"{percent(record['small'][s]['oracle']['recall'])}, 100" for s in SCENES) + ' | | |' + (' | |' if times else ''))
+    timing = ' µs of the trace | µs of the pyramid |' if times else ''
+    lines = ['| trace | ' + ' | '.join(f'{s}: recall, precision, %' for s in record['small']) + ' | cells or samples per ray | texture fetches per ray |' + timing, '| --- |' + ' --- |' * (len(SCENES) + (4 if times else 2))]
+    lines.append('| oracle | ' + ' | '.join(f"{percent(record['small'][s]['oracle']['recall'])}, 100" for s in SCENES) + ' | none | none |' + (' none | none |' if times else ''))
     for name, variant, _ in rows:
         found = [record['small'][s]['rows'][name] for s in SCENES]
         timed = [times['small'][s]['rows'][name] for s in SCENES] if times else []
         mean = lambda key, of: sum(row[key] for row in of) / len(of)
-        pyramid = f"{1000 * mean('pyramid_ms', timed):.0f}" if times and variant == 'hiz' else ''
+        pyramid = f"{1000 * mean('pyramid_ms', timed):.0f}" if times and variant == 'hiz' else 'none'
         timing = f" {1000 * mean('trace_ms', timed):.0f} | {pyramid} |" if times else ''
         lines.append(f'| {name} | ' + ' | '.join(f"{percent(r['recall'])}, {percent(r['precision'])}" for r in found)
                      + f" | {mean('steps', found):.1f} | {mean('fetches', found):.1f} |{timing}")
@@ -80,7 +80,7 @@ def quality(record, rows, times):
 
 
 def wrong(record):
-    lines = ['| `hiz` | missed: went behind, left the screen, exhausted | wrong: truly hidden, truly seen, truly sky | wrong: too early, too late |', '| --- | --- | --- | --- |']
+    lines = ['| `hiz` in | missed, %: went behind, left the screen, out of steps | wrong, %: truly hidden, truly visible, truly sky | wrong, %: too early, too late |', '| --- | --- | --- | --- |']
     for scene in SCENES:
         r = record['small'][scene]['rows']['`hiz`']
         missed = [percent(r['missed'].get(k, 0)) for k in ('behind', 'left_screen', 'steps_exhausted')]
@@ -89,7 +89,7 @@ def wrong(record):
 
 
 def long_rays(record):
-    lines = ['| 1920×1080, rays over 64 pixels | `hiz`: cells, fetches | `dda`: texels | part |', '| --- | --- | --- | --- |']
+    lines = ['| rays over 64 pixels at 1920×1080 | `hiz`: cells, fetches | `dda`: texels | fetches of `hiz` / texels of `dda` |', '| --- | --- | --- | --- |']
     for scene, found in record['large'].items():
         h, d = found['rows']['`hiz`'], found['rows']['`dda`']
         lines.append(f"| {scene} | {h['long_steps']:.1f}, {h['long_fetches']:.1f} | {d['long_steps']:.1f} | {h['long_fetches'] / d['long_steps']:.3f} |")
@@ -98,7 +98,7 @@ def long_rays(record):
 
 def distances(record):
     names = [row[0] for row in TRACES[4:]]
-    lines = ['| median error of a hit\'s distance, % | ' + ' | '.join(SCENES) + ' | fetches |', '| --- |' + ' --- |' * (len(SCENES) + 1)]
+    lines = ['| trace | ' + ' | '.join(f'median error of the distance of hits, {s}, %' for s in SCENES) + ' | texture fetches per ray |', '| --- |' + ' --- |' * (len(SCENES) + 1)]
     for name in names:
         found = [record['small'][s]['rows'][name] for s in SCENES]
         lines.append(f'| {name} | ' + ' | '.join(f"{100 * r['median_error']:.2f}" for r in found)

@@ -77,14 +77,14 @@ def scene(record, one):
     for key, name in names.items():
         told = one["contenders"][key]
         cost = (interval(told["ms"], "median"),) if record["cost"] == "ms" else (f"{told['fetches_px']:.2f}",)
-        kinds = [f"{told['errors'][kind]['value']:.4f}" if kind in told["errors"] else "–" for kind in pages.KINDS]
-        difference = "–"
+        kinds = [f"{told['errors'][kind]['value']:.4f}" if kind in told["errors"] else "no such surface" for kind in pages.KINDS]
+        difference = "is the tuned one"
         if key != "tuned":
             d = one[f"tuned_less_{key}"]["all"]
             difference = f"{d['value']:+.4f} [{d['low']:+.4f} {d['high']:+.4f}]: {d['verdict']}"
         if record["cost"] == "ms":
             part = told["tuned_takes"]
-            cost += ("–" if key == "tuned" else f"{interval(part, 'median', 3)}: {part['verdict']}",)
+            cost += ("is the tuned one" if key == "tuned" else f"{interval(part, 'median', 3)}: {part['verdict']}",)
         rows.append((name, interval(told["errors"]["all"]), *kinds, difference, *cost))
     return rows
 
@@ -93,8 +93,8 @@ def chapter(record):
     units, cost = ("fetches a pixel",), "texture fetches of the traces a pixel, which no device changes"
     if record["cost"] == "ms":
         part = "of " + " and ".join(f"`{slot}`" for slot in record["slots"].split(",")) if record.get("slots") else "of a whole frame"
-        units, cost = ("GPU time, ms", "tuned takes"), f"GPU time {part}, medians of {record['repeat']} rounds in turns with their 95 % intervals"
-    lines = [f"## {record['as']}, {record['size'].replace('x', '×')}", "",
+        units, cost = ("GPU time, ms", "time of tuned / of this"), f"GPU time {part}, medians of {record['repeat']} rounds in turns with their 95 % intervals"
+    lines = [f"## {record['as'][0].upper()}{record['as'][1:]}, {record['size'].replace('x', '×')}", "",
              f"Cost: {cost}; errors against a reference of {record['rays']} rays a pixel; a search of {record['tries']} points.", ""]
     for budget, found in sorted(record["budgets"].items(), key=lambda b: -int(b[0])):
         lines += [f"### At {budget} % of `mafia3`'s cost", ""]
@@ -104,29 +104,19 @@ def chapter(record):
             lines += [f"{found['none'].capitalize()}.", ""]
             continue
         for one in found["confirmed"]:
-            lines += [f"`{one['capture']}`{', not tuned on' if one['unseen'] else ''}:", ""]
-            lines += [pages.table(("", "RMSE", *pages.KINDS, "tuned errs more than this by", *units), scene(record, one)), ""]
+            lines += [f"`{one['capture']}`{', held out' if one['unseen'] else ''}:", ""]
+            lines += [pages.table(("pipeline", "RMSE, all surfaces", *(f"RMSE, {kind}" for kind in pages.KINDS), "RMSE of tuned − of this", *units), scene(record, one)), ""]
         if not found["scaled"]["within"]:
-            lines += [f"All steps scaled do not get there: with one of each they cost {found['scaled']['cost']:.4g}.", ""]
+            lines += [f"Scaling all steps does not reach the budget: with one step of each they cost {found['scaled']['cost']:.4g}.", ""]
         moved = "; ".join(f"`{m['name']}` {m['from']} → {m['to']}" for m in found["provenance"]["moved"])
-        lines += [f"What moved: {moved}.", ""]
+        lines += [f"Parameters that the search changed: {moved}.", ""]
     return lines
 
 
 def page(records, docs):
     """Of files; those of devices lie in tools/records/tune."""
     told = [json.loads(pathlib.Path(file).read_text()) for file in (*records, *sorted(RECORDS.glob("*.json")))]
-    lines = ["# What tuning buys", "",
-             "Written by `./dev docs` (tools/tune.py). `glint tune` looks for the least error within a budget: here at half and a quarter of what "
-             "the traces of `mafia3` cost, tuned on `street` and `room` together and then measured on `hotel`, too, which it has not seen. Beside it "
-             "stands what one does without a search: all counts of steps and cells times one factor. The largest factor within the budget is found "
-             "first; what that costs on each scene is then all that the search may use there, and its error on each scene is what the search has to "
-             "beat. Times of a few rounds are off by some per cent: what was found is measured again in turns with the scaled one, and where it takes more, or "
-             "leaves time unused, the search's times are corrected by that, and it goes on for a fourth of its points. Of all points then the one is taken "
-             "that errs least and, measured, keeps the time. In the end all is measured anew, in turns, and at equal cost: the factor that stands beside a scene "
-             "is the least with which all steps scaled cost no less than the tuned one does there. *Tuned errs more than this by* is the difference of both "
-             "errors with its 95 % interval, paired over tiles; *tuned takes* is the part of the other's time, round by round, with its 95 % interval: *less* and *more* where the interval lies on one "
-             "side of zero or of one, else *equal*. Errors are of the reflection before it is composed.", ""]
+    lines = [(pages.HERE / "tune.md.in").read_text(encoding="utf-8")]
     for record in told:
         lines += chapter(record)
     (docs / "tune.md").write_text("\n".join(lines).rstrip() + "\n")
