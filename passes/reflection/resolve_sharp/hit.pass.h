@@ -9,7 +9,7 @@ CHOICE2(ndf, ggx, blinn_phong, ggx, "Mafia III talk, Modified NDF; GGX is its fu
 PUSH(float, sharp_roughness, 0.1,   0.0, 1.0,  "1", "Mafia III talk, Color resolve passes", "max roughness that is resolved at full resolution; 0: perfect mirrors only")
 PUSH(float, blend,          0.02,  0.0, 1.0,  "1", "glint", "range of roughness below that limit over which the upscaled reflection takes over; 0: a hard switch")
 NEEDS_BY(smooth, sharp_roughness)
-DISPATCH_TILES_BY(smooth, sharp_roughness)
+DISPATCH_LIST_BY(tile_list, smooth, sharp_roughness)
 PUSH(float, threshold,      0.1,  0.001, 0.999, "1", "Mafia III talk, Combining importance sampling with pre-filtering", "lobe value at the rim of the cone, which represents the whole lobe here")
 PUSH(float, cone_factor,    1.0,   0.0, 8.0,  "1", "chosen by the measured error", "factor on the cone's angle; 0: rays without a cone")
 ALONG_RAYS(cubemap_color, normal_full)
