@@ -159,6 +159,7 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
+#define TAKEN "tile_texel(scale): tile_count(), workgroup_index()"
 #define TILES                                                                                                          \
     "make_list(list, phase, scale): mark_region(list, scale), place_region(list), header_word(place, ends), "          \
     "kind_of(tile, found), tile_at(tile), place_of(tile), those_of(word, kind), set_word(lane, word), "                \
@@ -169,9 +170,9 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
 static const struct image_case list[] = {
     {{"list of tiles", "eight pictures from 1 x 1, empty ones too: tiles by the classes that they hold, in the order of the picture's regions and of their columns, and the ranges of them that passes run over", TILES, "words", 0, "integers"}, check_tiles, NULL, with_classes},
     {{"list of rays", "the same by what rays start from", TILES, "words", 0, "integers"}, check_tiles, NULL, of_rays},
-    {{"texels of tiles", "each once, in a tile that shows reflections or in the rest", TEXELS, "texels", 0, "integers"}, check_texels, TEXELS, whole_texels},
-    {{"texels of tiles at half resolution", "the same of blocks of 2 x 2", TEXELS, "texels", 0, "integers"}, check_texels, TEXELS, half_texels},
-    {{"texels of a list of rays", "the same by the list of rays", TEXELS, "texels", 0, "integers"}, check_texels, TEXELS, of_rays},
+    {{"texels of tiles", "each once, in a tile that shows reflections or in the rest", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, whole_texels},
+    {{"texels of tiles at half resolution", "the same of blocks of 2 x 2", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, half_texels},
+    {{"texels of a list of rays", "the same by the list of rays", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, of_rays},
 };
 /* clang-format on */
 
