@@ -71,7 +71,7 @@ static void expect_list(struct gpu *gpu, const char *name, bool unfinished, uint
         assert_int_equal(list[RANGES_AT + 2 * range], first[range]);
         assert_int_equal(list[RANGES_AT + 2 * range + 1], size[range]);
         for (uint32_t i = 0; i < 3; ++i) {
-            const uint32_t header[4] = {(size[range] + (16 << i) - 1) / (16 << i), 1, 1, size[range]};
+            const uint32_t header[4] = {(size[range] + (16u << i) - 1) / (16u << i), 1, 1, size[range]};
             assert_memory_equal(&list[12 * range + 4 * i], header, sizeof header);
         }
     }
