@@ -38,6 +38,11 @@ class Kind:
 # Written images have no format in GLSL, so that the host may store them as half or float without a compile.
 BINDING = 'layout(set = 0, binding = __LINE__) uniform $kind $image;'
 WRITTEN = 'layout(set = 0, binding = __LINE__) uniform writeonly $kind $image;'
+OPTIONAL = BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;'
+LIST = OPTIONAL.replace('$kind', 'utextureBuffer').replace('$image', '$list')
+# The second row that C gets of a DISPATCH_LIST.
+READ_LIST = ('}, {.kind = GLINT_ROW_READ, .id = __LINE__, .name = #$list, .glsl = "utextureBuffer", .optional = true, '
+             '.format = GLINT_FORMAT_R32UI, .size = GLINT_SIZE_LIST, .nothing = 0xFFFFFFFFu')
 IMAGE = ('.name = #$image, .glsl = #$kind, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, .unit = $unit, '
          '.channels = $channels, .nothing = (double)($nothing), .help = $meaning')
 VALUE = ('.name = #$name, .type = VALUE_##$type, .initial = (double)($initial), .lowest = (double)($lowest), '
@@ -73,7 +78,7 @@ KINDS = [
          'A READ of an image that need not exist. has_NAME is false in the shader when no pass makes it, and its "nothing" value is bound.',
          row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
              '.nothing = (double)($nothing)',
-         bindings=BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;', as_kind='READ'),
+         bindings=OPTIONAL, as_kind='READ'),
     Kind('READ_OWN', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
          row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
     Kind('HISTORY', 'kind, name, image',
@@ -83,8 +88,8 @@ KINDS = [
     Kind('WRITE', 'kind, image, format, unit, size, channels, nothing, meaning',
          'An image that this pass makes. An image with levels (a size class ..._MIPS) is written one level at a time: dispatch_level, whose size '
          'imageSize() gives. Cube maps are written as image2DArray: layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), which is '
-         'gl_GlobalInvocationID.z. A LIST is a buffer of uints (uimageBuffer, read as utextureBuffer): words 0 to 2 are workgroup counts, '
-         'word 3 is the number of items, and the items begin at word 256. Nothing clears it; what lies behind the items is the maker\'s own.',
+         'gl_GlobalInvocationID.z. A LIST is a buffer of uints (uimageBuffer, read as utextureBuffer) of tiles, laid out as in '
+         'shared/work_list.h. Nothing clears it; what lies behind the items is the maker\'s own.',
          row=IMAGE, bindings=WRITTEN),
     Kind('DIAGNOSTIC', 'kind, image, format, unit, size, channels, nothing, meaning',
          'A WRITE that is made only when diagnostics are on; a stand-in of 1 x 1 is bound otherwise.', row=IMAGE, bindings=WRITTEN),
@@ -113,7 +118,7 @@ KINDS = [
     # The dispatches of a pass run in the order of their rows. dispatch_phase is the row's number among them, from 0: a constant, so that the
     # code of other phases costs nothing even on devices that do not skip a branch that no invocation takes.
     Kind('DISPATCH', 'image',
-         'One invocation for each pixel of an image, for cube maps in each face; over a list, one workgroup for each 32 x 32 pixels of HALF.',
+         'One invocation for each pixel of an image, for cube maps in each face; over a LIST, one workgroup for each 64 x 64 pixels of the picture.',
          row='.name = #$image'),
     Kind('DISPATCH_LEVELS', 'image, first, last, order',
          'One dispatch for each level of an image from first to last, both included, in the order `down` (fine to coarse) or `up`; negative '
@@ -123,17 +128,15 @@ KINDS = [
          'DISPATCH_LEVELS that counts from the finest level that is no wider than the parameter: 0 is that one, -1 the next finer; numbers '
          'beyond the existing levels are clamped to them.',
          row='.name = #$image, .assigned = #$width, .first = $first, .last = $last, .order = GLINT_ORDER_##$order', as_kind='DISPATCH_LEVELS'),
-    Kind('DISPATCH_LIST', 'list',
-         'Behind a DISPATCH and instead of it when a pass makes the list: one invocation for each item, 64 to a workgroup, in the phase of this '
-         'row. A workgroup also writes what the pass says of the image\'s tile of the same number where the list leaves pixels out: a list has at '
-         'least as many workgroups as HALF has tiles (shared/work_list.glsl). Several rows give several lists, each a phase.',
-         row='.name = #$list'),
-    Kind('DISPATCH_TILES', 'range',
-         'Behind a DISPATCH and instead of it when a pass makes tile_list: over the tiles of that range (shared/tile_ranges.h), and with '
-         'tile_works false over the others, to write what the images hold there (shared/tiles.glsl).', row='.name = #$range'),
-    Kind('DISPATCH_TILES_BY', 'range, parameter',
-         'DISPATCH_TILES of the range smooth or rough, whose limit is the parameter: the largest roughness of a smooth surface, the smallest of a '
-         'rough one.', row='.name = #$range, .image = #$parameter', as_kind='DISPATCH_TILES'),
+    Kind('DISPATCH_LIST', 'list, range',
+         'Behind a DISPATCH and instead of it when a pass makes this list: over the tiles of that range (shared/work_list.h), and with tile_works '
+         'false over the others, to write what the images hold there. The shader gets its texel from tile_texel() (shared/work_list.glsl). Of '
+         'several rows the first whose list is made counts. The list is an OPTIONAL_READ, too.',
+         row='.name = #$list, .first = RANGE_##$range' + READ_LIST, bindings=LIST),
+    Kind('DISPATCH_LIST_BY', 'list, range, parameter',
+         'DISPATCH_LIST of the range smooth or rough, whose limit is the parameter: the largest roughness of a smooth surface, the smallest of a '
+         'rough one.', row='.name = #$list, .image = #$parameter, .first = RANGE_##$range' + READ_LIST,
+         bindings=LIST, as_kind='DISPATCH_LIST'),
     Kind('WORKGROUP', 'width, height', 'Invocations of a workgroup; 8 x 8 without this row.', row='.name = "", .first = $width, .last = $height'),
     Kind('BLOCKS', 'across',
          'On a CPU an invocation works on so many texels each way, from BLOCK * gl_GlobalInvocationID on; on a GPU, where neighbouring '

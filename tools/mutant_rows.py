@@ -80,7 +80,7 @@ HARMLESS = {
         "on this device a quotient of equals is 1; on others it may be 2.5 ULP beside it, and there the cases of facets notice",
     ("reflection/cubemap_trace/exact.comp", "walk.t = beyond * (1.0 + 1e-6) + 1e-6;", "walk.t = beyond * (1.0 + 1e-6) + 0.0;"):
         "a ray that rounding leaves at the border of a cell finds nothing beyond it on any level, and then goes on by a part of a texel as ever",
-    ("reflection/classify_tiles/maker.glsl", "uint rows = max((groups + 32767u) / 32768u, 1u);", "uint rows = max((groups + 32768u) / 32768u, 1u);"):
+    ("shared/list_maker.glsl", "rows = max((groups + 32767u) / 32768u, 1u);", "rows = max((groups + 32768u) / 32768u, 1u);"):
         "at a multiple of 32,768 workgroups a row more of them, whose places lie beyond the list's count",
     ("prepare/downsample/pick.comp", "ivec2 block = 2 * pixel, last = ivec2(frame.size.xy) - 1;", "ivec2 block = 2 * pixel, last = ivec2(frame.size.xy) + 1;"):
         "choose() looks at no pixel outside of the picture, whatever was fetched there",

@@ -4,10 +4,9 @@ layout(constant_id = 0) const bool diagnostics = false;
 layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/tell.glsl)
 layout(constant_id = 3) const bool halves = true; // false: images declared as half floats are full floats
 layout(constant_id = 4) const uint dispatch_phase = 0u; // the number of this dispatch among the pass's rows DISPATCH…
-const uint ALL_TILES = 0xFFFFFFFFu; // there is no list of tiles: the dispatch covers the whole image
+const uint ALL_TILES = 0xFFFFFFFFu; // no list: the dispatch covers the whole image
 layout(constant_id = 995) const bool filter_by_hand = false; // cube maps are filtered by shared/cube_filter.glsl, not by a sampler
-layout(constant_id = 996) const uint tile_wide = 2u; // width of a tile in pixels; 16 for the list of strips (shared/tile_list.h)
-layout(constant_id = 997) const uint tile_range = ALL_TILES; // the range of shared/tile_ranges.h that the dispatch covers
+layout(constant_id = 997) const uint tile_range = ALL_TILES; // the range of a list that the dispatch covers (shared/work_list.h)
 layout(constant_id = 998) const bool tile_works = true; // false: the dispatch covers the other tiles, where the pass has nothing to do
 
 // Ids 1 and 2 are the workgroup's size, from the row WORKGROUP.

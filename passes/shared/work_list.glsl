@@ -1,28 +1,33 @@
-// Which pixel an invocation works on: by its place in the picture, or from a list of pixels (see DISPATCH_LIST in row_kinds.py).
+// Which texel an invocation works on, by its place in the picture or by a list of tiles (work_list.h). Next include of a pass with a row
+// DISPATCH_LIST(tile_list, ...). A pass that goes by another list, or reads one of its own, first defines LIST_WORD(place). No
+// kernel's reach has to be added to the tiles: what a neighbour or the next frame takes is what the picture shows, which has a tile
+// of its own, and where it shows nothing images hold nothing (shown.glsl).
 #ifndef GLINT_WORK_LIST
 #define GLINT_WORK_LIST
-const uint NO_ITEM = 0xFFFFFFFFu; // fills up a class to whole workgroups
-const int LIST_COUNT = 3, LIST_ITEMS = 256; // places in a list: the number of its items, the first of them
+#include "shared/work_list.h"
 
-uint item_of(ivec2 pixel) { return uint(pixel.y) << 16u | uint(pixel.x); }
-bool inside(ivec2 pixel, ivec2 size) { return all(lessThan(pixel, size)); }
+#ifndef LIST_WORD
+#define LIST_WORD(place) texelFetch(tile_list, place).x
+#endif
+
 uint workgroup_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
-
-// Declare DISPATCH over the image first and DISPATCH_LIST after it.
-bool has_list() { return dispatch_phase > 0u; }
-
-// The pixel at the invocation's own place. The workgroups of a list, in order, are also the picture's tiles, so that what
-// the list leaves out gets its values in the same dispatch.
-ivec2 own_pixel(ivec2 size) {
-    if (!has_list()) return ivec2(gl_GlobalInvocationID.xy);
-    uint tile = workgroup_index(), across = uint(size.x + 7) / 8u;
-    return 8 * ivec2(tile % across, tile / across) + ivec2(gl_LocalInvocationID.xy);
+uint region_count() {
+    uvec2 grid = (frame.size.xy + uint(REGION_WIDE) - 1u) / uint(REGION_WIDE);
+    return grid.x * grid.y;
 }
+uvec2 tile_grid() { return (frame.size.xy + uint(TILE_WIDE) - 1u) / uint(TILE_WIDE); }
+uint tile_count() { return tile_grid().x * tile_grid().y; }
 
-// The pixel that the list gives to the invocation; none: NO_ITEM's, which is outside of every picture.
-ivec2 listed_pixel(utextureBuffer list) {
-    uint index = 64u * workgroup_index() + gl_LocalInvocationIndex;
-    uint item = index < texelFetch(list, LIST_COUNT).x ? texelFetch(list, LIST_ITEMS + int(index)).x : NO_ITEM;
-    return ivec2(item & 0xFFFFu, item >> 16u);
+// scale: pixels of the picture to a texel of the image, along an axis. Beyond every image: no texel.
+ivec2 tile_texel(float scale) {
+    if (tile_range == ALL_TILES) return ivec2(gl_GlobalInvocationID.xy);
+    int range = LIST_RANGES + 2 * int(tile_range);
+    uint wide = uint(TILE_WIDE) / uint(scale), texels = wide * wide;
+    uint lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y, lane = gl_LocalInvocationIndex;
+    uint place = lanes / texels * workgroup_index() + lane / texels, total = tile_count();
+    if (place >= LIST_WORD(range + 1)) return ivec2(0x7FFFFFFF);
+    place += LIST_WORD(range);
+    uint item = LIST_WORD(LIST_ITEMS + int(place < total ? place : place - total)); // a range may go on at the list's beginning
+    return ivec2(wide * uvec2(item & 0xFFFFu, item >> 16u) + uvec2(lane % wide, lane / wide % wide));
 }
 #endif

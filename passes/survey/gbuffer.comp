@@ -8,6 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#define LIST_WORD(place) texelFetch(partial, place).x
 #include "shared/work_list.glsl"
 
 #define COUNT(name, bins, meaning) const int at_##name = 16 * __LINE__;
@@ -169,7 +170,7 @@ void count_block(int place) {
     Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
     for (int row = lane / 64; row < 64; row += LANES / 64) {
         ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane % 64, row);
-        if (inside(pixel, ivec2(frame.size.xy))) count_pixel(pixel, sums);
+        if (all(lessThan(pixel, ivec2(frame.size.xy)))) count_pixel(pixel, sums);
     }
     if (whole) add_more(sums);
     atomicAdd(figures[at_sky], sums.sky);
@@ -189,7 +190,7 @@ void join_blocks(int first, int blocks) {
         if (lane == 0) figures[0] = own;
         barrier();
         for (int block = lane; block < blocks && figure < FIGURES; block += LANES) {
-            uint one = texelFetch(partial, first + FIGURES * block + figure).x;
+            uint one = LIST_WORD(first + FIGURES * block + figure);
             own = kind == COUNTED ? own + one : kind == LOWEST ? min(own, one) : max(own, one);
         }
         if (kind == COUNTED) atomicAdd(figures[0], own);

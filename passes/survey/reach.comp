@@ -9,6 +9,7 @@
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/shown.glsl"
+#define LIST_WORD(place) texelFetch(partial, place).x
 #include "shared/work_list.glsl"
 
 // How much larger a face is taken than it is: what of its neighbours lies within a texel of it, and within a tenth of its width,
@@ -51,7 +52,7 @@ void follow(vec3 origin, vec3 direction) {
 }
 
 void follow_pixel(ivec2 pixel) {
-    if (!inside(pixel, ivec2(frame.size.xy))) return;
+    if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
     if (!reflects(depth_m, surface.xyz)) return;
@@ -63,7 +64,7 @@ void follow_pixel(ivec2 pixel) {
 
 // The rays of those of a block's pixels whose reflection the picture shows.
 void follow_block(ivec2 block) {
-    if (!inside(block, ivec2(frame.size.xy))) return;
+    if (any(greaterThanEqual(block, ivec2(frame.size.xy)))) return;
     uint shown = BLOCK == 1 ? uint(is_shown(block)) : shown_in_block(block);
     for (uint left = shown; left != 0u; left &= left - 1u) {
         int i = findLSB(left);
@@ -76,7 +77,7 @@ void join_tiles(uvec2 tiles) {
     uint own = 0u, word = workgroup_index(), lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
     if (word >= 8u) return;
     for (uint tile = gl_LocalInvocationIndex; tile < tiles.x * tiles.y; tile += lanes)
-        own |= texelFetch(partial, LIST_ITEMS + int(8u * tile + word)).x;
+        own |= LIST_WORD(LIST_ITEMS + int(8u * tile + word));
     if (own != 0u) atomicOr(faces[word], own);
     barrier();
     if (gl_LocalInvocationIndex == 0u) imageStore(reached_faces, ivec2(word, 0), uvec4(faces[word]));

@@ -37,7 +37,7 @@ bool size_has_levels(enum glint_size_class size) {
 }
 
 bool size_is_buffer(enum glint_size_class size) {
-    return size == GLINT_SIZE_LIST || size == GLINT_SIZE_TILES;
+    return size == GLINT_SIZE_LIST;
 }
 
 bool list_has(const char *const *list, const char *name) {

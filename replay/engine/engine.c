@@ -47,7 +47,7 @@ static bool compute_frame(struct run *run, struct glint_error *err) {
     if (!put_aside(run, err) || !run_upload(run, err)) return false;
     const double start = glint_now_seconds();
     const bool ok =
-        run_prepare(run, err) && run_execute(run, err) && run_count_tiles(run, err) && probes_finish(run, err);
+        run_prepare(run, err) && run_execute(run, err) && run_count_lists(run, err) && probes_finish(run, err);
     run->source->seconds[PHASE_PASSES] += glint_now_seconds() - start;
     return ok;
 }

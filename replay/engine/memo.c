@@ -96,8 +96,7 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
     const struct glint_pass *pass = step->pass->pass;
     if (!spirv_find(&step->spirv, &run->engine->device->shaders, step->pass->entry, err) ||
         !constants_init(&step->constants, run->graph, step->pass, &step->spirv, run->options,
-                        tile_wide(run->sizes, pass), block_width(run->sizes, pass), run->gpu->info.filters_together,
-                        err))
+                        block_width(run->sizes, pass), run->gpu->info.filters_together, err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
     /* The first constants switch diagnostics and probes on, which changes nothing else; what a user's shader makes of them is

@@ -30,9 +30,8 @@ static bool find_programs(const struct run *run, struct step *step, struct glint
     for (size_t d = 0; d < step->dispatch_count; d++) {
         struct dispatch *dispatch = &step->dispatches[d];
         constants.data[CONSTANT_PHASE] = dispatch->phase;
-        constants.data[PLACE_TILES] = dispatch->tiles;
+        constants.data[PLACE_TILES] = dispatch->range;
         constants.data[PLACE_WORKS] = !dispatch->rest;
-        if (dispatch->tile_wide) constants.data[PLACE_TILE_WIDE] = dispatch->tile_wide;
         dispatch->program =
             programs_get(&run->engine->device->programs, run->gpu, step->pass->pass, &step->spirv, &constants, err);
         if (!dispatch->program) return false;

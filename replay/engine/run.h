@@ -26,15 +26,14 @@ void engine_finish(struct engine *engine);
 /* One dispatch of a pass. */
 struct dispatch {
     uint32_t phase, level, groups[3];
-    struct program *program; /* of the phase and the tiles */
+    struct program *program; /* of the phase and the range */
     VkDescriptorSet set;     /* with this level of what the pass writes */
     struct face_run *layers; /* that it works on; NULL: all */
     uint32_t layer_runs;
     struct pooled *list; /* that says how many groups, from this byte on; NULL: `groups` */
     VkDeviceSize from;
-    uint32_t tiles;                /* GLINT_ROW_DISPATCH_TILES: the range that it is over; ALL_TILES */
+    uint32_t range;                /* of the list that it is over (passes/shared/work_list.h); ALL_TILES: no list */
     const struct image_desc *over; /* and the image */
-    uint32_t tile_wide;            /* of those that it is over or that it lists; 0: neither */
     bool rest;                     /* where the pass has nothing to do; beside the dispatch before it */
 };
 
@@ -45,7 +44,7 @@ struct step {
     struct constants constants;  /* but for what changes with the dispatch */
     struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
     size_t dispatch_count;
-    uint64_t texels; /* that they go over, lists apart */
+    uint64_t texels; /* that they go over */
     uint64_t key;
     char cache_key[CACHE_KEY_SIZE]; /* of its file in the cache folder; "": none */
     bool execute;
@@ -106,8 +105,12 @@ bool step_plan(const struct run *run, struct step *step, struct glint_error *err
 bool step_describe(const struct run *run, struct step *step, struct glint_error *err);
 void step_record(const struct run *run, struct step *step);
 
-/* tiles.c: adds the texels of tiles to those of the steps that went over them. */
-bool run_count_tiles(struct run *run, struct glint_error *err);
+/* lists.c: the first row DISPATCH_LIST behind row r whose list is made, when the shader, maybe a user's, knows of lists; its dispatches over
+   an image, one over the range and one over the rest; after a run, their texels. */
+const struct glint_row *step_list(const struct run *run, const struct step *step, size_t r);
+bool step_add_list(const struct run *run, struct step *step, uint32_t phase, const struct image_desc *over,
+                   const struct glint_row *row, struct glint_error *err);
+bool run_count_lists(struct run *run, struct glint_error *err);
 
 /* rays.c: sums and means over the rays of a frame. */
 uint32_t rays_sums(const struct run *run); /* how many */

@@ -101,26 +101,11 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
     return ok;
 }
 
-/* A list from a file must not start more work than it has items for, nor leave tiles out. */
-static bool check_list(const struct run *run, size_t i, const uint32_t *header, struct glint_error *err) {
-    const uint32_t *half = run->sizes->half;
-    const uint64_t capacity = list_capacity(run->sizes), tiles = (uint64_t)((half[0] + 7) / 8) * ((half[1] + 7) / 8);
-    const uint64_t most = capacity / LIST_ITEMS + 64; /* rounded up to full rows of workgroups */
-    const bool apart = header[0] <= most && header[1] <= most && header[2] <= most;
-    const uint64_t groups = apart ? (uint64_t)header[0] * header[1] * header[2] : UINT64_MAX;
-    if (header[3] <= capacity && groups <= most && groups >= tiles) return true;
-    return glint_fail(err, GLINT_ERROR_FORMAT,
-                      "image %s: expected at most %llu items in %llu to %llu workgroups, found %u in %u x %u x %u",
-                      run->images[i]->image.name, (unsigned long long)capacity, (unsigned long long)tiles,
-                      (unsigned long long)most, header[3], header[0], header[1], header[2]);
-}
-
 /* Values that are in memory already: tables and images of runs or of the engine. */
 static bool upload_values(struct run *run, size_t i, const void *values, struct glint_error *err) {
     struct pool *pool = run->pool;
     struct pooled *image = run->images[i];
     const struct image_desc *desc = &image->image.desc;
-    if (run->graph->images[i].row->size == GLINT_SIZE_LIST && !check_list(run, i, values, err)) return false;
     image->key = 0;
     bool ok = true;
     const uint32_t *from = values;

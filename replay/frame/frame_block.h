@@ -25,8 +25,8 @@ struct frame_block {
 struct frame_sizes {
     uint32_t full[2], half[2], planar[2];
     uint32_t active, chain, cube_face, sky_face;
-    uint32_t tile_wide; /* glint_device_info's */
-    bool history;       /* what HISTORY rows name is there */
+    bool is_cpu;  /* glint_device_info's */
+    bool history; /* what HISTORY rows name is there */
 };
 
 /* Index of the up axis and its sign. */

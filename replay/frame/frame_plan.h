@@ -10,8 +10,6 @@
 
 enum {
     LIST_WIDTH = 256,
-    LIST_ITEMS = 64 /* of a workgroup */,
-    LIST_BLOCK = 32 /* pixels across, of a maker's workgroup */,
     COCOON_SIZE = 32 /* shared/cocoon.glsl */,
     FIGURES = 512 /* survey/gbuffer.comp */
 };
@@ -64,9 +62,9 @@ struct frame_plan {
     struct reach reach;
     struct whole_work *whole; /* beside graph.passes; NULL: not asked for */
     struct glint_cube_faces faces;
-    char content[33];   /* hash of the capture; "": nothing of it is found again by other processes */
-    uint32_t tile_wide; /* the device's */
-    bool interim;       /* another run of the same frame follows: what is on the device and was read stays */
+    char content[33]; /* hash of the capture; "": nothing of it is found again by other processes */
+    bool is_cpu;      /* the device */
+    bool interim;     /* another run of the same frame follows: what is on the device and was read stays */
 };
 void frame_plan_finish(struct frame_plan *plan);
 
@@ -79,22 +77,14 @@ const struct glint_run_image *plan_given(const struct frame_plan *plan, const st
 bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err);
 bool plan_describe(const struct frame_plan *plan, const struct graph_image *image, struct image_desc *desc,
                    struct glint_error *err);
-/* Pixels across the tiles that a pass is run over, or the widest that it lists; tiles in texels of an image over all of the picture;
-   how many there are; where the list of them begins. */
-uint32_t tile_wide(const struct frame_sizes *sizes, const struct glint_pass *pass);
 uint32_t block_width(const struct frame_sizes *sizes, const struct glint_pass *pass); /* texels of an invocation */
-struct extent tile_extent(const struct frame_sizes *sizes, const struct image_desc *over, uint32_t wide);
-uint32_t tile_count(const struct frame_sizes *sizes, uint32_t wide);
-uint32_t tile_begin(const struct frame_sizes *sizes, uint32_t wide);
-uint32_t list_blocks(const struct frame_sizes *sizes);
-uint32_t list_capacity(const struct frame_sizes *sizes); /* of items, each class filled up to whole workgroups */
+uint32_t tile_count(const struct frame_sizes *sizes); /* of a list: passes/shared/work_list.h */
 
 /* levels.c. The levels that a row DISPATCH_LEVELS names, from the finer to the coarser, of those that there are; false: none. */
 bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row, const struct image_desc *desc,
                      uint32_t *first, uint32_t *last);
 /* Texels that a dispatch over an image's level goes over. */
-uint64_t dispatch_texels(const struct frame_sizes *sizes, const struct image_desc *desc, enum glint_size_class size,
-                         uint32_t level);
+uint64_t dispatch_texels(const struct frame_sizes *sizes, const struct image_desc *desc, uint32_t level);
 
 /* faces.c. The faces that lie within so many texels of a level of the rays; false: it is not known of that many. */
 bool plan_faces(const struct frame_plan *plan, uint32_t level, int texels, uint8_t faces[GLINT_SURVEY_CUBEMAPS]);

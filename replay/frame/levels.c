@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "frame_plan.h"
-#include "shared/tile_list.h"
 
 /* The finest level that is no wider than a parameter says. */
 static int level_of_width(const struct graph_pass *pass, const struct image_desc *desc, const char *parameter) {
@@ -31,10 +30,8 @@ bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row,
     return coarse >= fine;
 }
 
-uint64_t dispatch_texels(const struct frame_sizes *sizes, const struct image_desc *desc, enum glint_size_class size,
-                         uint32_t level) {
+uint64_t dispatch_texels(const struct frame_sizes *sizes, const struct image_desc *desc, uint32_t level) {
     const struct extent extent = image_extent(desc, level);
-    if (size == GLINT_SIZE_TILES) return tile_count(sizes, TILE_WIDE);
-    if (desc->buffer) return (uint64_t)sizes->half[0] * sizes->half[1];
+    if (desc->buffer) return tile_count(sizes);
     return (uint64_t)extent.width * extent.height * image_layers(desc);
 }

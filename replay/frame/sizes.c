@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "shared/tile_list.h"
+#include "shared/work_list.h"
 
 /* Width and height of an image whose contents already exist; false for one that will be made on the device. */
 static bool existing_size(const struct frame_plan *plan, const struct graph_image *image, uint32_t size[2]) {
@@ -41,44 +41,16 @@ static bool read_active(struct frame_plan *plan, const struct graph_image *image
     return true;
 }
 
-uint32_t tile_wide(const struct frame_sizes *sizes, const struct glint_pass *pass) {
-    for (size_t r = 0; r < pass->row_count; r++) {
-        const struct glint_row *row = &pass->rows[r];
-        if ((row_is_sampled(row) && strstr(row->glsl, "textureCube")) ||
-            (glint_row_is_output(row) && row->size == GLINT_SIZE_TILES))
-            return sizes->tile_wide;
-    }
-    return TILE_WIDE;
-}
-
 uint32_t block_width(const struct frame_sizes *sizes, const struct glint_pass *pass) {
     const struct glint_row *row = glint_pass_row(pass, GLINT_ROW_BLOCKS, NULL);
-    return row && sizes->tile_wide == STRIP_WIDE ? (uint32_t)row->first : 1;
+    return row && sizes->is_cpu ? (uint32_t)row->first : 1;
 }
 
-struct extent tile_extent(const struct frame_sizes *sizes, const struct image_desc *over, uint32_t wide) {
-    const uint32_t scale = over->width == sizes->full[0] ? 1 : 2;
-    return (struct extent){wide / scale, TILE_HIGH / scale};
-}
 static uint32_t parts_of(uint32_t length, uint32_t part) {
     return (length + part - 1) / part;
 }
-uint32_t tile_count(const struct frame_sizes *sizes, uint32_t wide) {
-    return parts_of(sizes->full[0], wide) * parts_of(sizes->full[1], TILE_HIGH);
-}
-static uint32_t tile_words(const struct frame_sizes *sizes, uint32_t wide) {
-    const uint32_t regions =
-        parts_of(sizes->full[0], REGION_WIDE * STRIP_WIDE) * parts_of(sizes->full[1], REGION_HIGH * TILE_HIGH);
-    return TILE_WORDS(regions, wide);
-}
-uint32_t tile_begin(const struct frame_sizes *sizes, uint32_t wide) {
-    return wide == TILE_WIDE ? 0 : tile_words(sizes, TILE_WIDE);
-}
-uint32_t list_blocks(const struct frame_sizes *sizes) {
-    return parts_of(sizes->half[0], LIST_BLOCK) * parts_of(sizes->half[1], LIST_BLOCK);
-}
-uint32_t list_capacity(const struct frame_sizes *sizes) {
-    return LIST_BLOCK * LIST_BLOCK * list_blocks(sizes) + 2 * LIST_ITEMS;
+uint32_t tile_count(const struct frame_sizes *sizes) {
+    return parts_of(sizes->full[0], TILE_WIDE) * parts_of(sizes->full[1], TILE_WIDE);
 }
 
 bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
@@ -92,7 +64,7 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
                                   .sky_face = sky ? sky->width : 0,
-                                  .tile_wide = plan->tile_wide};
+                                  .is_cpu = plan->is_cpu};
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     if (pipeline_traces_all_pixels(plan->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
     const size_t count = plan->source->cubemap_count;
@@ -174,13 +146,10 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
     case GLINT_SIZE_PLANAR:
         expected[0] = sizes->planar[0], expected[1] = sizes->planar[1];
         break;
-    case GLINT_SIZE_TILES:
-        expected[0] = LIST_WIDTH;
-        expected[1] = parts_of(tile_begin(sizes, sizes->tile_wide) + tile_words(sizes, sizes->tile_wide), LIST_WIDTH);
-        break;
     case GLINT_SIZE_LIST:
-        expected[0] = LIST_WIDTH; /* behind the items a maker notes marks and a count of each block (compact.glsl) */
-        expected[1] = 1 + (list_capacity(sizes) + 65 * list_blocks(sizes) + LIST_WIDTH - 1) / LIST_WIDTH;
+        expected[0] = LIST_WIDTH;
+        expected[1] = parts_of(
+            LIST_WORDS(parts_of(sizes->full[0], REGION_WIDE) * parts_of(sizes->full[1], REGION_WIDE)), LIST_WIDTH);
         break;
     }
     if (existing_size(plan, image, found) && !(layers && !expected[0]) &&

@@ -37,13 +37,9 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
             (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
                        pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH_LIST && glint_pass_row(pass, GLINT_ROW_WORKGROUP, NULL))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected workgroups of 8 x 8", pass->slot,
+        if (row->kind == GLINT_ROW_DISPATCH_LIST && !dispatch)
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: DISPATCH_LIST %s: expected a DISPATCH before it", pass->slot,
                        pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH_LIST && (!glint_pass_row(pass, GLINT_ROW_READ, row->name) || !dispatch))
-            faults_add(faults, GLINT_ERROR_USAGE,
-                       "%s/%s: DISPATCH_LIST %s: expected an image that the pass reads, and a DISPATCH before it",
-                       pass->slot, pass->variant, row->name);
         if (row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS)
             dispatch = row->kind == GLINT_ROW_DISPATCH ? row : NULL;
         if (glint_row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);

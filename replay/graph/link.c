@@ -75,7 +75,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
                        inputs->capture ? glint_capture_path(inputs->capture) : "no capture", fresh.row->role,
                        graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, fresh.row->source);
     } else if (dropped) fresh.source = SOURCE_NOTHING;
-    else if (optional && fresh.row->size == GLINT_SIZE_TILES) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    else if (optional && size_is_buffer(fresh.row->size)) fresh.row = optional, fresh.source = SOURCE_NOTHING;
     else if (inputs->run && glint_run_find(inputs->run, name)) fresh.source = SOURCE_RUN;
     else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
     else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
@@ -175,10 +175,6 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
             if (read && read->source == SOURCE_RUN && size_is_array(read->row->size))
                 link_read(graph, i, cubemap_order_image(), NULL, inputs, faults); /* how many cube maps there are */
             if (read) graph_check_kind(pass->pass, row, read->row, faults);
-            const struct graph_image *list = row->kind == GLINT_ROW_DISPATCH_LIST ? graph_find(graph, row->name) : NULL;
-            if (list && list->row->size != GLINT_SIZE_LIST)
-                faults_add(faults, GLINT_ERROR_USAGE, "%s/%s dispatches over %s, which is no list", pass->pass->slot,
-                           pass->pass->variant, row->name);
             if (!glint_row_is_output(row)) continue;
             const bool diagnostic = row->kind == GLINT_ROW_DIAGNOSTIC;
             const bool made = diagnostic ? options->diagnostics : !is_left_out(pass, row->name);

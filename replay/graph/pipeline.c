@@ -8,7 +8,7 @@
 
 #include "faults.h"
 #include "row.h"
-#include "tile_range.h"
+#include "shared/work_list.h"
 
 const struct pipeline_pass *pipeline_find(const struct glint_pipeline *pipeline, const char *slot) {
     for (size_t i = 0; i < pipeline->count; i++)
@@ -174,11 +174,11 @@ void pipeline_classes(const struct glint_pipeline *pipeline, float *smooth, floa
         const struct glint_pass *pass = pipeline->passes[p].pass;
         for (size_t r = 0; r < pass->row_count; r++) {
             const struct glint_row *row = &pass->rows[r];
-            const double *limit = row->kind == GLINT_ROW_DISPATCH_TILES && row->image
+            const double *limit = row->kind == GLINT_ROW_DISPATCH_LIST && row->image
                                       ? pipeline_value(&pipeline->passes[p], row->image)
                                       : NULL;
-            if (limit && strcmp(row->name, range_names[RANGE_smooth]) == 0) *smooth = fmaxf(*smooth, (float)*limit);
-            if (limit && strcmp(row->name, range_names[RANGE_rough]) == 0) *rough = fminf(*rough, (float)*limit);
+            if (limit && row->first == RANGE_smooth) *smooth = fmaxf(*smooth, (float)*limit);
+            if (limit && row->first == RANGE_rough) *rough = fminf(*rough, (float)*limit);
         }
     }
 }

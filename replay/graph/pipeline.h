@@ -33,7 +33,7 @@ bool pipeline_unknown_slot(const char *slot, struct glint_error *err);
 bool pipeline_shows_all(const struct glint_pipeline *pipeline);
 /* Whether a variant of the pipeline traces every pixel. */
 bool pipeline_traces_all_pixels(const struct glint_pipeline *pipeline);
-/* The largest roughness of a surface that some pass takes as smooth, and the least of a rough one: rows DISPATCH_TILES. */
+/* The largest roughness of a surface that some pass takes as smooth, and the least of a rough one: rows DISPATCH_LIST. */
 void pipeline_classes(const struct glint_pipeline *pipeline, float *smooth, float *rough);
 
 #endif

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "planner.h"
-#include "shared/tile_list.h"
 
 void plan_begin(struct frame_plan *plan, const struct planner *planner, const struct glint_pipeline *pipeline,
                 const struct glint_replay_options *options) {
@@ -11,7 +10,7 @@ void plan_begin(struct frame_plan *plan, const struct planner *planner, const st
                                 .options = options,
                                 .source = planner->source,
                                 .tables = &plan->own_tables,
-                                .tile_wide = planner->engine ? planner->engine->gpu->info.tile_wide : STRIP_WIDE};
+                                .is_cpu = !planner->engine || planner->engine->gpu->info.is_cpu};
 }
 
 static void fill_block(struct frame_plan *plan) {

@@ -17,8 +17,7 @@ static uint64_t texels_of(const struct frame_plan *plan, const struct graph_pass
         if (!(image.row = graph_row(&plan->graph, row->name, &image.pass)) || !plan_describe(plan, &image, &desc, err))
             return 0;
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(entry, row, &desc, &first, &last)) continue;
-        for (uint32_t level = first; level <= last; level++)
-            texels += dispatch_texels(&plan->sizes, &desc, image.row->size, level);
+        for (uint32_t level = first; level <= last; level++) texels += dispatch_texels(&plan->sizes, &desc, level);
     }
     return texels;
 }
@@ -80,7 +79,7 @@ static void find_whole_work(struct frame_plan *plan, const struct graph_inputs *
                                .source = plan->source,
                                .inputs = plan->inputs,
                                .tables = plan->tables,
-                               .tile_wide = plan->tile_wide};
+                               .is_cpu = plan->is_cpu};
     struct graph_inputs whole_inputs = *inputs;
     whole_inputs.options = &all;
     all.all = true;

@@ -5,23 +5,18 @@
 
 #include <Imath/half.h>
 
-#include "shared/tile_list.h"
+#include "shared/work_list.h"
 #include "timing.h"
 
 static VkDeviceSize aligned(VkDeviceSize size) {
     return (size + 15) & ~(VkDeviceSize)15;
 }
 
-/* What lies behind a list's header and its items means nothing, and shall be the same in every run. */
+/* What lies behind a list's items means nothing, and shall be the same in every run. */
 static void blank_list(const struct pooled *image, uint32_t *words) {
-    const uint32_t head = image->image.desc.width, end = head * image->image.desc.height;
-    const bool tiles = image->levels[0].info.row->size == GLINT_SIZE_TILES;
-    for (uint32_t i = 4; i < head && !tiles; i++) words[i] = UINT32_MAX;
-    for (uint64_t at = 0, next = end; at + head < end; at = next, next = end) {
-        if (tiles && words[at + TILE_NEXT] > at && words[at + TILE_NEXT] < end - head) next = words[at + TILE_NEXT];
-        const uint64_t items = tiles ? (uint64_t)words[at + TILE_RANGES + 1] + words[at + TILE_RANGES + 3] : words[3];
-        for (uint64_t i = at + head + items; i < next; i++) words[i] = UINT32_MAX;
-    }
+    const uint64_t end = (uint64_t)image->image.desc.width * image->image.desc.height;
+    for (uint64_t i = (uint64_t)LIST_ITEMS + words[LIST_RANGES + 1] + words[LIST_RANGES + 3]; i < end; i++)
+        words[i] = UINT32_MAX;
 }
 
 bool pool_readback(struct pool *pool, const struct image_part *parts, size_t count, struct host_buffer *buffer,

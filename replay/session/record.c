@@ -9,18 +9,10 @@ static json_t *parameter_record(const struct glint_row *row, double value) {
     return row->type == GLINT_VALUE_FLOAT ? json_real(value) : json_integer((json_int_t)value);
 }
 
-/* Lists are counted when the record is written. */
 static json_t *work_record(const struct run *run, size_t p) {
-    const struct step *step = &run->steps[p];
-    const uint64_t rays = pass_rays(run->graph, &run->graph->passes[p]);
-    json_t *work =
-        json_pack("{sIsI}", "texels", (json_int_t)(step->texels * rays), "of", (json_int_t)run->plan->whole[p].texels);
-    for (size_t d = 0; d < step->dispatch_count; d++) {
-        if (!step->dispatches[d].list || step->dispatches[d].tiles != ALL_TILES) continue;
-        if (!json_object_get(work, "lists")) json_object_set_new(work, "lists", json_object());
-        json_object_set_new(json_object_get(work, "lists"), step->dispatches[d].list->image.name, json_null());
-    }
-    return work;
+    return json_pack("{sIsI}", "texels",
+                     (json_int_t)(run->steps[p].texels * pass_rays(run->graph, &run->graph->passes[p])), "of",
+                     (json_int_t)run->plan->whole[p].texels);
 }
 
 static json_t *pass_record(const struct results *results, const struct run *run, size_t p) {

@@ -4,12 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "shared/tile_list.h"
-
 /* What passes want to know of a device. */
 static void describe_for_passes(struct glint_device_info *info) {
     info->filters_together = info->is_cpu;
-    info->tile_wide = info->is_cpu ? STRIP_WIDE : TILE_WIDE;
 }
 
 size_t glint_devices(struct glint_device_info *devices, size_t capacity, struct glint_error *err) {

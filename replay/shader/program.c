@@ -34,8 +34,8 @@ struct workgroup pass_workgroup(const struct glint_pass *pass) {
 }
 
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
-                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t tile_wide,
-                    uint32_t block, bool by_hand, struct glint_error *err) {
+                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t block, bool by_hand,
+                    struct glint_error *err) {
     *constants = (struct constants){.push_count = 1, .probed = spirv->probes && options->probe_count > 0};
     const struct glint_pass *pass = graph_pass->pass;
     const double *values = graph_pass->entry->values;
@@ -47,7 +47,6 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
                 add_constant(constants, 1, group.width) && add_constant(constants, 2, group.height) &&
                 add_constant(constants, CONSTANT_PHASE, 0) && add_constant(constants, 3, !options->float_precision) &&
                 add_constant(constants, CONSTANT_TILES, ALL_TILES) && add_constant(constants, CONSTANT_WORKS, true) &&
-                add_constant(constants, CONSTANT_TILE_WIDE, tile_wide) &&
                 add_constant(constants, CONSTANT_FILTER, by_hand);
     for (size_t i = 0; i < pass->row_count && fits; i++) {
         uint32_t bits = glint_row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], values[i]) : 0;
@@ -56,14 +55,14 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
         else if (pass->rows[i].kind == GLINT_ROW_FACT)
             fits = add_constant(constants, pass->rows[i].id, !(graph_pass->lacks >> facts++ & 1));
         else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
-        else if (pass->rows[i].optional) /* has_NAME, of OPTIONAL_READ */
+        else if (pass->rows[i].optional) /* has_NAME */
             fits = add_constant(constants, 1000 + pass->rows[i].id,
                                 graph_bound(graph, &pass->rows[i])->source != SOURCE_NOTHING);
         else if (pass->rows[i].kind == GLINT_ROW_PUSH && (fits = constants->push_count < PUSH_BYTES_MAX / 4))
             constants->push[constants->push_count++] = bits;
     }
     return fits || glint_fail(err, GLINT_ERROR_LIMIT, "%s/%s: more than %d constants or %d bytes of push constants",
-                              pass->slot, pass->variant, CONSTANTS_MAX - 10, PUSH_BYTES_MAX);
+                              pass->slot, pass->variant, CONSTANTS_MAX - 9, PUSH_BYTES_MAX);
 }
 
 static VkResult create_sampler(struct gpu *gpu, VkFilter filter, const char *name, VkSampler *sampler) {

@@ -20,15 +20,8 @@ enum {
     CONSTANT_FILTER = 995,
     CONSTANT_PROBE = 999
 };
-/* Those of DISPATCH_TILES: ids, and places among the constants. */
-enum {
-    CONSTANT_TILE_WIDE = 996,
-    CONSTANT_TILES = 997,
-    CONSTANT_WORKS = 998,
-    PLACE_TILES = 6,
-    PLACE_WORKS = 7,
-    PLACE_TILE_WIDE = 8
-};
+/* Those of DISPATCH_LIST: ids, and places among the constants. */
+enum { CONSTANT_TILES = 997, CONSTANT_WORKS = 998, PLACE_TILES = 6, PLACE_WORKS = 7 };
 #define ALL_TILES UINT32_MAX
 
 /* Values of a pass's parameters as the shader takes them. */
@@ -41,8 +34,8 @@ struct constants {
     bool probed; /* the shader tells of probed pixels */
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
-                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t tile_wide,
-                    uint32_t block, bool by_hand, struct glint_error *err);
+                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t block, bool by_hand,
+                    struct glint_error *err);
 
 struct program {
     uint64_t key;

@@ -23,7 +23,7 @@ struct spirv {
     const char *from; /* the file or folder that it was compiled from; NULL: built in */
     uint64_t hash;
     bool frame_words[FRAME_WORDS]; /* those of the frame's block that it reads */
-    bool tiles;                    /* it takes its texels by tile_texel() (shared/tiles.glsl) */
+    bool tiles;                    /* it takes its texels by tile_texel() (shared/work_list.glsl) */
     bool probes;                   /* it has the buffer that probed pixels are told in */
 };
 

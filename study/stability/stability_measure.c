@@ -57,14 +57,11 @@ static bool lies_over_picture(enum glint_size_class size) {
     return size == GLINT_SIZE_FULL || size == GLINT_SIZE_HALF || size == GLINT_SIZE_EIGHTH ||
            size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_HALF_MIPS3;
 }
-static bool is_list(enum glint_size_class size) {
-    return size == GLINT_SIZE_LIST || size == GLINT_SIZE_TILES;
-}
 /* Tables and lists are what the host or a sorting makes of the frame. */
 static bool is_looked_at(const struct glint_image *image) {
     const enum glint_size_class size = image->row->size;
     const bool uint = glint_format_is_uint(image->format);
-    if (image->level || is_list(size) || (!image->pass && uint)) return false;
+    if (image->level || size == GLINT_SIZE_LIST || (!image->pass && uint)) return false;
     return !uint || lies_over_picture(size);
 }
 /* What tracers did on the way is a count, not a choice. */

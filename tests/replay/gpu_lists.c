@@ -1,4 +1,4 @@
-/* Dispatches over compacted lists on a device under validation. */
+/* Dispatches over lists of tiles on a device under validation. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,37 +9,44 @@
 #include <cmocka.h>
 
 #include "made.h"
+#include "shared/work_list.h"
 
 enum { W = (FIXTURE_WIDTH + 1) / 2, H = (FIXTURE_HEIGHT + 1) / 2, NOTHING = 7 };
 
-/* `phase_of`: of a pixel by its class, 0 to 4; -1: the pixel lies in no list. */
-static void check_worked(struct fixture *fixture, const int phase_of[5]) {
+static void set(struct made *made, size_t place, const char *parameter) {
+    const struct glint_pass *pass = made->pipeline.passes[place].pass;
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].name && strcmp(pass->rows[r].name, parameter) == 0) made->values[place][r] = 1;
+}
+
+/* `added`: to a texel's value by its class, 0 to 4; -1: the pass does not work there. */
+static void check_worked(struct fixture *fixture, const int added[5]) {
     float *worked = made_read(fixture, "worked");
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) {
-            const int phase = phase_of[(x + 3 * y) % 5];
-            const float expected = phase < 0 ? (float)NOTHING : (float)(10 + phase + 1000 * (x + W * y));
+            const int more = added[(x + 3 * y) % 5];
+            const float expected = more < 0 ? (float)NOTHING : (float)(10 + more + 1000 * (x + W * y));
             if (worked[y * W + x] != expected)
-                fail_msg("pixel %d,%d: expected %g, found %g", x, y, (double)expected, (double)worked[y * W + x]);
+                fail_msg("texel %d,%d: expected %g, found %g", x, y, (double)expected, (double)worked[y * W + x]);
         }
     free(worked);
 }
 
-/* Catches: group counts taken from the wrong list or before the list is complete, lists run in one phase, the whole
-   image run beside them, and stale pixels where no item lies (worked held other values before). */
-static void a_pass_works_on_its_lists(void **state) {
+/* Catches: group counts taken from the wrong range or before the list is complete, a list that is not made or not the first, the
+   whole image run beside it, and stale texels in the rest (worked held other values before). */
+static void a_pass_works_on_its_list(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made, alone;
     MADE(&alone, &made_worker);
     MADE(&made, &made_sieve, &made_worker);
+    set(&alone, 0, "tell"), set(&made, 1, "tell");
     made_run(fixture, &alone, &(struct glint_replay_options){.no_cache = true});
-    check_worked(fixture, (const int[]){0, 0, 0, 0, 0}); /* no list: the whole image, in the first phase */
+    check_worked(fixture, (const int[]){0, 0, 0, 0, 0}); /* no list: the whole image */
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .repeat = 3});
-    check_worked(fixture, (const int[]){1, 2, 2, -1, -1});
-    for (size_t r = 0; r < made_sieve.row_count; r++)
-        if (strcmp(made_sieve.rows[r].name, "empty") == 0) made.values[0][r] = 1;
+    check_worked(fixture, (const int[]){-1, RANGE_smooth + 1, RANGE_smooth + 1, -1, -1});
+    set(&made, 0, "empty");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
-    check_worked(fixture, (const int[]){1, -1, -1, -1, -1}); /* an empty list starts nothing */
+    check_worked(fixture, (const int[]){-1, -1, -1, -1, -1}); /* an empty range starts nothing */
 }
 
 /* Catches: a skipped maker that leaves its readers with a list of nothing instead of none. */
@@ -48,6 +55,7 @@ static void without_its_maker_a_list_is_the_whole_image(void **state) {
     const char *const skip[] = {"sieve", NULL};
     struct made made;
     MADE(&made, &made_sieve, &made_worker);
+    set(&made, 1, "tell");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .skip = skip});
     check_worked(fixture, (const int[]){0, 0, 0, 0, 0});
 }
@@ -64,93 +72,85 @@ static void a_list_is_empty_behind_its_items(void **state) {
     const struct glint_image *image = glint_replay_find_image(fixture->replay, "list_a");
     uint32_t *texels = calloc((size_t)image->width * image->height, sizeof *texels);
     assert_true(glint_replay_read_image(fixture->replay, image, GLINT_U32, texels, &err));
-    assert_int_equal(texels[3], W * H / 5); /* every fifth of 400 */
-    for (uint32_t i = texels[3]; i < image->width * (image->height - 1); i++)
+    const uint32_t *shown = &texels[LIST_RANGES], tiles = shown[1] + shown[3];
+    assert_int_equal(shown[1], W * H * 3 / 5); /* three of five, of 400 */
+    assert_int_equal(tiles, W * H);
+    for (uint32_t i = tiles; i < image->width * (image->height - 1); i++)
         assert_int_equal(texels[image->width + i], 0xFFFFFFFFu);
     free(texels);
 }
 
-/* Catches: a list that a run folder does not keep, or that is not used when it comes from there. */
+/* Catches: a pass that works otherwise when its list is not made. */
 static void every_cut_of_lists_gives_the_bits_of_the_whole(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
     MADE(&made, &made_sieve, &made_worker);
     made_check_cuts(fixture, &made, (struct glint_replay_options){0});
-    check_worked(fixture, (const int[]){1, 2, 2, -1, -1});
+    check_worked(fixture, (const int[]){-1, 0, 0, -1, -1});
 }
 
-static const struct glint_pass *pass_with(const struct glint_pass *base, struct glint_row *rows, const char *name,
-                                          struct glint_row change, struct glint_pass *out) {
-    memcpy(rows, base->rows, base->row_count * sizeof *rows);
-    for (size_t r = 0; r < base->row_count; r++)
-        if (rows[r].name && strcmp(rows[r].name, name) == 0 && rows[r].kind == change.kind) rows[r] = change;
-    *out = *base;
-    out->rows = rows;
-    return out;
-}
-
-/* Catches: a header from a stranger that starts four billion workgroups, or too few to write every pixel. */
-static void a_header_that_lies_is_refused(void **state) {
+/* Catches: a header from a stranger that starts four billion workgroups, or too few to write every texel. */
+static void a_list_of_a_run_is_not_taken(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     const char *const passes[] = {"worker", NULL}, *const forger[] = {"forger", NULL};
-    const int words[] = {5, 1};
+    char folder[128];
     struct made made;
     MADE(&made, &made_forger, &made_worker);
-    for (int i = 0; i < 2; i++) {
-        struct glint_error err = {0};
-        char folder[128];
-        for (size_t r = 0; r < made_forger.row_count; r++)
-            if (strcmp(made_forger.rows[r].name, "word") == 0) made.values[0][r] = words[i];
-        made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = forger});
-        fixture_write_run(fixture, "forged", folder);
-        assert_false(glint_replay_run(fixture->replay, &made.pipeline,
-                                      &(struct glint_replay_options){.passes = passes, .inputs = folder}, NULL, NULL,
-                                      &err));
-        fixture_says(&err, "image list_a: expected at most 1152 items in 8 to 82 workgroups");
-        fixture_says(&err, i ? "found 1 in 1 x 1 x 1" : "found 5 in 5 x 5 x 5");
-    }
+    set(&made, 1, "tell");
+    made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = forger});
+    fixture_write_run(fixture, "forged", folder);
+    made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = passes, .inputs = folder});
+    check_worked(fixture, (const int[]){0, 0, 0, 0, 0});
     fixture_check_messages(fixture);
 }
 
-/* Catches: declarations that would start work from pixels, or say that a missing list has items. */
+/* The worker with a change of its first row of that kind and name; another kind: of its first row of that name. */
+static void refused(struct fixture *fixture, const char *name, enum glint_row_kind kind, struct glint_row change,
+                    const char *because) {
+    struct glint_error err = {0};
+    struct glint_row rows[24];
+    struct glint_pass pass = made_worker;
+    struct made made;
+    memcpy(rows, made_worker.rows, made_worker.row_count * sizeof *rows);
+    size_t r = 0;
+    while (r < pass.row_count && (rows[r].kind != kind || strcmp(rows[r].name, name) != 0)) r++;
+    rows[r] = change; /* behind the last one where there is none */
+    pass.row_count += r == pass.row_count;
+    pass.rows = rows;
+    MADE(&made, &made_sieve, &pass);
+    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
+    fixture_says(&err, because);
+}
+
+/* Catches: declarations that would start work from pixels, or from a list that lies otherwise. */
 static void wrong_declarations_are_refused(void **state) {
     struct fixture *fixture = fixture_need_device(state);
-    struct glint_error err = {0};
-    struct glint_row rows[16];
-    struct glint_pass pass;
-    struct made made;
-    MADE(&made, pass_with(&made_worker, rows, "list_a",
-                          (struct glint_row){.kind = GLINT_ROW_DISPATCH_LIST, .name = "depth_full"}, &pass));
-    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
-    fixture_says(&err, "worker/made dispatches over depth_full, which is no list");
-    struct glint_row none = made_worker.rows[2];
-    none.nothing = 0;
-    MADE(&made, pass_with(&made_worker, rows, "list_a", none, &pass));
-    err = (struct glint_error){0};
-    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
-    fixture_says(&err, "list list_a: expected R32UI, and 0xFFFFFFFF for nothing");
-    struct glint_row wide = {.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16};
-    MADE(&made, pass_with(&made_worker, rows, "list_b", none, &pass));
-    rows[pass.row_count++] = wide;
-    MADE(&made, &pass);
-    err = (struct glint_error){0};
-    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
-    fixture_says(&err, "list list_a: expected workgroups of 8 x 8");
-    none = made_worker.rows[2];
-    none.glsl = "utexture2D";
-    MADE(&made, &made_sieve, pass_with(&made_worker, rows, "list_a", none, &pass));
-    err = (struct glint_error){0};
-    assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
-    fixture_says(&err, "worker/made reads list_a as utexture2D, but it is a list, to be read as utextureBuffer");
+    struct glint_row list = *glint_pass_row(&made_worker, GLINT_ROW_READ, "list_a"), wrong = list;
+    wrong.name = "depth_full";
+    refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+            "worker/made reads depth_full as utextureBuffer, but it is no list");
+    wrong = list;
+    wrong.nothing = 0;
+    refused(fixture, "list_a", GLINT_ROW_READ, wrong, "list list_a: expected R32UI, and 0xFFFFFFFF for nothing");
+    wrong = list;
+    wrong.glsl = "utexture2D";
+    refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+            "worker/made reads list_a as utexture2D, but it is a list, to be read as utextureBuffer");
+    refused(fixture, "worked", GLINT_ROW_DISPATCH,
+            (struct glint_row){.kind = GLINT_ROW_DISPATCH_LIST, .name = "list_a"},
+            "worker/made: DISPATCH_LIST list_a: expected a DISPATCH before it");
+    refused(fixture, "", GLINT_ROW_WORKGROUP,
+            (struct glint_row){.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16},
+            "worker/made: DISPATCH_LIST list_a: expected 16, 32 or 64 tiles of 1 x 1 texels in a workgroup, found 128");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_pass_works_on_its_lists),
+        cmocka_unit_test(a_pass_works_on_its_list),
         cmocka_unit_test(without_its_maker_a_list_is_the_whole_image),
         cmocka_unit_test(a_list_is_empty_behind_its_items),
         cmocka_unit_test(every_cut_of_lists_gives_the_bits_of_the_whole),
-        cmocka_unit_test(a_header_that_lies_is_refused),
+        cmocka_unit_test(a_list_of_a_run_is_not_taken),
         cmocka_unit_test(wrong_declarations_are_refused),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);

@@ -12,7 +12,6 @@
 #include "glint/samples.h"
 #include "painted.h"
 #include "plain_capture.h"
-#include "shared/tile_list.h"
 #include "ways.h"
 
 enum { WIDTH = 56, HEIGHT = 32, FACE = 16, FRAMES = 2 };
@@ -81,12 +80,12 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
     struct pair *pair = pair_of(state);
     static const char *const presets[] = {"mafia3", "mafia3", "mafia3_shipped", "mafia_de"};
     char path[256];
-    uint32_t *wide = &pair->fixture->device->gpu.info.tile_wide;
-    const uint32_t own = *wide, other = own == TILE_WIDE ? STRIP_WIDE : TILE_WIDE;
+    bool *is_cpu = &pair->fixture->device->gpu.info.is_cpu;
+    const bool own = *is_cpu;
     mirror(pair->fixture, path);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         size_t left_out = 0;
-        *wide = p == 1 ? other : own; /* rays are followed in blocks of pixels, or one by one */
+        *is_cpu = p == 1 ? !own : own; /* rays are followed in blocks of pixels, or one by one */
         pair_use(pair, presets[p]);
         if (p < 2) fall_back(pair);
         assert_int_equal(differences_of_file(pair, path, &left_out), 0);
@@ -457,7 +456,7 @@ static void a_wrong_list_of_layers_is_found(void **state) {
         const char *slot, *scene, *preset, *right, *wrong;
     } lists[] = {{"classify_transparent", "glasshouse", "mafia_de", "a > 0.0", "a > 2.0"},
                  {"classify_water", "lake", "gtav", "depth_m > 0.0", "depth_m > 1e9"},
-                 {"classify_water", "lake", "gtav", "if (found != 0u)", "if (found != 0u && pixel.y % 4u < 2u)"}};
+                 {"classify_water", "lake", "gtav", "if (found != 0u)", "if (found != 0u && texel.y % 4u < 2u)"}};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         char path[256];
         size_t left_out = 0;

@@ -46,6 +46,7 @@
 #include "made/tally.pass.h"
 #undef PASS_ID
 
+#include "shared/work_list.h"
 #include "rows.h"
 static const struct glint_row chain_rows[] = {
 #define PASS_ID chain

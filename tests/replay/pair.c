@@ -49,13 +49,11 @@ static bool write_wrong(const struct pair *pair, const char *path, const char *t
 }
 
 void pair_spoil(struct pair *pair, const char *slot, const char *variant, const char *right, const char *wrong) {
-    static const char maker[] = "reflection/classify_tiles/maker.glsl";
+    static const char maker[] = "shared/list_maker.glsl";
     struct glint_error err = {0};
     char path[300], assignment[400];
-    snprintf(path, sizeof path, "%s/reflection", pair->fixture->folder);
+    snprintf(path, sizeof path, "%s/shared", pair->fixture->folder);
     (void)mkdir(path, 0777); /* it may be there */
-    snprintf(path, sizeof path, "%s/reflection/classify_tiles", pair->fixture->folder);
-    (void)mkdir(path, 0777);
     bool found = write_wrong(pair, maker, glint_pass_text(maker), right, wrong);
     snprintf(path, sizeof path, "%s/%s.comp", glint_pass_find(slot, variant)->folder, variant);
     found |= write_wrong(pair, "wrong.comp", glint_pass_text(path), right, wrong);

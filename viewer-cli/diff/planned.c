@@ -42,8 +42,7 @@ bool diff_is_planned_out(const struct diff *diff, const struct diff_pair *pair) 
     const json_t *pass = report_pass(lacks->json, image->slot);
     const char *reason = json_string_value(json_object_get(pass, "reason"));
     if (!reason || !strcmp(reason, GLINT_REASON_NOT_ASKED) || !strcmp(reason, GLINT_REASON_SKIPPED)) return false;
-    if (lacks != &diff->sides[diff->planned])
-        return row && (row->size == GLINT_SIZE_TILES || row->size == GLINT_SIZE_LIST);
+    if (lacks != &diff->sides[diff->planned]) return row && row->size == GLINT_SIZE_LIST;
     bool others = !json_is_true(json_object_get(pass, "ran"));
     for (size_t i = 0; i < lacks->count; i++) others |= !strcmp(lacks->images[i].slot, image->slot);
     return others;

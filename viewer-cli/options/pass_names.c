@@ -53,7 +53,6 @@ const char *size_name(enum glint_size_class size) {
         [GLINT_SIZE_CUBEMAPS_MIPS] = "cube maps, levels",
         [GLINT_SIZE_SKY_MIPS] = "sky, levels",
         [GLINT_SIZE_PARABOLOIDS_MIPS] = "hemispheres, levels",
-        [GLINT_SIZE_TILES] = "tiles",
         [GLINT_SIZE_LIST] = "list",
     };
     _Static_assert(sizeof names / sizeof *names == GLINT_SIZE_LIST + 1, "each class of sizes has a name");

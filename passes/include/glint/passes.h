@@ -55,11 +55,9 @@ enum glint_size_class {
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PARABOLOIDS_MIPS, /* 2D array of two hemispheres for each active cube map, as wide as its faces, with levels */
-    GLINT_SIZE_TILES, /* a buffer like LIST: tiles of the picture (passes/shared/tile_list.h). DISPATCH over it: a workgroup
-                         for each 4 × 16 tiles. It is never read from a run: readers then run over whole images */
-    GLINT_SIZE_LIST /* a buffer of uints, shown as an image 256 wide. Row 0: workgroup counts x, y, z, number of items; then
-                       up to HALF's pixels items, and room for its maker to work in. DISPATCH over it: 64 invocations for
-                       each 32 × 32 pixels of HALF. A list that no pass makes: 0xFFFFFFFF everywhere, the header alone */
+    GLINT_SIZE_LIST /* a buffer of uints, shown as an image 256 wide: tiles of the picture (passes/shared/work_list.h). DISPATCH over
+                       it: a workgroup for each 64 × 64 pixels of the picture. It is never read from a run, and no pass has to
+                       make it: readers then run over whole images */
 };
 
 /* In which order the levels of DISPATCH_LEVELS run. */

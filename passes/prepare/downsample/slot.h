@@ -10,8 +10,7 @@ WRITE(image2D, normal_half, RGBA16F, "1", HALF, "X Y Z roughness", 0, "unit norm
 WRITE(image2D, cone_half, R16F, "rad", HALF, "angle", 0, "half-angle of the cone that the ray represents; 0: a ray")
 WRITE(uimage2D, pick, R8UI, "1", HALF, "index", 4, "which pixel of the 2x2 block was picked: x + 2y; 4: the centre of the block; 8 is added when the reflection is not visible in the picture")
 DISPATCH(depth_half)
-DISPATCH_TILES(shown)
-#include "shared/tile_rows.h"
+DISPATCH_LIST(tile_list, shown)
 PUSH(float, min_weight, 0.0, 0.0, 1.0, "1", "glint", "surfaces that reflect less than this fraction of the radiance towards the viewer trace no rays; 0: all surfaces trace")
 NEEDS(reflections)
 PER_RAY

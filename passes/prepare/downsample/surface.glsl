@@ -2,7 +2,7 @@
 #include "lobe.glsl"
 #include "shared/brdf.glsl"
 #include "shared/shown.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 
 // The pixels of a block whose reflections the picture shows; what is no surface may hold anything.
 uint useful_in_block(ivec2 block, vec4 inverse_depth) {

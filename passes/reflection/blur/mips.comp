@@ -9,7 +9,7 @@
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
 #include "shared/reuse.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 // Level 0 is the image, weighted by whether there is a ray; a coarser level the mean of the finer one's texels.

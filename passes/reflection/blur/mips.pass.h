@@ -9,6 +9,6 @@ WRITE(image2D, reflection_mips, RGBA16F, "radiance", HALF_MIPS, "R G B weight", 
 READ_OWN(texture2D, chain, reflection_mips)
 DISPATCH_LEVELS(reflection_mips, 0, -1, down)
 DISPATCH(reflection_blurred)
-DISPATCH_TILES(shown)
+DISPATCH_LIST(tile_list, shown)
 SPEC(bool,  filter_color, true, 0,    1,   "1", "glint", "interpolate between levels and texels; off: the nearest of both")
 PUSH(float, max_width,      0.25, 0.0,  1.0, "1", "Mafia III talk, Mafia III approach", "max width of the kernel, as a fraction of the picture's width; 0: no blur")

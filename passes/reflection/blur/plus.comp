@@ -8,7 +8,7 @@
 };
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 void main() {

@@ -6,4 +6,4 @@ SPEC(bool, brdf, true, 0, 1, "1", "Mafia III talk, Neighbor sample reuse", "weig
 #include "shared/reuse_rows.h"
 NEEDS_BY(rough, fade_from)
 DISPATCH(reflection_blurred)
-DISPATCH_TILES_BY(rough, fade_from)
+DISPATCH_LIST_BY(tile_list, rough, fade_from)

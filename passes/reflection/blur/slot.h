@@ -6,6 +6,5 @@ READ(texture2D, depth_half)
 READ(texture2D, normal_half)
 READ(utexture2D, pick)
 WRITE(image2D, reflection_blurred, RGBA16F, "radiance", HALF, "R G B A", -1, "reflection_half combined with its neighbours")
-#include "shared/tile_rows.h"
 NEEDS(reflecting)
 REFERENCE_NONE("a pixel of the reference uses only its own rays")

@@ -11,7 +11,7 @@
 #include "shared/edges.glsl"
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 const uint DOWN = 0u, ALONG_ROWS = 1u, ALONG_COLUMNS = 2u, FINER = 3u, FINEST = 4u; // dispatch phases

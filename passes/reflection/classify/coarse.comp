@@ -8,9 +8,9 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
-#include "shared/compact.glsl"
+#include "shared/list_maker.glsl"
 
-const int TILE = 4; // pixels; an invocation lists one
+const int TILE = 4; // pixels, either way
 
 bool worth(ivec2 pixel) {
     float depth_m = texelFetch(depth_half, pixel, 0).x;
@@ -28,23 +28,27 @@ bool worth(ivec2 pixel) {
     return dot(mirror_direction(position, normal.xyz), -normalize(position)) < viewer_to;
 }
 
-// Asked for the sixteen pixels of a tile one after the other, so that the tile is looked at once.
-ivec2 tile_known = ivec2(-1);
-bool tile_worth = false;
+shared uint tile_worth[gl_WorkGroupSize.x * gl_WorkGroupSize.y / uint(TILE * TILE)];
 
-uint class_of(ivec2 pixel) {
-    ivec2 tile = pixel / TILE;
-    if (tile != tile_known) {
-        tile_known = tile;
-        tile_worth = false;
-        ivec2 last = ivec2(frame.size.zw) - 1;
-        for (int i = 0; i < TILE * TILE && !tile_worth; ++i)
-            tile_worth = worth(min(tile * TILE + ivec2(i % TILE, i / TILE), last));
-    }
-    imageStore(screen_rejected, pixel, uvec4(tile_worth ? 0u : 1u));
-    vec4 normal = texelFetch(normal_jittered, pixel, 0);
-    if (!tile_worth || !reflects(texelFetch(depth_half, pixel, 0).x, normal.xyz)) return CLASSES;
-    return normal.w <= hq_roughness ? 0u : 1u;
+void reject_tiles() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), local = ivec2(gl_LocalInvocationID.xy) / TILE;
+    int tile = local.y * int(gl_WorkGroupSize.x) / TILE + local.x;
+    if (gl_LocalInvocationIndex < tile_worth.length()) tile_worth[gl_LocalInvocationIndex] = 0u;
+    barrier();
+    bool shown = all(lessThan(pixel, ivec2(frame.size.zw)));
+    if (shown && worth(pixel)) atomicOr(tile_worth[tile], 1u);
+    barrier();
+    if (shown) imageStore(screen_rejected, pixel, uvec4(1u - tile_worth[tile]));
 }
 
-void main() { list_block(screen_list); }
+uint class_of(ivec2 texel) {
+    if (any(greaterThanEqual(texel, ivec2(frame.size.zw)))) return 0u;
+    vec4 normal = texelFetch(normal_jittered, texel, 0);
+    bool traced = texelFetch(rejected, texel, 0).x == 0u && reflects(texelFetch(depth_half, texel, 0).x, normal.xyz);
+    return !traced ? 0u : normal.w <= hq_roughness ? SMOOTH : ROUGH;
+}
+
+void main() {
+    if (dispatch_phase == 0u) reject_tiles();
+    else make_list(screen_list, dispatch_phase - 1u, reduction(frame.size));
+}

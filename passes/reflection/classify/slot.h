@@ -3,7 +3,7 @@
 SLOT("Which rays are traced on screen, by roughness class")
 READ(texture2D, depth_half)
 READ(texture2D, normal_jittered)
-WRITE(uimageBuffer, screen_list, R32UI, "1", LIST, "item", 0xFFFFFFFFu, "pixels that reflect, as x + 65536 y, smooth before rough ones, over the whole image or within each block of 32 x 32 pixels; 0xFFFFFFFF is padding")
+WRITE(uimageBuffer, screen_list, R32UI, "1", LIST, "item", 0xFFFFFFFFu, "as tile_list: tiles from which rays are traced, then tiles without")
 PUSH(float, hq_roughness, 0.1, 0.0, 1.0, "1", "Mafia III talk, Cube-map tracing", "max roughness of a smooth surface; affects only the order of work, not the results")
 NEEDS(reflecting)
 PER_RAY

@@ -1,6 +1,7 @@
-/* Builds one list ordered by class, compacted with prefix sums over blocks. */
-PASS("Compacted list", "Mafia III talk, Step-by-step recap (stencil mask based on roughness)")
+/* A tile has rays if a surface in it reflects. */
+PASS("Compacted list of tiles", "Mafia III talk, Step-by-step recap (stencil mask based on roughness)")
 #include "slot.h"
+WORKGROUP(16, 16)
 #line 202
 READ_OWN(utextureBuffer, marked, screen_list)
 DISPATCH(screen_list)

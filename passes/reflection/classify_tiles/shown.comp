@@ -8,7 +8,7 @@
 };
 #include "shared/camera.glsl"
 #include "shared/shown.glsl"
-#include "reflection/classify_tiles/maker.glsl"
+#include "shared/list_maker.glsl"
 
 // What lies between the classes is rough. A half-resolution texel's roughness may be a mean, which rounding makes a little less
 // rough than what it is of, or more.
@@ -24,4 +24,4 @@ uint class_of(ivec2 pixel) {
     return (smooth_one ? SMOOTH : 0u) | (rough_one ? ROUGH : 0u);
 }
 
-void main() { make_tile_list(); }
+void main() { make_list(tile_list, dispatch_phase, 1.0); }

@@ -6,12 +6,11 @@
 #include "shared/push_begin.glsl"
 #include "shown.pass.h"
 };
-#define TILE_LIST transparent_tiles
-#include "reflection/classify_tiles/maker.glsl"
+#include "shared/list_maker.glsl"
 
 uint class_of(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return 0u;
     return texelFetch(transparent_color, pixel, 0).a > 0.0 ? ROUGH : 0u;
 }
 
-void main() { make_tile_list(); }
+void main() { make_list(transparent_tiles, dispatch_phase, 1.0); }

@@ -6,6 +6,15 @@
 #include "shared/push_begin.glsl"
 #include "tiles.pass.h"
 };
-#include "class.glsl"
+#include "shared/camera.glsl"
+#include "shared/list_maker.glsl"
 
-void main() { compact(marked, cubemap_list); }
+uint class_of(ivec2 texel) {
+    if (any(greaterThanEqual(texel, ivec2(frame.size.zw)))) return 0u;
+    vec4 normal = texelFetch(normal_jittered, texel, 0);
+    float depth_m = texelFetch(depth_half, texel, 0).x;
+    bool finished = texelFetch(screen_finished, texel, 0).x != 0u;
+    return finished || !reflects(depth_m, normal.xyz) ? 0u : normal.w <= hq_roughness ? SMOOTH : ROUGH;
+}
+
+void main() { make_list(cubemap_list, dispatch_phase, reduction(frame.size)); }

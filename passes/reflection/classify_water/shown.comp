@@ -6,9 +6,8 @@
 #include "shared/push_begin.glsl"
 #include "shown.pass.h"
 };
-#define TILE_LIST water_tiles
 #include "shared/constants.glsl"
-#include "reflection/classify_tiles/maker.glsl"
+#include "shared/list_maker.glsl"
 
 uint class_of(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return 0u;
@@ -16,4 +15,4 @@ uint class_of(ivec2 pixel) {
     return depth_m > 0.0 && depth_m < INFINITE ? ROUGH : 0u;
 }
 
-void main() { make_tile_list(); }
+void main() { make_list(water_tiles, dispatch_phase, 1.0); }

@@ -8,7 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 // How much of the reflection the surface sends to the viewer.

@@ -15,6 +15,5 @@ NEEDS(reflecting)
 ALIAS(composed, lit)
 WRITE(image2D, composed, RGBA16F, "radiance", FULL, "R G B A", 0, "lit plus the last reflection image times the environment BRDF; a is 1")
 DISPATCH(composed)
-DISPATCH_TILES(shown)
-#include "shared/tile_rows.h"
+DISPATCH_LIST(tile_list, shown)
 ROLE(COMPOSED, reflection)

@@ -8,7 +8,8 @@
 };
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
+#include "shared/work_list.glsl"
 
 void main() {
     load_active_centers();

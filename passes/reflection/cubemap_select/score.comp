@@ -8,7 +8,7 @@
 };
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 
 // Each term lies in [0, 1]. What cannot beat `least` is not looked at in the cube map.
@@ -45,17 +45,14 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 size = imageSize(cubemap_best);
-    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
+    ivec2 pixel = tile_texel(reduction(frame.size));
+    if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;
     float depth_m;
     vec3 normal;
-    bool traced = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    if (!traced && inside(pixel, size)) imageStore(cubemap_best, pixel, uvec4(255u));
-    if (has_list()) {
-        pixel = listed_pixel(cubemap_list);
-        traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
+    if (!tile_works || !has_ray(pixel, depth_m, normal)) {
+        imageStore(cubemap_best, pixel, uvec4(255u));
+        return;
     }
-    if (!traced) return;
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 ray = mirror_direction(position, normal);

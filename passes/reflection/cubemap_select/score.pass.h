@@ -4,8 +4,6 @@ PASS("Best score", "Mafia III talk, Best cube-map selection, GPU")
 #line 202
 READ(textureCubeArray, cubemap_distance)
 ALONG_RAYS(cubemap_distance, normal_jittered)
-OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
-DISPATCH_LIST(cubemap_list)
 PUSH(float, visibility, 0.1,  0.0, 16.0, "1", "Mafia III talk, Best cube-map selection, GPU", "weight of visibility: the ray's start is visible from the centre; 0: off")
 PUSH(float, distance,   1.0,  0.0, 16.0, "1", "Mafia III talk, Best cube-map selection, GPU", "weight of distance: the centre is near; 0: off")
 PUSH(float, direction,  0.1,  0.0, 16.0, "1", "Mafia III talk, Best cube-map selection, GPU", "weight of direction: the ray points away from the centre; 0: off")

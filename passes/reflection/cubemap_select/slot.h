@@ -9,9 +9,9 @@ READ(utexture2D, screen_finished)
 READ(texture2D, active_center)
 WRITE(uimage2D, cubemap_best, R8UI, "place", HALF, "place", 255, "place among the active cube maps; 255: none, or the ray has ended already")
 DISPATCH(cubemap_best)
-DISPATCH_TILES(shown)
+DISPATCH_LIST(cubemap_list, shown)
+DISPATCH_LIST(tile_list, shown)
 NEEDS(reflecting)
 NEEDS(cubemaps)
 PER_RAY
-#include "shared/tile_rows.h"
 REFERENCE_WITH(cubemap_trace, "the reference traces every cube map, so that the selection does not matter")

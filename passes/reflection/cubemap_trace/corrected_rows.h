@@ -1,7 +1,5 @@
 /* The proxies of the parallax-corrected lookups. */
 #line 202
-OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
-DISPATCH_LIST(cubemap_list)
 READ(texture2D, active_volume)
 READ(textureCubeArray, cubemap_color)
 FACT(volumes)

@@ -9,7 +9,8 @@
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
+#include "shared/work_list.glsl"
 #include "place.glsl"
 #include "probe.glsl"
 #include "texels.glsl"

@@ -2,5 +2,3 @@
 PASS("Lookup by direction", "Mafia III talk, Existing solutions")
 #include "slot.h"
 #line 202
-OPTIONAL_READ(utextureBuffer, cubemap_list, R32UI, LIST, 0xFFFFFFFFu)
-DISPATCH_LIST(cubemap_list)

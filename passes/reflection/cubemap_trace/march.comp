@@ -7,7 +7,7 @@
 #include "march.pass.h"
 };
 #include "march.glsl"
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 
 Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
@@ -21,7 +21,6 @@ Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
 }
 
 void store(ivec2 pixel, Result result) {
-    probe_texel(pixel);
     probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
     imageStore(travelled, pixel, vec4(result.travelled_m));
     imageStore(cubemap_index, pixel, uvec4(result.place));
@@ -40,17 +39,12 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec4 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 size = imageSize(travelled);
-    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
-    float depth_m;
+    ivec2 pixel = tile_texel(reduction(frame.size));
+    if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
+    float depth_m, start_m = texelFetch(screen_travelled, pixel, 0).x;
     vec4 normal;
-    bool traced = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    if (!traced && inside(pixel, size))
-        store(pixel, Result(texelFetch(screen_travelled, pixel, 0).x, NO_PLACE, END_not_traced, 0u, 0u));
-    if (has_list()) {
-        pixel = listed_pixel(cubemap_list);
-        traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    }
-    if (traced) probe_texel(pixel);
-    if (traced) store(pixel, trace(pixel, depth_m, normal, texelFetch(screen_travelled, pixel, 0).x));
+    bool traced = tile_works && has_ray(pixel, depth_m, normal);
+    probe_texel(pixel);
+    if (traced) store(pixel, trace(pixel, depth_m, normal, start_m));
+    else store(pixel, Result(start_m, NO_PLACE, END_not_traced, 0u, 0u));
 }

@@ -3,7 +3,7 @@
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 #include "place.glsl"
 #include "probe.glsl"
@@ -19,7 +19,6 @@ Result by_direction(uint best) { return Result(INFINITE, best, END_fallback, 0u)
 Result end_of(vec3 origin, vec3 direction, float start_m, uint best);
 
 void store(ivec2 pixel, Result result) {
-    probe_texel(pixel);
     probe_cubemap_end(result.travelled_m, result.place, result.end, 0u, result.fetches);
     imageStore(travelled, pixel, vec4(result.travelled_m));
     imageStore(cubemap_index, pixel, uvec4(result.place));
@@ -49,17 +48,12 @@ Result traced(ivec2 pixel, float depth_m, vec3 normal) {
 
 void main() {
     load_active_centers();
-    ivec2 size = imageSize(travelled);
-    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
+    ivec2 pixel = tile_texel(reduction(frame.size));
+    if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m;
     vec3 normal;
-    bool has = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    if (!has && inside(pixel, size))
-        store(pixel, Result(texelFetch(screen_travelled, pixel, 0).x, NO_PLACE, END_not_traced, 0u));
-    if (has_list()) {
-        pixel = listed_pixel(cubemap_list);
-        has = inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    }
-    if (has) probe_texel(pixel);
+    bool has = tile_works && has_ray(pixel, depth_m, normal);
+    probe_texel(pixel);
     if (has) store(pixel, traced(pixel, depth_m, normal));
+    else store(pixel, Result(texelFetch(screen_travelled, pixel, 0).x, NO_PLACE, END_not_traced, 0u));
 }

@@ -17,10 +17,10 @@ DIAGNOSTIC(uimage2D, cubemap_end, R8UI, "end reason", HALF, "reason", 0, "why th
 DIAGNOSTIC(uimage2D, cubemap_steps, R32UI, "steps", HALF, "steps", 0, "steps taken, including refinements and switches")
 DIAGNOSTIC(uimage2D, cubemap_fetches, R32UI, "fetches", HALF, "fetches", 0, "texture fetches made")
 DISPATCH(travelled)
-DISPATCH_TILES(shown)
+DISPATCH_LIST(cubemap_list, shown)
+DISPATCH_LIST(tile_list, shown)
 NEEDS(reflecting)
 PER_RAY
-#include "shared/tile_rows.h"
 ROLE(RAY_DISTANCE, travelled)
 ROLE(CUBEMAP_END, cubemap_end)
 ROLE(CUBEMAP_FETCHES, cubemap_fetches)

@@ -7,8 +7,8 @@
 #include "lookup.pass.h"
 };
 #include "shared/camera.glsl"
-#define TILE_LIST water_tiles
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) texelFetch(water_tiles, place).x
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 const float LEAST_RISE = 1e-3; // a ray that a ripple sends down meets another one, and goes on about level

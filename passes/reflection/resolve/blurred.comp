@@ -8,7 +8,7 @@
 };
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 // 1 from `full` on, 0 up to `none`, which may lie on either side; equal: a step.

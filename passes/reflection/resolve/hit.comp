@@ -7,7 +7,7 @@
 #include "hit.pass.h"
 };
 #include "color.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 
 vec4 reflected_color(ivec2 pixel, float depth_m, vec3 normal) {
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);

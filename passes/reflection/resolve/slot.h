@@ -6,10 +6,9 @@ READ(texture2D, normal_jittered)
 READ(utexture2D, pick)
 WRITE(image2D, reflection_half, RGBA16F, "radiance", HALF, "R G B A", 0, "rgb: radiance arriving along the ray; a: 1 where the ray found a colour")
 DISPATCH(reflection_half)
-DISPATCH_TILES(shown)
+DISPATCH_LIST(tile_list, shown)
 NEEDS(reflecting)
 PER_RAY
-#include "shared/tile_rows.h"
 ACCUMULATE(reflection_half)
 ROLE(RAY_RADIANCE, reflection_half)
 ROLE(QUESTION, fog)

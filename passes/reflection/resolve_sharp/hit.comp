@@ -10,7 +10,7 @@
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
 #include "shared/shown.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 
 // The texel whose ray is taken: upscale's choice, else the pixel's own.
 ivec2 ray_texel(ivec2 pixel) {

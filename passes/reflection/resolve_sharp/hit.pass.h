@@ -10,7 +10,7 @@ PUSH(float, sharp_roughness, 0.1,   0.0, 1.0,  "1", "Mafia III talk, Color resol
 PUSH(float, blend,          0.02,  0.0, 1.0,  "1", "glint", "range of roughness below that limit over which the upscaled reflection takes over; 0: a hard switch")
 SPEC(bool,  neighbours,  false, 0,   1,    "1", "glint", "where the mirror ray of the pixel misses what the chosen ray hit on screen, or the chosen ray hit nothing there, take the nearest hit of the surrounding rays that lies on the mirror ray; off: the chosen ray decides")
 NEEDS_BY(smooth, sharp_roughness)
-DISPATCH_TILES_BY(smooth, sharp_roughness)
+DISPATCH_LIST_BY(tile_list, smooth, sharp_roughness)
 PUSH(float, threshold,      0.1,  0.001, 0.999, "1", "Mafia III talk, Combining importance sampling with pre-filtering", "lobe value at the rim of the cone, which represents the whole lobe here")
 PUSH(float, cone_factor,    1.0,   0.0, 8.0,  "1", "chosen by the measured error", "factor on the cone's angle; 0: rays without a cone")
 ALONG_RAYS(cubemap_color, normal_full)

@@ -7,7 +7,6 @@ READ(utexture2D, pick)
 READ(texture2D, normal_full)
 WRITE(image2D, reflection_sharp, RGBA16F, "radiance", FULL, "R G B A", -1, "reflection, with smooth surfaces resolved at full resolution")
 DISPATCH(reflection_sharp)
-#include "shared/tile_rows.h"
 NEEDS(reflecting)
 REFERENCE_NONE("every pixel of the reference has its own rays")
 REFERENCE_WITH(upscale, "it replaces the pixels that upscale marks")

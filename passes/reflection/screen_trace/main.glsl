@@ -1,10 +1,9 @@
-// Every pixel that has a ray, over a list or without one, for a variant that defines
+// Every pixel that has a ray, for a variant that defines
 // Result trace(ivec2 pixel, float depth_m, vec3 normal).
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) (has_screen_list ? texelFetch(screen_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 
 void store(ivec2 pixel, Result result) {
-    probe_texel(pixel);
     probe_screen_end(result);
     imageStore(screen_travelled, pixel, vec4(result.travelled_m));
     imageStore(screen_finished, pixel, uvec4(result.finished ? 1u : 0u));
@@ -23,16 +22,12 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
 }
 
 void main() {
-    ivec2 size = imageSize(screen_travelled);
-    ivec2 pixel = has_list() ? own_pixel(size) : tile_texel(reduction(frame.size));
+    ivec2 pixel = tile_texel(reduction(frame.size));
+    if (any(greaterThanEqual(pixel, imageSize(screen_travelled)))) return;
     float depth_m;
     vec3 normal;
-    bool traced = tile_works && inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    if (!traced && inside(pixel, size)) store(pixel, Result(0.0, false, END_not_traced, 0u, 0u));
-    if (has_list()) {
-        pixel = listed_pixel(screen_list);
-        traced = inside(pixel, size) && has_ray(pixel, depth_m, normal);
-    }
-    if (traced) probe_texel(pixel);
+    bool traced = tile_works && has_ray(pixel, depth_m, normal);
+    probe_texel(pixel);
     if (traced) store(pixel, trace(pixel, depth_m, normal));
+    else store(pixel, Result(0.0, false, END_not_traced, 0u, 0u));
 }

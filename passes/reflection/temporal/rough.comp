@@ -9,7 +9,7 @@
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
 #include "history.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 
 vec4 current_color(ivec2 texel) {
     return has_reflection_blurred ? texelFetch(reflection_blurred, texel, 0) : texelFetch(reflection_half, texel, 0);

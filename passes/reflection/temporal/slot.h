@@ -10,6 +10,5 @@ READ(texture2D, travelled)
 READ(texture2D, motion_full)
 WRITE(image2D, reflection_temporal, RGBA16F, "radiance", HALF, "R G B A", -1, "mean of the reflections of this frame and previous ones")
 DISPATCH(reflection_temporal)
-#include "shared/tile_rows.h"
 NEEDS(reflecting)
 REFERENCE_NONE("a frame of the reference has enough rays of its own")

@@ -9,7 +9,7 @@
 #include "shared/reproject.glsl"
 #include "shared/reuse.glsl"
 #include "shared/shown.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 vec4 current_color(ivec2 pixel) {

@@ -4,7 +4,7 @@ PASS("Variance-clamped history", "Mafia III talk, Temporal filter")
 #include "slot.h"
 WORKGROUP(8, 16)
 #line 202
-DISPATCH_TILES_BY(smooth, sharp_roughness)
+DISPATCH_LIST_BY(tile_list, smooth, sharp_roughness)
 HISTORY(texture2D, previous_stable, reflection_stable)
 NEEDS(history)
 BYPASS(reflection_stable, reflection_sharp)

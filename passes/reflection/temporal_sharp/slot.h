@@ -10,7 +10,6 @@ READ(texture2D, travelled)
 OPTIONAL_READ(utexture2D, pick, R8UI, HALF, 4)
 WRITE(image2D, reflection_stable, RGBA16F, "radiance", FULL, "R G B A", -1, "reflection_sharp combined with previous frames on smooth surfaces; a: 0 where no frame found a colour, which is not used as history")
 DISPATCH(reflection_stable)
-#include "shared/tile_rows.h"
 NEEDS(reflecting)
 REFERENCE_NONE("a frame of the reference has enough rays of its own")
 REFERENCE_WITH(resolve_sharp, "it stabilizes what resolve_sharp computes")

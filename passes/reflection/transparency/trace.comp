@@ -8,8 +8,8 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
-#define TILE_LIST transparent_tiles
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) texelFetch(transparent_tiles, place).x
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 // What a texel of another surface weighs: where all four are, they are better than nothing.

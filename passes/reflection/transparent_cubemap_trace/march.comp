@@ -7,8 +7,8 @@
 #include "march.pass.h"
 };
 #include "reflection/cubemap_trace/march.glsl"
-#define TILE_LIST transparent_tiles
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) texelFetch(transparent_tiles, place).x
+#include "shared/work_list.glsl"
 
 Result trace(ivec2 texel, float depth_m, vec4 normal, float start_m) {
     vec2 uv = picked_uv(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);

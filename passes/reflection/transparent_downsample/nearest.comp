@@ -7,8 +7,8 @@
 #include "nearest.pass.h"
 };
 #include "prepare/downsample/lobe.glsl"
-#define TILE_LIST transparent_tiles
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) texelFetch(transparent_tiles, place).x
+#include "shared/work_list.glsl"
 
 bool surface_at(ivec2 pixel, out float depth_m, out vec4 surface) {
     depth_m = texelFetch(transparent_depth, pixel, 0).x;

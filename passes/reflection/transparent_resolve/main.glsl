@@ -1,7 +1,7 @@
 // Every texel that has a ray, for a variant that defines vec4 color_of(Ray ray, bool finished, uint place, ivec2 texel).
 // Next include of a pass with the rows of this slot and those of reflection/resolve/sources.h.
-#define TILE_LIST transparent_tiles
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) texelFetch(transparent_tiles, place).x
+#include "shared/work_list.glsl"
 
 vec4 resolved(ivec2 texel, float depth_m, vec3 normal) {
     vec2 uv = picked_uv(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);

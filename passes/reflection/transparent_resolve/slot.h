@@ -10,8 +10,7 @@ READ(utexture2D, transparent_place)
 READ(texture2D, transparent_cone)
 WRITE(image2D, transparent_reflection, RGBA16F, "radiance", HALF, "R G B A", 0, "rgb: radiance arriving along the ray; a: 1 where the ray found a colour")
 DISPATCH(transparent_reflection)
-DISPATCH_TILES(shown)
-#include "shared/transparent_tile_rows.h"
+DISPATCH_LIST(transparent_tiles, shown)
 NEEDS(transparent)
 PER_RAY
 ACCUMULATE(transparent_reflection)

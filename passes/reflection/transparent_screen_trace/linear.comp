@@ -8,8 +8,8 @@
 };
 #include "reflection/screen_trace/linear.glsl"
 #include "shared/random.glsl"
-#define TILE_LIST transparent_tiles
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) texelFetch(transparent_tiles, place).x
+#include "shared/work_list.glsl"
 
 Result trace(ivec2 texel, float depth_m, vec3 normal) {
     vec2 start = picked_position(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);

@@ -11,8 +11,7 @@ DIAGNOSTIC(uimage2D, transparent_screen_end, R8UI, "end reason", HALF, "reason",
 DIAGNOSTIC(uimage2D, transparent_screen_steps, R32UI, "steps", HALF, "steps", 0, "steps taken")
 DIAGNOSTIC(uimage2D, transparent_screen_fetches, R32UI, "fetches", HALF, "fetches", 0, "texture fetches made")
 DISPATCH(transparent_screen_travelled)
-DISPATCH_TILES(shown)
-#include "shared/transparent_tile_rows.h"
+DISPATCH_LIST(transparent_tiles, shown)
 NEEDS(transparent)
 PER_RAY
 REFERENCE_NONE("it is composed over the picture and is not part of the reflection that the reference computes")

@@ -8,7 +8,7 @@
 };
 #include "shared/camera.glsl"
 #include "shared/shown.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "source.glsl"
 
 // An invocation takes the four pixels of a half-resolution texel, which look at the same texels around: a workgroup's, and

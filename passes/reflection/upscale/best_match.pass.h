@@ -2,7 +2,7 @@
 PASS("Best match of depth and normal", "Mafia III talk, Upscale")
 #include "slot.h"
 DISPATCH(depth_half)
-DISPATCH_TILES(shown)
+DISPATCH_LIST(tile_list, shown)
 #line 202
 WRITE(uimage2D, sharp_source, R8UI, "1", FULL, "place", 255, "0: a rough pixel; else a smooth one, and the value is the chosen texel among the 3 x 3 around its own, 1 + x + 3y, 5 in the middle")
 SPEC(bool,  around,           true,  0,   1,    "1", "chosen by measuring", "consider all eight texels around the pixel's own; off: the four nearest")

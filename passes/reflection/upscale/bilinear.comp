@@ -8,7 +8,7 @@
 };
 #include "shared/camera.glsl"
 #include "shared/shown.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "source.glsl"
 
 void main() {

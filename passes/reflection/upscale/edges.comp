@@ -10,7 +10,7 @@
 #include "shared/edges.glsl"
 #include "shared/reuse.glsl"
 #include "shared/shown.glsl"
-#include "shared/tiles.glsl"
+#include "shared/work_list.glsl"
 #include "source.glsl"
 
 // What a texel weighs that is not of the pixel's surface: where none of the four is, the nearest mixture is better than nothing.

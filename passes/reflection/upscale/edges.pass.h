@@ -2,7 +2,7 @@
 PASS("Bilinear up to edges", "Mafia DE article, Downscaled Depth and Normals")
 #include "slot.h"
 DISPATCH(reflection)
-DISPATCH_TILES(shown)
+DISPATCH_LIST(tile_list, shown)
 #line 202
 READ(utexture2D, edge_levels)
 SPEC(bool,  lobes,      true, 0,   1,    "1", "glint", "weight texels by the agreement of their lobe with the pixel's; off: ignore normal and roughness")

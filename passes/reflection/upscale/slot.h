@@ -11,5 +11,4 @@ READ(texture2D, depth_full)
 READ(texture2D, normal_full)
 WRITE(image2D, reflection, RGBA16F, "radiance", FULL, "R G B A", 0, "the final half-resolution reflection at full resolution")
 NEEDS(reflecting)
-#include "shared/tile_rows.h"
 #include "shared/shown_rows.h"

@@ -9,8 +9,8 @@
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 #include "shared/cube_filter.glsl"
-#define TILE_LIST water_tiles
-#include "shared/tiles.glsl"
+#define LIST_WORD(place) texelFetch(water_tiles, place).x
+#include "shared/work_list.glsl"
 #include "shared/probe/tell.glsl"
 
 struct Water {

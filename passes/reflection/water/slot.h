@@ -10,7 +10,6 @@ READ(textureCubeArray, cubemap_color)
 READ(textureCube, sky)
 WRITE(image2D, composed_water, RGBA16F, "radiance", FULL, "R G B A", 0, "composed, with the water over it; a is 1")
 DISPATCH(composed_water)
-DISPATCH_TILES(shown)
-#include "shared/water_tile_rows.h"
+DISPATCH_LIST(water_tiles, shown)
 NEEDS(water)
 REFERENCE_NONE("it is composed over the picture and is not part of the reflection that the reference computes")

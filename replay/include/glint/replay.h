@@ -41,7 +41,6 @@ struct glint_device_info {
     uint64_t memory_bytes;
     bool
         filters_together; /* what is looked up beside a cube map's texel changes its last bits: passes/shared/cube_filter.glsl */
-    uint32_t tile_wide; /* pixels across a tile for passes that look cube maps up: passes/shared/tile_list.h */
 };
 /* Fills up to `capacity` entries, best first, and returns how many devices there are; 0 with an error when Vulkan
    itself cannot start. */

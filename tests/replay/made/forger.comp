@@ -7,8 +7,8 @@
 };
 
 void main() {
-    for (int i = int(gl_LocalInvocationIndex); i < 1000; i += 64) { // 25 x 16 pixels of HALF are one block
-        imageStore(list_a, i, uvec4(word));
-        imageStore(list_b, i, uvec4(word));
+    for (int i = int(gl_LocalInvocationIndex); i < 1000; i += 64) { // 50 x 31 pixels are one region
+        imageStore(list_a, i, uvec4(5u));
+        imageStore(list_b, i, uvec4(5u));
     }
 }

@@ -6,21 +6,15 @@
 #include "shared/push_begin.glsl"
 #include "worker.pass.h"
 };
-
+#define LIST_WORD(place) (has_list_none ? texelFetch(list_none, place).x : has_list_a ? texelFetch(list_a, place).x : texelFetch(list_b, place).x)
 #include "shared/work_list.glsl"
 
-void store(ivec2 pixel, float value) {
-    imageStore(worked, pixel, vec4(value + 1000.0 * float(uint(pixel.x) + frame.size.z * uint(pixel.y))));
-}
-
 void main() {
-    ivec2 size = imageSize(worked), pixel = own_pixel(size);
-    if (!has_list()) {
-        if (inside(pixel, size)) store(pixel, 10.0);
-        return;
-    }
-    // What list_a leaves out; list_b comes after it.
-    if (dispatch_phase == 1u && inside(pixel, size) && (pixel.x + 3 * pixel.y) % 5 != 0) imageStore(worked, pixel, vec4(7.0));
-    pixel = dispatch_phase == 1u ? listed_pixel(list_a) : listed_pixel(list_b);
-    if (inside(pixel, size)) store(pixel, 10.0 + float(dispatch_phase));
+    ivec2 texel = tile_texel(2.0);
+    if (any(greaterThanEqual(texel, imageSize(worked)))) return;
+    int kind = (texel.x + 3 * texel.y) % 5;
+    float value = 10.0 + 1000.0 * float(uint(texel.x) + frame.size.z * uint(texel.y));
+    if (tell && tile_range != ALL_TILES) value += float(tile_range + 1u) + (has_list_a ? 0.0 : 5.0);
+    bool works = tile_works && (tell || kind == 1 || kind == 2);
+    imageStore(worked, texel, vec4(works ? value : 7.0));
 }

@@ -1,5 +1,0 @@
-/* Builds the list block by block: in one dispatch, but with more workgroups for its readers. */
-PASS("Lists of blocks", "Mafia III talk, Step-by-step recap (stencil mask for SSR finished pixels)")
-#include "slot.h"
-#line 202
-DISPATCH(cubemap_list)
