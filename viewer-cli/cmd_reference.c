@@ -12,10 +12,10 @@ struct arguments {
     const char *capture, *out, *like;
     uint32_t rays, sensitivity;
     double noise;
-    bool anew, json, progress;
+    bool overwrite, json, progress;
 };
 
-enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_ANEW, KEY_PROGRESS };
+enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_OVERWRITE, KEY_PROGRESS };
 enum { RAYS = 64, RAYS_FOR_NOISE = 16384, RAYS_FOR_SENSITIVITY = 32 };
 
 /* clang-format off */
@@ -30,7 +30,7 @@ static const struct argp_option options[] = {
     USE_OPTION,
     {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as pipeline.fog=false for comparisons with the truth, which has no fog", 0},
     ALL_OPTION,
-    {"anew",        KEY_ANEW,        NULL,   0, "Replace what the folder holds", 0},
+    {"overwrite",   KEY_OVERWRITE,   NULL,   0, "Replace what the folder holds", 0},
     DEVICE_OPTION,
     PROGRESS_OPTION,
     {"json",        'j',             NULL,   0, "Print JSON", 0},
@@ -78,8 +78,8 @@ static error_t cmd_reference_parse(int key, char *arg, struct argp_state *state)
     case KEY_PROGRESS:
         a->progress = true;
         return 0;
-    case KEY_ANEW:
-        a->anew = true;
+    case KEY_OVERWRITE:
+        a->overwrite = true;
         return 0;
     case ARGP_KEY_ARG:
         if (a->capture) argp_error(state, "one capture at a time; found %s and %s", a->capture, arg);
@@ -236,7 +236,8 @@ static enum status trace(const struct arguments *a, const struct opened *opened,
     struct glint_replay *replay = opened->replay;
     struct glint_capture *capture = opened->capture;
     const struct glint_pipeline *pipeline = opened->pipeline;
-    const struct glint_reference_options options = {.folder = a->out, .anew = a->anew, .all = a->pipeline.replay.all};
+    const struct glint_reference_options options = {
+        .folder = a->out, .overwrite = a->overwrite, .all = a->pipeline.replay.all};
     struct glint_reference_sensitivity sensitivity = {0};
     struct missing missing = {0};
     struct progress progress;

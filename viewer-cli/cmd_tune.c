@@ -22,7 +22,7 @@ enum {
     KEY_COST,
     KEY_SLOTS,
     KEY_VARY,
-    KEY_UNSEEN,
+    KEY_HELD_OUT,
     KEY_BASELINE,
     KEY_OVER,
     KEY_TRIES,
@@ -46,7 +46,7 @@ static const struct argp_option options[] = {
     {"output",    'o',           "PRESET.json",  0, "The preset that is found, with where it comes from; --preset reads it", 0},
     {"folder",    KEY_FOLDER,    "FOLDER",       0, "Where evaluations, references and the page are kept (default: PRESET.tune); a search goes on from what is there, "
                                                     "and another budget of the same start finds its points again", 0},
-    {"unseen",    KEY_UNSEEN,    "F",            0, "A capture to measure what was found on, and not to tune on; may be repeated", 0},
+    {"held-out",  KEY_HELD_OUT,  "F",            0, "A capture to measure what was found on, and not to tune on; may be repeated", 0},
     {"baseline",  KEY_BASELINE,  "scale",        0, "Measure beside it what is found without a search: all counts of steps, cells, samples, taps and rays "
                                                     "that may move and cost something, times the largest factor that keeps the limit. A budget becomes what that "
                                                     "costs, on each capture, and the search knows it from the start; in the end its factor on each capture is the least "
@@ -59,7 +59,7 @@ static const struct argp_option options[] = {
     {"seed",      KEY_SEED,      "N",            0, "Of the search's new starts (default 1)", 0},
     {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of a point, each in turn with the start (default 3)", 0},
     {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds in the end, of all that is compared (default 15; 0: no times)", 0},
-    {"reference", KEY_REFERENCE, "RUN|truth",    0, "What errors are against: a run of glint reference (one for each capture, the unseen ones too), or the truth "
+    {"reference", KEY_REFERENCE, "RUN|truth",    0, "What errors are against: a run of glint reference (one for each capture, the held-out ones too), or the truth "
                                                     "in the capture (default: a reference traced once and kept in the folder)", 0},
     {"rays",      KEY_RAYS,      "N",            0, "Rays a pixel of the reference that is traced (default 64)", 0},
     {"metric",    KEY_METRIC,    "NAME",         0, "The error, mean over the captures (default rmse); there are ", 0},
@@ -73,7 +73,7 @@ static const struct example examples[] = {
     {"glint replay street.exr -p ./half.json", "what was found, as any preset"},
     {"glint tune street.exr -o quarter.json --budget-ms 25% --folder half.tune",
      "another budget, from the same evaluations"},
-    {"glint tune street.exr room.exr --unseen hotel.exr -o both.json --budget-fetches 40 --baseline scale",
+    {"glint tune street.exr room.exr --held-out hotel.exr -o both.json --budget-fetches 40 --baseline scale",
      "two captures, without times; is it better than all steps scaled, on a third one too?"},
     {"glint tune street.exr -o march.json --budget-ms 0.1 --slots cubemap_trace --vary cubemap_trace.steps_hq=4..64 "
      "--vary cubemap_trace.refinements",
@@ -136,7 +136,7 @@ static void read_limit(struct tune *tune, const char *option, const char *text, 
 
 static void check_arguments(struct arguments *a, struct argp_state *state) {
     struct tune *tune = &a->tune;
-    const size_t length = tune->out ? strlen(tune->out) : 0, all = tune->captures.count + tune->unseen.count;
+    const size_t length = tune->out ? strlen(tune->out) : 0, all = tune->captures.count + tune->held_out.count;
     if (!tune->captures.count) argp_error(state, "which capture?");
     if (!!a->budget_ms + !!a->budget_fetches + !!a->error != 1)
         argp_error(state, "which limit? one of --budget-ms, --budget-fetches, --error");
@@ -178,8 +178,8 @@ static error_t cmd_tune_parse(int key, char *arg, struct argp_state *state) {
     case KEY_VARY:
         list_add(&tune->vary, arg, state);
         return 0;
-    case KEY_UNSEEN:
-        list_add(&tune->unseen, arg, state);
+    case KEY_HELD_OUT:
+        list_add(&tune->held_out, arg, state);
         return 0;
     case KEY_BASELINE:
         tune->baseline = arg_choice("baseline", arg, baselines, state) == 0;
@@ -260,8 +260,8 @@ void tune_finish(struct tune *tune) {
     free(tune->left);
     if (tune->base) glint_pipeline_destroy(&tune->base);
     if (tune->device) glint_device_destroy(&tune->device);
-    struct list *const lists[] = {&tune->captures, &tune->unseen, &tune->against.references,
-                                  &tune->vary,     &tune->slots,  &tune->shaders};
+    struct list *const lists[] = {&tune->captures, &tune->held_out, &tune->against.references,
+                                  &tune->vary,     &tune->slots,    &tune->shaders};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
 

@@ -92,7 +92,7 @@ static void add_moved(const struct tune *tune, json_t *document) {
 static void add_contenders(const struct tune *tune, size_t s, json_t *document) {
     char title[200];
     snprintf(title, sizeof title, "%.150s%s", base_name(tune->subjects[s].path),
-             tune->subjects[s].unseen ? ", not tuned on" : "");
+             tune->subjects[s].held_out ? ", not tuned on" : "");
     json_t *blocks = page_section(document, title), *table = page_table(blocks);
     const struct tune_measured *measured = tune->measured + s * TUNE_CONTENDERS;
     const struct glint_metric_table *rows = &measured[TUNE_START].errors;
@@ -151,7 +151,7 @@ static void add_facts(const struct tune *tune, json_t *document) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     char text[200];
     for (size_t s = 0; s < tune->captures.count; s++) page_fact(document, "tuned on", tune->captures.items[s]);
-    for (size_t s = 0; s < tune->unseen.count; s++) page_fact(document, "not tuned on", tune->unseen.items[s]);
+    for (size_t s = 0; s < tune->held_out.count; s++) page_fact(document, "not tuned on", tune->held_out.items[s]);
     page_fact(document, "start", glint_pipeline_name(tune->base));
     page_fact(document, "preset", tune->out);
     page_fact(document, "errors against", tune->against.truth ? "the truth in the captures" : "the reference");

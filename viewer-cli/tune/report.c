@@ -63,7 +63,7 @@ static void print_contenders(const struct tune *tune, size_t s) {
         else table_cell(table, "%.3f [%.3f %.3f]: %s", part.value, part.low, part.high, tune_part_verdict(&part));
     }
     printf("\n%s%s:\n\n", base_name(tune->subjects[s].path),
-           tune->subjects[s].unseen ? ", which it was not tuned on" : "");
+           tune->subjects[s].held_out ? ", which it was not tuned on" : "");
     table_print(table, stdout);
     table_destroy(&table);
 }

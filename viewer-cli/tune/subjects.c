@@ -40,14 +40,14 @@ bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct g
 }
 
 bool tune_load(struct tune *tune, struct glint_error *err) {
-    tune->subject_count = tune->captures.count + tune->unseen.count;
+    tune->subject_count = tune->captures.count + tune->held_out.count;
     tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
     if (!tune->subjects) return no_memory(err);
     for (size_t s = 0; s < tune->subject_count; s++) {
         struct tune_subject *subject = &tune->subjects[s];
-        subject->unseen = s >= tune->captures.count;
-        subject->path = subject->unseen ? tune->unseen.items[s - tune->captures.count] : tune->captures.items[s];
-        if (subject->unseen) continue;
+        subject->held_out = s >= tune->captures.count;
+        subject->path = subject->held_out ? tune->held_out.items[s - tune->captures.count] : tune->captures.items[s];
+        if (subject->held_out) continue;
         struct glint_verdict verdict;
         snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
         if (!tune_load_subject(tune, s, 0, err) ||

@@ -29,7 +29,7 @@ struct tune_figures {
 };
 struct tune_subject {
     const char *path;
-    bool unseen; /* looked at in the end alone */
+    bool held_out; /* looked at in the end alone */
     struct glint_capture *capture;
     struct glint_judge *judge;
     double start_ms; /* what times are relative to; 0: not measured yet */
@@ -53,7 +53,7 @@ struct tune_measured {
 
 struct tune {
     const char *out, *folder; /* the preset's file; where the rest is kept */
-    struct list captures, unseen, vary, slots, shaders;
+    struct list captures, held_out, vary, slots, shaders;
     struct answer_args against;
     const char *command_line;
     bool all, fetches, by_error, baseline, worst;
@@ -68,7 +68,7 @@ struct tune {
     char label[64];
     double done; /* of all the work, 0 to 1 */
 
-    struct tune_subject *subjects; /* captures, then unseen ones */
+    struct tune_subject *subjects; /* captures, then held-out ones */
     size_t subject_count;
     struct tune_axis *axes;
     size_t axis_count;
