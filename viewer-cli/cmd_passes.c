@@ -18,11 +18,11 @@ static const struct argp_option options[] = {
     {0},
 };
 static const struct example examples[] = {
-    {"glint passes", "list all slots and variants, effect by effect"},
-    {"glint passes reflection", "every pass of an effect"},
-    {"glint passes screen_trace", "images and parameters of every variant of a slot"},
-    {"glint passes cubemap_trace/march", "one variant"},
-    {"glint passes --markdown > passes.md", "the whole handbook"},
+    {"glint passes", "lists all slots and variants by effect"},
+    {"glint passes reflection", "prints all passes of an effect"},
+    {"glint passes screen_trace", "prints images and parameters of all variants of a slot"},
+    {"glint passes cubemap_trace/march", "prints one variant"},
+    {"glint passes --markdown > passes.md", "writes the whole handbook"},
     {0},
 };
 
@@ -38,7 +38,7 @@ static error_t cmd_passes_parse(int key, char *arg, struct argp_state *state) {
         a->markdown = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->what) argp_error(state, "one effect, slot or variant at a time: %s and %s", a->what, arg);
+        if (a->what) argp_error(state, "expected one effect, slot or variant, found %s and %s", a->what, arg);
         a->what = arg;
         return 0;
     }
@@ -321,10 +321,10 @@ static enum status cmd_passes_run(int argc, char **argv) {
 const struct command cmd_passes = {
     .name = "passes",
     .arguments = "[EFFECT|SLOT[/VARIANT]]",
-    .summary = "the handbook of passes",
-    .description = "Lists the passes. With an effect, a slot or a variant: which images it reads and writes, with unit "
-                   "and meaning, "
-                   "and every parameter with default, range, unit and source, as replay --set takes it.",
+    .summary = "document the passes, their images and parameters",
+    .description =
+        "Lists all passes. With an effect, a slot or a variant, prints which images it reads and writes, with unit "
+        "and meaning, and its parameters with default, range, unit and source, as used by --set.",
     .options = options,
     .parse = cmd_passes_parse,
     .examples = examples,

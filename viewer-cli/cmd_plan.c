@@ -12,7 +12,7 @@
 struct arguments {
     struct pipeline_args pipeline;
     const char *capture;
-    uint32_t rounds; /* 0: nothing is measured */
+    uint32_t rounds; /* of --measure; 0: without it */
     bool json, dot;
 };
 
@@ -21,18 +21,18 @@ enum { KEY_DOT = 256, KEY_MEASURE };
 /* clang-format off */
 static const struct argp_option options[] = {
     PIPELINE_OPTIONS,
-    {"measure", KEY_MEASURE, "N", 0, "Time what the plan saves on the device: as planned and with --all, N rounds in turns", 0},
+    {"measure", KEY_MEASURE, "N", 0, "Measure on the device what the plan saves: run N rounds each with the plan and with --all, alternating", 0},
     {"json", 'j', NULL, 0, "Print JSON", 0},
     {"dot", KEY_DOT, NULL, 0, "Print the graph of passes and images for Graphviz", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint plan street.exr", "which passes would run, and why"},
-    {"glint plan street.exr --measure 10", "and how many milliseconds each of them saves"},
-    {"glint plan street.exr --outputs travelled", "only what one image needs"},
-    {"glint plan street.exr --skip blur --force cocoon", "with one pass left out, and one that has nothing to do"},
-    {"glint plan street.exr --dot | dot -Tsvg > plan.svg", "draw the graph"},
+    {"glint plan street.exr", "shows which passes would run, and why"},
+    {"glint plan street.exr --measure 10", "also measures the milliseconds that are saved"},
+    {"glint plan street.exr --outputs travelled", "plans only what one image needs"},
+    {"glint plan street.exr --skip blur --force cocoon", "overrides the plan for two passes"},
+    {"glint plan street.exr --dot | dot -Tsvg > plan.svg", "draws the graph"},
     {0},
 };
 
@@ -51,11 +51,11 @@ static error_t cmd_plan_parse(int key, char *arg, struct argp_state *state) {
         a->rounds = arg_uint("measure", arg, 1, 100000, state);
         return 0;
     case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "one capture at a time: %s and %s", a->capture, arg);
+        if (a->capture) argp_error(state, "expected one capture, found %s and %s", a->capture, arg);
         a->capture = arg;
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "which capture?");
+        argp_error(state, "no capture given");
         return 0;
     }
     return pipeline_args_parse(key, arg, state, &a->pipeline);
@@ -89,7 +89,7 @@ static void print_saved(struct table *table, const struct answer *answer, size_t
 }
 
 static void print_times(const char *what, const struct glint_savings_time *time) {
-    printf("%s: planned %.3f ms, --all %.3f ms: %.1f %% (half of the rounds between %.1f and %.1f %%)\n", what,
+    printf("%s: planned %.3f ms, with --all %.3f ms: %.1f %% (interquartile range %.1f to %.1f %%)\n", what,
            milliseconds(time->planned.median_ns), milliseconds(time->whole.median_ns), 100 * time->ratio[1],
            100 * time->ratio[0], 100 * time->ratio[2]);
 }
@@ -109,7 +109,7 @@ static void print_plan(const struct answer *answer) {
     table_print(table, stdout);
     table_destroy(&table);
     if (answer->faces->uploaded_of)
-        printf("\nfaces of cube maps: %s%llu of %llu are uploaded, %llu of %llu filtered\n",
+        printf("\ncube-map faces: %s%llu of %llu are uploaded, %llu of %llu are filtered\n",
                savings->passes ? "" : "at most ", /* which ones rays come to a device finds */
                (unsigned long long)answer->faces->uploaded, (unsigned long long)answer->faces->uploaded_of,
                (unsigned long long)answer->faces->filtered, (unsigned long long)answer->faces->filtered_of);
@@ -117,7 +117,7 @@ static void print_plan(const struct answer *answer) {
     putchar('\n');
     print_times("all passes", &savings->all);
     print_times("without work on cube maps, which is done when one changes", &savings->frame);
-    printf("the survey takes %.3f ms of what is planned; %u rounds in turns\n", milliseconds(savings->survey_ns),
+    printf("of the planned time, the survey takes %.3f ms; %u alternating rounds\n", milliseconds(savings->survey_ns),
            savings->rounds);
 }
 
@@ -227,12 +227,12 @@ static enum status cmd_plan_run(int argc, char **argv) {
 const struct command cmd_plan = {
     .name = "plan",
     .arguments = "F",
-    .summary = "what would run, what not, and why",
+    .summary = "show which passes would run, and why",
     .description =
-        "Shows what replay would do with a capture: one line for each pass, whether it runs, the rule and the "
-        "figure that decide it, and what leaving it out saves: pixels, texels of cube maps, or with --measure time. "
-        "What a plan leaves out changes no bit of the picture; --all leaves out nothing, --skip and --force "
-        "overrule it for single passes. Needs a Vulkan device for --measure alone.",
+        "Shows what replay would do with a capture: for each pass, whether it runs, the rule and the figure that "
+        "decide this, and what is saved: pixels, texels of cube maps, or with --measure time. The plan changes no "
+        "bit of the image; --all runs everything, and --skip and --force override the plan for single passes. A "
+        "Vulkan device is needed only for --measure.",
     .options = options,
     .parse = cmd_plan_parse,
     .examples = examples,

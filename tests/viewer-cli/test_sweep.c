@@ -202,9 +202,9 @@ static void several_captures_have_a_mean_and_a_worst_case(void **state) {
 static void what_is_wrong_is_named(void **state) {
     (void)state;
     char *room = strdup(in_folder("room.exr")), *out = strdup(in_folder("bad")); /* they outlive the calls between */
-    glint_fails(2, "which capture?", "sweep", "-o", out, "--vary=screen_trace.cells=8,16");
-    glint_fails(2, "where to? -o FOLDER", "sweep", room, "--vary=screen_trace.cells=8,16");
-    glint_fails(2, "what varies?", "sweep", room, "-o", out);
+    glint_fails(2, "no capture given", "sweep", "-o", out, "--vary=screen_trace.cells=8,16");
+    glint_fails(2, "no output folder given: -o FOLDER", "sweep", room, "--vary=screen_trace.cells=8,16");
+    glint_fails(2, "nothing to vary", "sweep", room, "-o", out);
     glint_fails(2, "there is no slot scren_trace (did you mean screen_trace?)", "sweep", room, "-o", out,
                 "--vary=scren_trace.cells=8,16");
     glint_fails(2, "no parameter cell (did you mean cells?)", "sweep", room, "-o", out,

@@ -43,8 +43,8 @@ static bool fail_coalition(const struct work *work, uint32_t coalition, const st
             snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "",
                      glint_player_name(work->blame->players, p));
     }
-    return glint_fail(err, own->code, "%s: with %s as in the reference: %s", work->blame->captures.items[work->capture],
-                      names[0] ? names : "nothing", own->message);
+    return glint_fail(err, own->code, "%s: with %s replaced by its reference: %s",
+                      work->blame->captures.items[work->capture], names[0] ? names : "nothing", own->message);
 }
 
 static json_t *look_json(const struct blame *blame, const struct glint_verdict *verdict) {

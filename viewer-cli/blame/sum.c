@@ -131,7 +131,7 @@ double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bo
 
 void blame_how(const struct blame_sum *sum, char text[96]) {
     if (!sum->shapley.exact && !sum->shapley.permutations) snprintf(text, 96, "not known yet");
-    else if (sum->shapley.exact) snprintf(text, 96, "exact, of all %u pipelines", sum->shapley.coalitions);
+    else if (sum->shapley.exact) snprintf(text, 96, "exact, from all %u pipelines", sum->shapley.coalitions);
     else
         snprintf(text, 96, "of %u permutations, %u pipelines; ± 95 %%", sum->shapley.permutations,
                  sum->shapley.coalitions);

@@ -50,7 +50,7 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
         struct contestant *c = &contest->contestants[i];
         label_of(c->label, presets[i]);
         if (find_contestant(contest, c->label, strlen(c->label)))
-            return glint_fail(err, GLINT_ERROR_USAGE, "preset %s: named twice in --presets", c->label);
+            return glint_fail(err, GLINT_ERROR_USAGE, "preset %s is listed twice in --presets", c->label);
         contest->count++;
         if (!(c->pipeline = glint_pipeline_create(presets[i], err)) || !pipeline_fog_off(c->pipeline, err))
             return false;

@@ -56,11 +56,11 @@ static void print_errors(const struct contest_table *t) {
             table_cell(table, "%s", t->contest->contestants[p].label);
             print_showing(table, showing_of(t, c, p));
         }
-    puts("error of the reflection where the preset gives one, against the truth (mean of |found - truth| over their "
-         "sum,\n"
-         "0 to 1), of the share of reflecting pixels for which it does; shared: error over the pixels that every "
-         "preset\n"
-         "gives; steps and fetches of a ray:\n");
+    puts("Error of the reflection against the truth (mean of |found - truth| / (found + truth), 0 to 1) over the "
+         "covered pixels,\n"
+         "with the coverage: the share of reflecting pixels for which the preset finds a reflection. shared: error "
+         "over the\n"
+         "pixels that all presets cover; steps and fetches per ray:\n");
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -119,7 +119,7 @@ static void print_ends(const struct contest_table *t) {
     const char **titles = calloc(presets + 4, sizeof *titles);
     char(*names)[65] = calloc(presets + 1, sizeof *names);
     if (count && titles && names) {
-        static const char *const first[] = {"<capture", "<tracer", "<the ray"};
+        static const char *const first[] = {"<capture", "<tracer", "<end reason"};
         memcpy(titles, first, sizeof first);
         for (size_t p = 0; p < presets; p++) {
             snprintf(names[p], sizeof names[p], ">%.63s", t->contest->contestants[p].label);
@@ -128,8 +128,7 @@ static void print_ends(const struct contest_table *t) {
         struct table *table = table_create(titles);
         for (size_t c = 0; c < t->capture_count; c++)
             for (size_t n = 0; n < count; n++) fill_ends(table, t, c, tracers[n]);
-        puts("\nwhy rays ended: share of all rays, and the error of the pixels whose ray it is, of those that are "
-             "given:\n");
+        puts("\nEnd reasons: share of all rays, and the error of the covered pixels whose rays ended so:\n");
         table_print(table, stdout);
         table_destroy(&table);
     }
@@ -137,7 +136,7 @@ static void print_ends(const struct contest_table *t) {
     free(titles);
 }
 
-/* Water and glass lie over what the other table compares. */
+/* The other table compares opaque surfaces only; this one compares water and glass in the final image. */
 static void print_over(const struct contest_table *t) {
     static const char *const titles[] = {"<capture", "<preset", "<part", ">pixels", ">error", "<", NULL};
     struct table *table = table_create(titles);
@@ -153,7 +152,7 @@ static void print_over(const struct contest_table *t) {
             table_cell(table, "%s", t->showings[i].over[k].drawn ? "" : "not drawn");
         }
     if (!table_is_empty(table)) {
-        puts("\nthe finished picture against the capture's scene, where water or glass covers the opaque surfaces:\n");
+        puts("\nFinal image against the capture's scene, where water or glass covers opaque surfaces:\n");
         table_print(table, stdout);
     }
     table_destroy(&table);
@@ -177,8 +176,8 @@ static void print_notes(const struct contest_table *t) {
 void contest_print(const struct contest_table *t) {
     const struct glint_device_info *device = glint_device_get_info(t->contest->device);
     print_errors(t);
-    printf("\ntimes: median of %u rounds in turns on %s%s\n", t->contest->rounds, device->name,
-           device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+    printf("\ntimes: median of %u alternating rounds on %s%s\n", t->contest->rounds, device->name,
+           device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
     print_over(t);
     print_ends(t);
     print_notes(t);

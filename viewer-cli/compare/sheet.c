@@ -47,7 +47,7 @@ static bool draw_error(struct contest_pictures *p, size_t column, const struct a
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE;
     ok = ok && pixels_difference(&a->verdict.reflection, a->truth, a->truth_error, mask, &error, err) &&
-         draw(p, ERROR, column, &error, "error where it gives a reflection", label, label, err);
+         draw(p, ERROR, column, &error, "error of covered pixels", label, label, err);
     glint_pixels_finish(&error);
     free(mask);
     return ok;
@@ -85,13 +85,13 @@ bool contest_draw_truth(struct contest_pictures *p, const struct glint_pixels *t
     const char *path = glint_capture_path(capture), *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     const struct glint_part_info *scene = glint_capture_find(capture, "scene");
     const struct glint_part_info *lit = scene ? scene : glint_capture_find(capture, "lit");
-    if (truth && !draw(p, REFLECTION, 0, truth, "the true reflection", name, "truth", err)) return false;
+    if (truth && !draw(p, REFLECTION, 0, truth, "true reflection", name, "truth", err)) return false;
     if (!lit) return true;
     struct glint_pixels pixels = {lit->width, lit->height, 3, NULL};
     pixels.values = malloc((size_t)lit->width * lit->height * 3 * sizeof *pixels.values);
     bool ok = pixels.values ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
-                                  draw(p, PICTURE, 0, &pixels, scene ? "the true picture" : "lit, without reflections",
-                                       name, scene ? "truth" : "without reflections", err)
+                                  draw(p, PICTURE, 0, &pixels, scene ? "true image" : "lit, without reflections", name,
+                                       scene ? "truth" : "without reflections", err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     glint_pixels_finish(&pixels);
     return ok;

@@ -67,7 +67,8 @@ const char *value_text(const struct glint_row *row, double value) {
     if (row->type == GLINT_VALUE_BOOL && row_is_parameter(row)) return value != 0 ? "on" : "off";
     char *text = buffers[turn++ % 8];
     if (isinf(value)) snprintf(text, 32, value > 0 ? "∞" : "−∞");
-    else snprintf(text, 32, "%.7g", value);
+    else if (value == trunc(value) && fabs(value) < 1e15) snprintf(text, 32, "%.0f", value); /* never 4.294967e+09 */
+    else snprintf(text, 32, "%.7g", value); /* the digits of a float, without its rounding */
     return text;
 }
 

@@ -14,8 +14,8 @@ void against_parse(struct against *against, char *text, struct argp_state *state
     against->truth = which != 1;
     against->reference = which != 0;
     against->run = run;
-    if (run && !against->reference) argp_error(state, "--against=truth: the truth is in the capture, it takes no run");
-    if (run && !*run) argp_error(state, "--against=%s=RUN: an empty name", text);
+    if (run && !against->reference) argp_error(state, "--against=truth takes no run: the truth is in the capture");
+    if (run && !*run) argp_error(state, "--against=%s=RUN: the name of the run is empty", text);
 }
 
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,

@@ -74,7 +74,7 @@ static void add_sums(const struct report *r, json_t *blocks, const json_t *slots
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s%s%.3f ms", k ? "; " : "", label,
                                  label[0] ? " " : "", sum);
     }
-    snprintf(text + used, sizeof text - used, ", medians of the passes added up.");
+    snprintf(text + used, sizeof text - used, " (sum of the medians of the passes).");
     page_text(blocks, "text", text);
 }
 
@@ -106,7 +106,7 @@ static void add_warnings(const struct report *r, json_t *blocks) {
         bool told = strcmp(report_text(device, "type"), "cpu") != 0;
         for (size_t k = 0; k < i && !told; k++) told = json_equal(device, json_object_get(r->runs[k], "device"));
         char text[600];
-        snprintf(text, sizeof text, "%.200s: %.200s, which say nothing about a GPU's", report_text(device, "name"),
+        snprintf(text, sizeof text, "%.200s: %.200s; times do not represent a GPU", report_text(device, "name"),
                  report_text(device, "times_are"));
         if (!told) page_text(blocks, "note", text);
     }

@@ -99,7 +99,7 @@ static json_t *chart_of(const struct sweep *sweep, const struct sweep_front *fro
                      title, "x", "name", front->time ? "GPU time" : "texture fetches", "unit",
                      front->time ? "ms" : "per pixel", "scale", highest > 20 * lowest && lowest > 0 ? "log" : "linear",
                      "y", "name", glint_metric(sweep->metric)->title, "unit", "", "series", "name", "all points",
-                     "kind", "scatter", "muted", true, "points", others, "name", "beaten by none", "kind", "front",
+                     "kind", "scatter", "muted", true, "points", others, "name", "Pareto-optimal", "kind", "front",
                      "points", best);
 }
 
@@ -145,7 +145,7 @@ static void add_changes(const struct sweep *sweep, const struct sweep_front *fro
             free(to);
         }
     if (json_array_size(pictures)) {
-        page_text(blocks, "text", "What changes between neighbours, |a − b| over their sum:");
+        page_text(blocks, "text", "Difference between neighbouring points, |a − b| / (a + b):");
         json_array_append(blocks, json_pack("{s:O}", "pictures", pictures));
     }
     json_decref(pictures);
@@ -158,9 +158,9 @@ static void add_facts(const struct sweep *sweep, json_t *document) {
     page_fact(document, "preset", glint_pipeline_name(sweep->base));
     page_fact(document, "errors against", sweep->against.truth ? "the truth in the capture" : "the reference");
     page_fact(document, "device", device->name);
-    snprintf(text, sizeof text, "median of %u rounds in turns%s%s", sweep->rounds,
-             sweep->whole ? ", all passes in one piece" : ", passes that points have in common measured once a round",
-             device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");
+    snprintf(text, sizeof text, "median of %u alternating rounds%s%s", sweep->rounds,
+             sweep->whole ? ", all passes of each point" : ", shared passes timed once a round",
+             device->is_cpu ? "; a CPU device: times do not represent a GPU" : "");
     if (sweep->rounds) page_fact(document, "times", text);
 }
 

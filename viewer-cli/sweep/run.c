@@ -228,7 +228,7 @@ static bool draw_changes(const struct work *work, const struct glint_pixels *ref
             struct glint_pixels change = {0};
             char name[96], title[96];
             sweep_change_name(work->capture, from, to, name);
-            snprintf(title, sizeof title, "what changes from %zu to %zu", from, to);
+            snprintf(title, sizeof title, "difference between %zu and %zu", from, to);
             const bool ok = pixels_difference(&reflections[from], &reflections[to], NULL,
                                               glint_judge_surfaces(work->judge), &change, err) &&
                             draw(sweep, name, &change, title, err);

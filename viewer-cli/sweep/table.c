@@ -61,7 +61,7 @@ static void print_front(const struct sweep *sweep, const struct sweep_front *fro
         list_titles(sweep, titles, names);
         struct table *table = table_create(titles);
         for (size_t i = 0; i < front->count; i++) print_point(table, sweep, front->points[i]);
-        printf("%s against %s: %zu of %zu points are beaten by none:\n\n", glint_metric(sweep->metric)->title,
+        printf("%s against %s: %zu of %zu points are Pareto-optimal:\n\n", glint_metric(sweep->metric)->title,
                front->title, front->count, sweep->points);
         table_print(table, stdout);
         table_destroy(&table);
@@ -74,13 +74,13 @@ static void print_front(const struct sweep *sweep, const struct sweep_front *fro
 void sweep_print(const struct sweep *sweep) {
     const struct glint_device_info *device = glint_device_get_info(sweep->device);
     for (size_t f = 0; f < sweep->front_count; f++) print_front(sweep, &sweep->fronts[f]);
-    printf("errors of the reflection, before it is composed, against the %s",
+    printf("errors of the reflection before compose, against the %s",
            sweep->against.truth ? "truth in the capture" : "reference");
     if (sweep->captures.count > 1) printf(", mean of %zu captures", sweep->captures.count);
     if (sweep->rounds)
-        printf("; times: median of %u rounds in turns on %s%s", sweep->rounds, device->name,
-               device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
-    printf("\npage, charts, tables and pictures: %s/index.html\n", sweep->out);
+        printf("; times: median of %u alternating rounds on %s%s", sweep->rounds, device->name,
+               device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
+    printf("\npage with charts, tables and pictures: %s/index.html\n", sweep->out);
 }
 
 static json_t *time_json(const struct sweep *sweep, const struct sweep_row *row, const char *key) {

@@ -9,8 +9,8 @@ static bool try_factor(struct tune *tune, double octaves, struct tune_figures *f
                        struct glint_error *err) {
     if (!tune_scale(tune, exp2(octaves), tune->scaling))
         return glint_fail(err, GLINT_ERROR_USAGE,
-                          "--baseline scale: nothing that may move is a count of steps, cells, "
-                          "samples, taps or rays whose cost counts");
+                          "--baseline scale: no tuned parameter is a count of steps, cells, "
+                          "samples, taps or rays that influences the cost");
     if (!tune_evaluate(tune, tune->scaling, figures, err)) return false;
     *keeps = (tune->by_error ? figures->error : figures->cost) <= tune->within;
     return true;

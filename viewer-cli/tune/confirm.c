@@ -1,4 +1,4 @@
-/* What was found, measured anew beside what it is compared with. */
+/* Final measurement of the tuned preset, alternating with the start and the baseline. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -116,7 +116,7 @@ static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err)
     const enum glint_answer answer = answer_args_kind(&tune->against);
     struct tune_measured *measured = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
     struct glint_verdict verdict;
-    snprintf(tune->label, sizeof tune->label, "%s, measured again", tune_contenders[k]);
+    snprintf(tune->label, sizeof tune->label, "%s, final timing", tune_contenders[k]);
     if (!glint_judge_look(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
         return false;
     measured->errors = verdict.errors[answer];

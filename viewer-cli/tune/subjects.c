@@ -94,7 +94,7 @@ bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct 
            *parts = values + TUNE_CONTENDERS * rounds;
     bool ok = values || no_memory(err);
     for (uint32_t r = 0; ok && r < rounds; r++) {
-        snprintf(tune->label, sizeof tune->label, "measured again, round %u", r + 1);
+        snprintf(tune->label, sizeof tune->label, "final timing, round %u", r + 1);
         glint_judge_next_round(subject->judge);
         for (size_t turn = 0; ok && turn < TUNE_CONTENDERS; turn++) {
             const size_t k = (turn + r) % TUNE_CONTENDERS;

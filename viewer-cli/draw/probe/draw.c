@@ -35,11 +35,11 @@ static double legend(const struct drawing *d, double y) {
     bool any = false;
     for (size_t i = 0; i < DRAW_LOOKS; i++) any |= d->used[i];
     if (!any) return y - 30;
-    legend_entry(d->out, &x, y, "<path d=\"M-6 0H8\" class=\"ray\"/>", "the ray");
+    legend_entry(d->out, &x, y, "<path d=\"M-6 0H8\" class=\"ray\"/>", "ray");
     legend_entry(
         d->out, &x, y,
         "<rect x=\"-6\" y=\"-5\" width=\"14\" height=\"10\" class=\"solid\"/><path d=\"M-6 5H8\" class=\"surface\"/>",
-        "behind what is seen");
+        "behind the visible surface");
     for (size_t i = 0; i < DRAW_LOOKS; i++) {
         char shape[96];
         const char *text = "";

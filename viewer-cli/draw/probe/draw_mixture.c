@@ -144,9 +144,9 @@ static void head(struct drawing *d, const struct ray_records *records, const cha
 static void title_of(const struct ray_records *records, size_t next, char *text, size_t size) {
     const struct glint_probe_record *made = next < records->count ? &records->records[next] : NULL;
     if (made && glint_probe_is(made, "made"))
-        snprintf(text, size, "%s level %.0f, texel %.0f,%.0f is made of", image_of(made), draw_value(made, "level"),
+        snprintf(text, size, "%s level %.0f, texel %.0f,%.0f combines", image_of(made), draw_value(made, "level"),
                  draw_value(made, "texel_x"), draw_value(made, "texel_y"));
-    else snprintf(text, size, "mixes in");
+    else snprintf(text, size, "combines");
 }
 
 static void draw_weights(struct drawing *d, const struct ray_records *records, size_t next,
@@ -171,7 +171,7 @@ static void draw_layer(struct drawing *d, const struct ray_records *records, con
     const struct glint_probe_word under = glint_probe_word("image", (float)draw_value(layer, "under"));
     const double share =
         (draw_value(layer, "share_r") + draw_value(layer, "share_g") + draw_value(layer, "share_b")) / 3;
-    head(d, records, "blends a colour over another");
+    head(d, records, "blends one colour over another");
     for (int k = 0; k < 2; k++) {
         double rgb[3];
         char text[128];
