@@ -164,20 +164,20 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
 }
 
 /* Answers as soon as they are known; times take as long again and more. */
-static bool work(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
-    if (!blame_find_shares(blame, err) || !blame_tell(blame, true, err)) return false;
+static bool attribute_error(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
+    if (!blame_find_shares(blame, err) || !blame_publish(blame, true, err)) return false;
     progress_end(blame->progress);
     if (!json) blame_print_shares(blame);
     *shown = true;
     if (!blame_find_times(blame, err)) return false;
     blame->complete = true;
-    return blame_tell(blame, true, err);
+    return blame_publish(blame, true, err);
 }
 
 /* What is known so far, in the folder and on the screen. */
-static void interrupted(struct blame *blame, bool json, bool shown) {
+static void report_interrupted_blame(struct blame *blame, bool json, bool shown) {
     struct glint_error err = {0};
-    if (!blame_tell(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);
+    if (!blame_publish(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);
     if (!json && !shown && blame_is_known(&blame->captured[0])) blame_print_shares(blame);
     if (!json && shown) blame_print_times(blame);
     if (blame->out) command_note(&cmd_blame, "results are kept in %s; the same command resumes from there", blame->out);
@@ -195,10 +195,10 @@ static enum status cmd_blame_run(int argc, char **argv) {
     progress_begin(&progress);
     blame->progress = &progress;
     progress.lines = a.progress;
-    const bool ok = begin_blame(&a, &err) && work(blame, a.json, &shown, &err);
+    const bool ok = begin_blame(&a, &err) && attribute_error(blame, a.json, &shown, &err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_blame, &err);
-    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->captured) interrupted(blame, a.json, shown);
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->captured) report_interrupted_blame(blame, a.json, shown);
     if (ok && a.json) status = print_json(blame_json(blame));
     else if (ok) blame_print_times(blame);
     struct glint_device *device = blame->device;

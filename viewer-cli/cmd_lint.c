@@ -91,13 +91,13 @@ static json_t *findings_json(const struct lint_findings *findings, const struct 
         const struct lint_finding *f = &findings->items[i];
         json_t *item = json_pack("{ss ss ss ss ss sb}", "id", f->id, "what", f->what, "likelihood", f->likelihood,
                                  "evidence", f->evidence, "fix", f->remedy, "fixable", lint_is_fixable(f));
-        if (f->either[0]) json_object_set_new(item, "alternative", json_string(f->either));
+        if (f->either[0]) json_object_set_new(item, "or", json_string(f->either));
         json_array_append_new(items, item);
     }
     for (size_t i = 0; i < findings->undecided_count; i++)
         json_array_append_new(undecided, json_string(findings->undecided[i]));
     for (int m = 0; m < LINT_MEASURES; m++)
-        json_array_append_new(measures, json_pack("{ss sI sf}", "comparison", lint_measure_names[m], "compared",
+        json_array_append_new(measures, json_pack("{ss sI sf}", "what", lint_measure_names[m], "compared",
                                                   (json_int_t)agreement->count[m], "share", agreement->share[m]));
     const struct depth_facts facts = depth_facts(capture);
     return json_pack("{so so so so}", "findings", items, "undecided", undecided, "agreement", measures, "depth",
@@ -134,7 +134,8 @@ static void print_findings(const char *path, const struct lint_findings *finding
     printf("\n%s: %zu finding%s\n", path, findings->count, findings->count == 1 ? "" : "s");
 }
 
-static bool fix(const struct arguments *a, const char *path, struct lint_findings *findings, struct glint_error *err) {
+static bool write_fixed_copy(const struct arguments *a, const char *path, struct lint_findings *findings,
+                             struct glint_error *err) {
     size_t fixed = 0;
     if (!lint_fix(path, a->out, findings, &fixed, err)) return false;
     for (size_t i = 0; i < findings->count && !a->json; i++)
@@ -144,7 +145,7 @@ static bool fix(const struct arguments *a, const char *path, struct lint_finding
     return true;
 }
 
-static enum status list(bool json) {
+static enum status list_findings(bool json) {
     static const char *const titles[] = {"<name", "<meaning", NULL};
     json_t *items = json_array();
     struct table *table = json ? NULL : table_create(titles);
@@ -164,7 +165,7 @@ static enum status list(bool json) {
 static enum status cmd_lint_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_lint, argc, argv, &a);
-    if (a.list) return list(a.json);
+    if (a.list) return list_findings(a.json);
     struct glint_error err = {0};
     struct progress progress;
     struct pipe pipe;
@@ -179,7 +180,7 @@ static enum status cmd_lint_run(int argc, char **argv) {
     enum status status = ok && findings->count ? STATUS_CHECK : STATUS_DONE;
     if (ok && a.json) print_json(findings_json(findings, &agreement, capture));
     else if (ok) print_findings(a.path, findings, &agreement, capture);
-    ok = ok && (!a.fix || fix(&a, path, findings, &err));
+    ok = ok && (!a.fix || write_fixed_copy(&a, path, findings, &err));
     glint_capture_close(&capture);
     pipe_finish(&pipe);
     free(findings);

@@ -284,7 +284,7 @@ static void print_handbook(const struct glint_pass *passes, size_t count, const 
     }
 }
 
-static bool known(const char *what, struct glint_error *err) {
+static bool check_selection(const char *what, struct glint_error *err) {
     size_t slot = strcspn(what, "/"), count = 0;
     const struct glint_pass *passes = glint_passes(&count);
     for (size_t i = 0; i < count; i++)
@@ -300,7 +300,7 @@ static enum status cmd_passes_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_passes, argc, argv, &a);
     struct glint_error err = {0};
-    if (a.what && !known(a.what, &err)) return command_fail(&cmd_passes, &err);
+    if (a.what && !check_selection(a.what, &err)) return command_fail(&cmd_passes, &err);
     size_t count = 0;
     const struct glint_pass *passes = glint_passes(&count);
     if (a.json) {

@@ -174,8 +174,8 @@ static void print_dot(const struct glint_plan_entry *entries, size_t count) {
     puts("}");
 }
 
-static bool measure(const struct arguments *a, struct glint_pipeline *pipeline, struct glint_replay *replay,
-                    struct answer *answer, struct glint_error *err) {
+static bool measure_plan(const struct arguments *a, struct glint_pipeline *pipeline, struct glint_replay *replay,
+                         struct answer *answer, struct glint_error *err) {
     const struct glint_replay_options options = pipeline_args_options(&a->pipeline);
     struct progress progress;
     progress_begin(&progress);
@@ -190,7 +190,7 @@ static enum status plan(const struct arguments *a, struct glint_pipeline *pipeli
     struct glint_error err = {0};
     struct answer answer = {.faces = glint_replay_cube_faces(replay)};
     enum status status = STATUS_DONE;
-    if ((a->rounds && !measure(a, pipeline, replay, &answer, &err)) ||
+    if ((a->rounds && !measure_plan(a, pipeline, replay, &answer, &err)) ||
         !glint_replay_plan(replay, pipeline, &options, &answer.entries, &answer.count, &err))
         status = command_fail(&cmd_plan, &err);
     else if (a->json) status = print_plan_json(a->capture, pipeline, &answer);

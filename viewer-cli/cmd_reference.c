@@ -234,7 +234,7 @@ static void note_interrupted(const struct glint_reference_state *state, const ch
     else command_note(&cmd_reference, "no round of rays was complete: nothing is kept");
 }
 
-static enum status trace(const struct arguments *a, const struct opened *opened, struct glint_error *err) {
+static enum status trace_reference(const struct arguments *a, const struct opened *opened, struct glint_error *err) {
     struct glint_replay *replay = opened->replay;
     struct glint_capture *capture = opened->capture;
     const struct glint_pipeline *pipeline = opened->pipeline;
@@ -281,7 +281,7 @@ static enum status cmd_reference_run(int argc, char **argv) {
     struct glint_error err = {0};
     struct opened opened = {.pipeline = create_pipeline(&a, &err)};
     const bool ok = opened.pipeline && opened_init(&opened, &a.pipeline, a.capture, &err);
-    const enum status status = ok ? trace(&a, &opened, &err) : command_fail(&cmd_reference, &err);
+    const enum status status = ok ? trace_reference(&a, &opened, &err) : command_fail(&cmd_reference, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     return status;

@@ -114,7 +114,7 @@ static enum status report(const struct arguments *a, const struct stability_repo
     return status != STATUS_DONE ? status : check_limits(a, found->stability);
 }
 
-static enum status measure(struct arguments *a, struct opened *opened, struct glint_error *err) {
+static enum status measure_stability(struct arguments *a, struct opened *opened, struct glint_error *err) {
     struct glint_stability stability = {0};
     struct progress progress;
     a->options.inputs = list_or_null(&a->inputs);
@@ -141,7 +141,7 @@ static enum status cmd_stability_run(int argc, char **argv) {
     struct opened opened = {0};
     command_parse(&cmd_stability, argc, argv, &a);
     const bool ok = opened_init(&opened, &a.pipeline, a.capture, &err);
-    const enum status status = ok ? measure(&a, &opened, &err) : command_fail(&cmd_stability, &err);
+    const enum status status = ok ? measure_stability(&a, &opened, &err) : command_fail(&cmd_stability, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     list_free(&a.inputs);

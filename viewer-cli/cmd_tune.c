@@ -235,7 +235,7 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
 }
 
 /* An interrupted search writes the best preset so far. */
-static enum status interrupted(const struct tune *tune) {
+static enum status report_interrupted_tune(const struct tune *tune) {
     struct glint_error err = {0};
     const bool some = tune->found.count && tune->found.within;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
@@ -299,7 +299,7 @@ static enum status cmd_tune_run(int argc, char **argv) {
     const bool ok = begin_tune(&a, &err) && search_and_write(tune, &err);
     progress_end(&progress);
     enum status status = ok                                    ? STATUS_DONE
-                         : err.code == GLINT_ERROR_INTERRUPTED ? interrupted(tune)
+                         : err.code == GLINT_ERROR_INTERRUPTED ? report_interrupted_tune(tune)
                                                                : command_fail(&cmd_tune, &err);
     if (ok && a.json) status = print_json(tune_json(tune));
     else if (ok) tune_print(tune);

@@ -226,7 +226,7 @@ class Tests:
         with open(self.path("study/page.json"), "w", encoding="utf-8") as file:
             file.write('{"format": 2}')
         assert "format" in glint("report", self.path("study"), "-o", self.path("x.html"), status=1)
-        assert "alone" in glint("report", self.path("a"), self.path("study"), "-o", self.path("x.html"), status=2)
+        assert "report it separately" in glint("report", self.path("a"), self.path("study"), "-o", self.path("x.html"), status=2)
         assert not os.path.exists(self.path("x.html"))
 
 

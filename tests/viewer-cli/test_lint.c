@@ -337,13 +337,13 @@ static void storage_of_depth_is_told(void **state) {
     (void)state;
     char *text = glint_ok("lint", base(1, BASE_DEVICE));
     /* near 0.1 m: 10² / 0.1 / (2²⁴ − 1) */
-    assert_contains(text, "depth storage D24, device: steps of 0.6 µm at 1 m, 60 µm at 10 m, 6 mm at 100 m");
+    assert_contains(text, "depth stored as D24, device: steps of 0.6 µm at 1 m, 60 µm at 10 m, 6 mm at 100 m");
     free(text);
 }
 
 static void wrong_use_is_refused(void **state) {
     (void)state;
-    glint_fails(2, "which capture", "lint");
+    glint_fails(2, "no capture given", "lint");
     glint_fails(2, "--fix and -o", "lint", base(0, BASE_PLAIN), "--fix");
     glint_fails(1, "nowhere.exr", "lint", "nowhere.exr");
 }

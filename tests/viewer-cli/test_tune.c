@@ -232,7 +232,8 @@ static void what_is_wrong_is_named(void **state) {
     const char *budget = "--budget-ms=50%";
     glint_fails(2, "no capture given", "tune", "-o", out, budget);
     glint_fails(2, "expected one of --budget-ms, --budget-fetches and --error", "tune", room, "-o", out);
-    glint_fails(2, "expected one of --budget-ms, --budget-fetches and --error", "tune", room, "-o", out, budget, "--error=0.1");
+    glint_fails(2, "expected one of --budget-ms, --budget-fetches and --error", "tune", room, "-o", out, budget,
+                "--error=0.1");
     glint_fails(2, "no output file given", "tune", room, budget);
     glint_fails(2, "expected a file name NAME.json", "tune", room, "-o", "bad", budget);
     glint_fails(2, "expected a file name NAME.json", "tune", room, "-o", ".json", budget);
@@ -240,7 +241,8 @@ static void what_is_wrong_is_named(void **state) {
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=nan");
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=2x");
     glint_fails(2, "--cost can only be used with --error", "tune", room, "-o", out, budget, "--cost=fetches");
-    glint_fails(2, "--slots cannot be used with fetches", "tune", room, "-o", out, "--budget-fetches=9", "--slots=resolve");
+    glint_fails(2, "--slots cannot be used with fetches", "tune", room, "-o", out, "--budget-fetches=9",
+                "--slots=resolve");
     glint_fails(2, "there is no slot resolv", "tune", room, "-o", out, budget, "--slots=resolv");
     glint_fails(2, "which is better when lower", "tune", room, "-o", out, budget, "--metric=psnr");
     glint_fails(2, "expected one run for each of 1 captures", "tune", room, "-o", out, budget, "--reference=a",
@@ -264,9 +266,9 @@ static void what_is_wrong_is_named(void **state) {
     glint_fails(2, "no tuned parameter is a count", "tune", room, "-o", in_folder("odd.json"), PLAIN,
                 "--reference=truth", budget, "--baseline=scale", "--repeat=0", "--rounds=1",
                 "--vary=cubemap_trace.secant");
-    glint_fails(1, "; its most expensive passes: screen_trace/linear takes 100 % (not tried: ", "tune", room, "-o", in_folder("none.json"),
-                PLAIN, "--reference=truth", "--budget-ms=1e-6", "--slots=screen_trace", "--tries=1", "--rounds=1",
-                AXES);
+    glint_fails(1, "; its most expensive passes: screen_trace/linear takes 100 % (not tried: ", "tune", room, "-o",
+                in_folder("none.json"), PLAIN, "--reference=truth", "--budget-ms=1e-6", "--slots=screen_trace",
+                "--tries=1", "--rounds=1", AXES);
     glint_fails(2, "is given twice", "tune", room, "-o", out, PLAIN, "--reference=truth", budget,
                 "--vary=screen_trace.steps", "--vary=screen_trace.steps=2..64");
     glint_fails(1, "truth.reflection.ggx: missing", "tune", in_folder("street.exr"), "-o", out, PLAIN,

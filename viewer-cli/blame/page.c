@@ -1,11 +1,11 @@
-/* A blame as a page: where the error comes from, and what mending it buys. */
+/* The page of glint blame: the error by slot, and the error that replacements remove per millisecond. */
 #include <math.h>
 #include <string.h>
 
 #include "blame/blame.h"
 #include "draw/page/page.h"
 
-/* Players as they run: the first one on top. */
+/* Players in the order in which they run, the first one on top. */
 static size_t player_at(const struct blame *blame, size_t place) {
     return blame->count - 1 - place;
 }
@@ -36,7 +36,7 @@ static json_t *bars_of(const struct blame *blame, const struct blame_sum *sum, e
     return points;
 }
 
-/* Where the error comes from: three bars a player. */
+/* Chart with three bars for each player: share, removes, makes. */
 static json_t *shares_chart(const struct blame *blame, const struct blame_sum *sum, size_t answer, const char *title) {
     json_t *names = json_array(), *series = json_array();
     char text[300];
@@ -51,7 +51,7 @@ static json_t *shares_chart(const struct blame *blame, const struct blame_sum *s
                      "y", "name", "", "scale", "category", "categories", names, "series", series);
 }
 
-/* What each millisecond buys. */
+/* Chart of the error removed per millisecond. */
 static json_t *bought_chart(const struct blame *blame, const struct blame_sum *sum, size_t answer, const char *title) {
     json_t *points[2] = {json_array(), json_array()}, *names = json_array();
     char text[300];
@@ -107,7 +107,7 @@ static void add_players(const struct blame *blame, const struct blame_sum *sum, 
                        json_number(100 * shares / blame_total(sum, v)), json_number(removed), json_number(made)));
 }
 
-/* Shares within each class of surface. */
+/* Table of the shares within each class of surfaces. */
 static void add_classes(const struct blame *blame, const struct blame_sum *sum, size_t answer, json_t *blocks) {
     json_t *table = page_table(blocks);
     page_column(table, "shares by surface", "");

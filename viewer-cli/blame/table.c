@@ -1,4 +1,4 @@
-/* A blame as tables, for people and as JSON. */
+/* The results of glint blame as printed tables and as JSON. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,14 +6,14 @@
 #include "blame/blame.h"
 #include "io/table.h"
 
-static void cell(struct table *table, double value) {
+static void value_or_dash_cell(struct table *table, double value) {
     if (isfinite(value)) table_cell(table, "%s", number_text(value));
     else table_cell(table, "–");
 }
 
 static void share_cell(struct table *table, double share, double half) {
     if (half > 0) table_cell(table, "%s ± %s", number_text(share), number_text(half));
-    else cell(table, share);
+    else value_or_dash_cell(table, share);
 }
 
 static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
@@ -28,17 +28,17 @@ static void print_players(const struct blame *blame, const struct blame_sum *sum
         made += blame_made(sum, p, v);
         table_cell(table, "%s", glint_player_name(blame->players, p));
         share_cell(table, share, blame_half(sum, p, v));
-        cell(table, 100 * share / blame_total(sum, v));
-        cell(table, blame_removed(sum, p, v));
-        cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
-        cell(table, blame_made(sum, p, v));
+        value_or_dash_cell(table, 100 * share / blame_total(sum, v));
+        value_or_dash_cell(table, blame_removed(sum, p, v));
+        value_or_dash_cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
+        value_or_dash_cell(table, blame_made(sum, p, v));
     }
     table_cell(table, "sum");
-    cell(table, shares);
-    cell(table, 100 * shares / blame_total(sum, v));
-    cell(table, removed);
+    value_or_dash_cell(table, shares);
+    value_or_dash_cell(table, 100 * shares / blame_total(sum, v));
+    value_or_dash_cell(table, removed);
     table_cell(table, "%s", "");
-    cell(table, made);
+    value_or_dash_cell(table, made);
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -89,10 +89,10 @@ static void print_time(const struct blame *blame, const char *title, const struc
         bool already;
         const double bought = blame_bought(sum, p, blame_value(0, 0), &already);
         table_cell(table, "%s", glint_player_name(blame->players, p));
-        cell(table, sum->time.added[p]);
+        value_or_dash_cell(table, sum->time.added[p]);
         if (already && isfinite(bought)) table_cell(table, "%s already", number_text(bought));
-        else cell(table, bought);
-        cell(table, sum->time.saved[p]);
+        else value_or_dash_cell(table, bought);
+        value_or_dash_cell(table, sum->time.saved[p]);
     }
     printf("\n%s: %s takes ", title, glint_pipeline_name(blame->base));
     printf("%s ms, ", number_text(sum->time.preset));

@@ -1,4 +1,4 @@
-/* What presets give, as tables: for people, as JSON, as CSV. */
+/* The results of glint compare as printed tables, JSON and CSV. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,16 +11,16 @@ static const char *base_name(const char *path) {
     return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
 }
 
-static double share(const struct showing *s, int k) {
+static double coverage_of(const struct showing *s, int k) {
     return s->reflecting[k] ? (double)s->given[k] / (double)s->reflecting[k] : 0;
 }
 
 /* "0.093 of 97.2 %" */
 static void error_cell(struct table *table, const struct showing *s, int k) {
     if (!s->ran || s->reflecting[k] == 0) table_cell(table, "–");
-    else if (!s->compared) table_cell(table, "%.1f %%", 100 * share(s, k));
+    else if (!s->compared) table_cell(table, "%.1f %%", 100 * coverage_of(s, k));
     else if (s->own.of[k].pixels == 0) table_cell(table, "none");
-    else table_cell(table, "%.3f of %.1f %%", s->own.of[k].symmetric, 100 * share(s, k));
+    else table_cell(table, "%.3f of %.1f %%", s->own.of[k].symmetric, 100 * coverage_of(s, k));
 }
 
 static void time_cell(struct table *table, const struct contest_time *time) {
@@ -72,7 +72,7 @@ static const struct glint_end_row *same_end(const struct showing *s, const struc
     return NULL;
 }
 
-/* One tracer's reason, over all presets. */
+/* A row of an end reason of one tracer, over all presets. */
 static void print_end(struct table *table, const struct contest_table *t, size_t capture,
                       const struct glint_end_row *row) {
     table_cell(table, "%s", base_name(t->captures[capture]));
@@ -86,16 +86,16 @@ static void print_end(struct table *table, const struct contest_table *t, size_t
     }
 }
 
-/* Each reason once a capture, in the order in which the presets have them, tracer by tracer. */
+/* Each end reason once per capture and tracer, in the order in which presets list them. */
 static void fill_ends(struct table *table, const struct contest_table *t, size_t capture, const char *tracer) {
     for (size_t p = 0; p < t->contest->count; p++) {
         const struct showing *s = showing_of(t, capture, p);
         for (size_t i = 0; s->ran && i < s->ends.count; i++) {
             const struct glint_end_row *row = &s->ends.rows[i];
-            bool told = strcmp(row->tracer, tracer) != 0;
-            for (size_t before = 0; before < p && !told; before++)
-                told = same_end(showing_of(t, capture, before), row) != NULL;
-            if (!told) print_end(table, t, capture, row);
+            bool listed = strcmp(row->tracer, tracer) != 0;
+            for (size_t before = 0; before < p && !listed; before++)
+                listed = same_end(showing_of(t, capture, before), row) != NULL;
+            if (!listed) print_end(table, t, capture, row);
         }
     }
 }
@@ -106,9 +106,9 @@ static size_t list_tracers(const struct contest_table *t, const char *tracers[],
     for (size_t k = 0; k < t->capture_count * t->contest->count; k++)
         for (size_t i = 0; t->showings[k].ran && i < t->showings[k].ends.count && count < capacity; i++) {
             const char *name = t->showings[k].ends.rows[i].tracer;
-            bool told = false;
-            for (size_t n = 0; n < count; n++) told = told || !strcmp(tracers[n], name);
-            if (!told) tracers[count++] = name;
+            bool listed = false;
+            for (size_t n = 0; n < count; n++) listed = listed || !strcmp(tracers[n], name);
+            if (!listed) tracers[count++] = name;
         }
     return count;
 }
@@ -190,7 +190,7 @@ static json_t *surfaces_json(const struct showing *s) {
         if (s->reflecting[k] == 0) continue;
         json_t *row = json_pack("{s:s, s:I, s:I, s:o}", "surfaces", glint_surface_name((enum glint_surface)k), "pixels",
                                 (json_int_t)s->reflecting[k], "given", (json_int_t)s->given[k], "coverage",
-                                json_number(share(s, k)));
+                                json_number(coverage_of(s, k)));
         if (s->compared && own->pixels)
             json_object_update_new(row, json_pack("{s:o, s:o, s:o, s:o, s:I}", "symmetric", json_number(own->symmetric),
                                                   "rmse", json_number(own->rmse), "relative_mse",
@@ -268,7 +268,7 @@ static void put_showing(FILE *out, const struct showing *s) {
     for (int k = 1; k <= GLINT_SURFACE_COUNT; k++) {
         int of = k % GLINT_SURFACE_COUNT; /* all surfaces last */
         bool any = s->ran && s->reflecting[of] > 0, compared = any && s->compared && s->own.of[of].pixels > 0;
-        put_number(out, any, share(s, of));
+        put_number(out, any, coverage_of(s, of));
         put_number(out, compared, s->own.of[of].symmetric);
         put_number(out, compared, s->own.of[of].rmse);
     }

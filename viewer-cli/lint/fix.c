@@ -204,18 +204,18 @@ static size_t count_applied(const struct lint_findings *findings) {
     return count;
 }
 
-static void ignore(void *user, const char *rule, const char *message) {
+static void ignore_violation(void *user, const char *rule, const char *message) {
     (void)user, (void)rule, (void)message;
 }
 
 /* Writes a trial copy next to the wanted one, so that relative paths of sibling files resolve, and measures it. */
-static bool is_worse(const char *from, const char *trial, const struct lint_findings *findings,
-                     struct lint_agreement *agreement, bool *worse, struct glint_error *err) {
+static bool copy_is_worse(const char *from, const char *trial, const struct lint_findings *findings,
+                          struct lint_agreement *agreement, bool *worse, struct glint_error *err) {
     struct lint_agreement after;
     size_t rules, broken; /* violated rules of FORMAT.md, before and after */
     if (!write_copy(from, trial, findings, err) || !measure_file(trial, &after, err) ||
-        !glint_capture_validate(from, NULL, ignore, NULL, &rules, err) ||
-        !glint_capture_validate(trial, NULL, ignore, NULL, &broken, err))
+        !glint_capture_validate(from, NULL, ignore_violation, NULL, &rules, err) ||
+        !glint_capture_validate(trial, NULL, ignore_violation, NULL, &broken, err))
         return false;
     *worse = broken > rules || is_any_measure_worse(agreement, &after, changes_pixels(findings));
     if (!*worse) *agreement = after;
@@ -228,14 +228,15 @@ static bool choose_fixes(const char *from, const char *trial, struct lint_findin
     bool worse = false;
     for (size_t i = 0; i < findings->count; i++) findings->items[i].left_out = !lint_is_fixable(&findings->items[i]);
     if (!count_applied(findings)) return write_copy(from, trial, findings, err);
-    if (!measure_file(from, &agreement, err) || !is_worse(from, trial, findings, &agreement, &worse, err)) return false;
+    if (!measure_file(from, &agreement, err) || !copy_is_worse(from, trial, findings, &agreement, &worse, err))
+        return false;
     if (!worse) return true;
     for (size_t i = 0; i < findings->count; i++) findings->items[i].left_out = true;
     for (size_t i = 0; i < findings->count; i++) {
         struct lint_finding *f = &findings->items[i];
         if (!lint_is_fixable(f)) continue;
         f->left_out = false;
-        if (!is_worse(from, trial, findings, &agreement, &f->left_out, err)) return false;
+        if (!copy_is_worse(from, trial, findings, &agreement, &f->left_out, err)) return false;
     }
     return write_copy(from, trial, findings, err);
 }

@@ -15,7 +15,7 @@ void lint_undecided(struct lint_findings *findings, const char *format, ...) {
     va_end(arguments);
 }
 
-static void flip(double sign[3], unsigned axes) {
+static void negate_axes(double sign[3], unsigned axes) {
     for (int i = 0; i < 3; i++)
         if (axes & (1u << i)) sign[i] = -sign[i];
 }
@@ -71,7 +71,7 @@ struct lint_finding *lint_add(struct lint_findings *findings, const char *id, co
     return f;
 }
 
-static void apply(const struct lint_data *data, struct lint_reading *r, size_t row) {
+static void apply_reading(const struct lint_data *data, struct lint_reading *r, size_t row) {
     size_t at = 0;
 #define READING(id, statement, what, attribute, value)                                                                 \
     if (at++ == row) (void)(statement);
@@ -212,7 +212,7 @@ static void try_rows(const struct lint_data *data, const struct lint_reading *re
                      const struct lint_agreement *agreement, struct contest *contest) {
     for (size_t i = 0; i < ROWS; i++) {
         struct candidate c = {.row = i, .also = NONE, .reading = *reading};
-        apply(data, &c.reading, i);
+        apply_reading(data, &c.reading, i);
         if (!memcmp(&c.reading, reading, sizeof c.reading)) continue;
         c.agreement = lint_agree(data, &c.reading, agreement, measures_of(rows[i].id));
         consider(contest, agreement, &c);
@@ -231,9 +231,9 @@ static void try_pairs_of_normals(const struct lint_data *data, const struct lint
             struct candidate c = {.row = i, .also = k, .reading = *reading};
             struct lint_reading first;
             if (strncmp(rows[k].id, "normal.", 7) != 0) continue;
-            apply(data, &c.reading, i);
+            apply_reading(data, &c.reading, i);
             first = c.reading;
-            apply(data, &c.reading, k);
+            apply_reading(data, &c.reading, k);
             if (!memcmp(&c.reading, &first, sizeof first) || !memcmp(&first, reading, sizeof first)) continue;
             c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_FACETS);
             consider(&pairs, agreement, &c);

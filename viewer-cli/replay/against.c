@@ -29,7 +29,7 @@ void against_finish(struct against *against) {
     glint_pipeline_destroy(&against->pipeline);
 }
 
-static bool load(struct against *against, struct glint_capture *capture, struct glint_error *err) {
+static bool load_reference(struct against *against, struct glint_capture *capture, struct glint_error *err) {
     if (!against->replay && !(against->replay = glint_replay_create(against->device, err))) return false;
     return glint_replay_load(against->replay, capture, err);
 }
@@ -69,8 +69,9 @@ static bool reference_answer(struct against *against, struct glint_capture *capt
     const struct glint_reference_options options = {.all = against->all};
     if (against->run) return run_answer(against->run, capture, answer, other, err);
     struct glint_reference *reference =
-        load(against, capture, err) ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
-                                    : NULL;
+        load_reference(against, capture, err)
+            ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
+            : NULL;
     bool ok = reference &&
               glint_reference_trace(reference, glint_pipeline_rays(against->pipeline), 0, against->progress,
                                     against->user, err) &&
@@ -88,7 +89,8 @@ static bool cross_sources(struct against *against, struct glint_capture *capture
     const size_t pixels = (size_t)gbuffer->width * gbuffer->height;
     if (!c->found_source.labels) return true;
     struct glint_pipeline *reference = glint_study_reference(against->pipeline, err);
-    bool ok = reference && glint_pipeline_set(reference, "pipeline.rays=1", err) && load(against, capture, err) &&
+    bool ok = reference && glint_pipeline_set(reference, "pipeline.rays=1", err) &&
+              load_reference(against, capture, err) &&
               glint_replay_run(against->replay, reference, &options, against->progress, against->user, err) &&
               glint_study_source(against->replay, gbuffer->width, gbuffer->height, &c->reference_source, err) &&
               glint_replay_load(against->replay, NULL, err);

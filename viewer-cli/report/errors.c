@@ -1,4 +1,4 @@
-/* How far runs are from a better answer, kept beside them and told in a report. */
+/* How far runs are from a better answer, kept beside them and shown in a report. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -145,9 +145,9 @@ static void name_classes(const json_t *rows, json_t *categories) {
     size_t i, n;
     json_array_foreach(rows, i, row) {
         json_t *name = json_sprintf("%s: %s", report_text(row, "set"), report_text(row, "class"));
-        bool told = false;
-        json_array_foreach(categories, n, known) told = told || json_equal(known, name);
-        if (!told) json_array_append(categories, name);
+        bool listed = false;
+        json_array_foreach(categories, n, known) listed = listed || json_equal(known, name);
+        if (!listed) json_array_append(categories, name);
         json_object_set_new(row, "category", name);
     }
 }

@@ -1,4 +1,4 @@
-/* A sweep as a page: the fronts as charts whose points show their values and pictures, and as tables. */
+/* The page of a sweep: the Pareto fronts as charts, whose points show their values and pictures, and as tables. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static void add_value(json_t *values, const char *name, json_t *cell, const char
     json_array_append_new(values, json_pack("[s, o, s]", name, cell, unit));
 }
 
-/* What the page shows of a point: what was set, errors by class, costs. */
+/* Values of a point on the page: settings, errors by class, costs. */
 static json_t *values_of(const struct sweep *sweep, size_t p) {
     static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
     const struct sweep_point *s = &sweep->sums[p];
@@ -131,7 +131,7 @@ static void add_table(const struct sweep *sweep, const struct sweep_front *front
     }
 }
 
-/* From each point of the front to the next: what it changes in the picture. */
+/* Pictures of the difference between neighbouring points of the front. */
 static void add_changes(const struct sweep *sweep, const struct sweep_front *front, json_t *blocks) {
     json_t *pictures = json_array();
     for (size_t i = 0; i + 1 < front->count; i++)

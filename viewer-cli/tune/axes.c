@@ -1,4 +1,4 @@
-/* What is tuned: chosen by name, or everything that is declared and can make a difference. */
+/* Chooses the parameters to tune: those of --vary, or all declared ones that can influence the reflection. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +44,7 @@ static bool is_variant(const char *name) {
     return !strchr(name, '.');
 }
 
-/* Variants first: what they have no parameter for is left out. */
+/* Applies variants first, because parameters of other variants are left out. */
 struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *values, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_copy(tune->base, err);
     bool ok = pipeline != NULL;
@@ -63,7 +63,7 @@ struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *valu
     return pipeline;
 }
 
-/* A number of something that each takes its time; taps are no fetches of a trace. */
+/* Whether the parameter is a count whose elements each cost time; taps of filters do not count as fetches of the trace passes. */
 static bool is_count(const struct tune *tune, const struct tune_axis *axis) {
     static const char *const units[] = {"steps", "cells", "samples", "taps"};
     char slot[128];
@@ -87,7 +87,7 @@ bool tune_scale(const struct tune *tune, double factor, double *values) {
     return some;
 }
 
-/* ---- Why a parameter is left alone ---- */
+/* ---- Why a parameter is not tuned ---- */
 
 static bool same_values(const struct glint_pipeline *a, const struct glint_pipeline *b) {
     for (size_t i = 0; i < glint_pipeline_pass_count(a); i++) {
@@ -100,7 +100,7 @@ static bool same_values(const struct glint_pipeline *a, const struct glint_pipel
     return true;
 }
 
-/* Whether another value of the start's parameter is compared with another reference. */
+/* Whether another value of this parameter would change the reference. */
 static bool asks_otherwise(const struct tune *tune, const char *name, const struct glint_row *row, double start,
                            bool *otherwise, struct glint_error *err) {
     char assignment[200];
@@ -123,13 +123,13 @@ static bool is_assumed(const struct glint_pass *pass, const char *name) {
     return false;
 }
 
-/* Of a pass on all captures. */
+/* State of a pass over all captures. */
 struct part {
     bool ran, cached, needed;
     char reason[192];
 };
 
-/* What the start's run on one capture says of a pass; false when it does not influence the reflection. */
+/* Adds the results of a pass in the start's run on one capture; false when the pass does not influence the reflection. */
 static bool ask_capture(const struct tune *tune, struct tune_subject *subject, const struct glint_pass *pass,
                         struct part *part, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(subject->judge);
@@ -187,7 +187,7 @@ static bool add_text(struct tune_axis *axis, const char *text, size_t length, st
     return true;
 }
 
-/* The whole of what is declared. */
+/* The whole declared range. */
 static bool declared_axis(struct tune_axis *axis, const struct glint_row *row, double start, struct glint_error *err) {
     axis->row = row;
     if (row->choices || row->type == GLINT_VALUE_BOOL) {
@@ -233,7 +233,7 @@ static bool fail_vary(const struct tune_axis *axis, const char *expected, const 
     return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s: expected %s, found '%s'", axis->name, expected, found);
 }
 
-/* "a,b,c": each must be a value of it; the start's own comes first when it is not among them. */
+/* "a,b,c": each must be a valid value; the start value is added in front if it is missing. */
 static bool read_list(const struct tune *tune, struct tune_axis *axis, const char *list, const char *start,
                       struct glint_error *err) {
     for (const char *at = list; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
@@ -278,7 +278,7 @@ static bool read_range(struct tune_axis *axis, const char *range, double lowest,
     return true;
 }
 
-/* Of a variant that an axis chooses. */
+/* The pass of a variant that an axis can choose. */
 static const struct glint_row *find_other_row(const struct tune *tune, const char *name) {
     const struct glint_row *row = NULL;
     for (size_t a = 0; a < tune->axis_count; a++) {

@@ -1,4 +1,4 @@
-/* Why a limit cannot be kept: the least that was found, and the passes that take it. */
+/* Explains why no point meets the limit: the best point, and its most expensive passes. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,9 +32,9 @@ static bool add_part(struct parts *parts, const struct glint_pass *pass, double 
     return true;
 }
 
-/* Means over rounds and captures of what counts. */
-static bool measure(struct tune *tune, const struct glint_pipeline *pipeline, struct parts *parts,
-                    struct glint_error *err) {
+/* Mean times of the counted passes over rounds and captures. */
+static bool measure_passes(struct tune *tune, const struct glint_pipeline *pipeline, struct parts *parts,
+                           struct glint_error *err) {
     bool ok = true;
     const double rounds = (double)tune->captures.count * tune->rounds;
     for (size_t s = 0; ok && s < tune->captures.count; s++)
@@ -86,7 +86,7 @@ bool tune_fail_least(struct tune *tune, struct glint_error *err) {
     char text[700] = "";
     if (!tune->fetches && !tune->by_error) {
         struct glint_pipeline *pipeline = tune_pipeline(tune, least->values, err);
-        const bool ok = pipeline && measure(tune, pipeline, &parts, err);
+        const bool ok = pipeline && measure_passes(tune, pipeline, &parts, err);
         if (ok) describe_expensive_passes(tune, &parts, text, sizeof text);
         if (pipeline) glint_pipeline_destroy(&pipeline);
         free(parts.items);

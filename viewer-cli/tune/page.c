@@ -1,4 +1,4 @@
-/* A tuning as a page: every point tried, the path of the best, what moved, what was given up. */
+/* The page of glint tune: all points, the path of the best, changed parameters, and the final comparison. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,19 +33,19 @@ static json_t *chart_point(const struct tune *tune, size_t p, bool whole) {
     return json;
 }
 
-static bool known(const struct tune *tune, size_t p) {
+static bool point_is_known(const struct tune *tune, size_t p) {
     const struct glint_search_figures *figures = &tune->found.points[p].figures;
     return isfinite(figures->wanted) && isfinite(figures->limited);
 }
 
-/* All points; those that were the best when they were found, joined in that order; the start; what scaled start gives. */
+/* Chart of all points, the successive best points joined by a line, the start, and the scaled start. */
 static json_t *chart(const struct tune *tune, bool whole) {
     json_t *all = json_array(), *path = json_array(), *chosen = json_array(), *scaled = json_array(),
            *marks = json_array();
     size_t best = 0;
     char title[200], limit[100];
     for (size_t p = 0; p < tune->found.count; p++) {
-        if (!known(tune, p)) continue;
+        if (!point_is_known(tune, p)) continue;
         json_array_append_new(all, chart_point(tune, p, whole));
         if (p && !glint_search_better(&tune->found.points[p].figures, &tune->found.points[best].figures, tune->within))
             continue;

@@ -1,4 +1,4 @@
-/* What was found, as a preset that says where it comes from, and all of it as JSON. */
+/* Writes the result as a preset with a record of how it was found, and everything as JSON. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ static json_t *value_json(const struct glint_row *row, double value) {
     return value == floor(value) && fabs(value) < 1e9 ? json_integer((json_int_t)value) : json_real(value);
 }
 
-/* Variants, and what is not as declared. */
+/* Variants, and parameters that differ from their declared defaults. */
 static json_t *preset_json(const struct glint_pipeline *pipeline, const char *name, const char *title) {
     json_t *slots = json_object(), *set = json_object();
     for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {

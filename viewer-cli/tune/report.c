@@ -1,4 +1,4 @@
-/* What tuning found, for people: what moved, what it cost and bought, what was left alone. */
+/* Prints the result of tuning: changed parameters, the final comparison, and parameters that were not tuned. */
 #include <math.h>
 #include <string.h>
 

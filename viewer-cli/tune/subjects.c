@@ -1,4 +1,4 @@
-/* The captures: loaded, run once, and what they are timed by. */
+/* Loads the captures, runs the start once on each, and times pipelines on them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,7 +70,7 @@ bool tune_time(struct tune *tune, struct tune_subject *subject, const struct gli
     return true;
 }
 
-/* Order statistics between which the true median lies with 95 %, whatever the distribution: each value is below it with a half. */
+/* Order statistics that contain the true median with 95 % for any distribution, as each value is below the median with probability 1/2. */
 struct tune_median tune_median(double *values, size_t count) {
     if (!count) return (struct tune_median){NAN, NAN, NAN};
     glint_sort_doubles(values, count);
@@ -86,7 +86,7 @@ struct tune_median tune_median(double *values, size_t count) {
                                 values[count - 1 - low]};
 }
 
-/* Who is first changes from round to round. */
+/* The order of the pipelines changes from round to round. */
 bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
                         struct tune_times times[TUNE_CONTENDERS], struct glint_error *err) {
     const size_t rounds = tune->repeat;
