@@ -1,4 +1,4 @@
-/* glint blame: which slot a frame's error comes from, and what mending it would cost. */
+/* glint blame: attributes the error of a frame to the slots of the pipeline. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -163,7 +163,7 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
     return (blame->device = pipeline_args_device(&a->pipeline, err)) && blame_open(blame, &a->pipeline.shader, err);
 }
 
-/* Answers as soon as they are known; times take as long again and more. */
+/* Prints the shares as soon as they are known, because times take at least as long again. */
 static bool attribute_error(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
     if (!blame_find_shares(blame, err) || !blame_publish(blame, true, err)) return false;
     progress_end(blame->progress);
@@ -174,7 +174,7 @@ static bool attribute_error(struct blame *blame, bool json, bool *shown, struct 
     return blame_publish(blame, true, err);
 }
 
-/* What is known so far, in the folder and on the screen. */
+/* Writes and prints the results so far. */
 static void report_interrupted_blame(struct blame *blame, bool json, bool shown) {
     struct glint_error err = {0};
     if (!blame_publish(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);

@@ -1,4 +1,4 @@
-/* glint check: whether runs are still what was approved. */
+/* glint check: compares runs with approved baselines. */
 #include <string.h>
 
 #include "check/check.h"
@@ -82,7 +82,7 @@ static void say_approved(const struct arguments *a, const struct check_pair *pai
     else if (!a->diff.quiet) printf("approved: new baseline %s\n", pair->baseline);
 }
 
-/* What both have, compared, and approved when that is asked for. */
+/* Compares a run with its baseline, and approves it if requested. */
 static bool check_both(const struct arguments *a, const struct check_pair *pair, json_t *list, enum diff_status *status,
                        struct glint_error *err) {
     const char *const paths[2] = {pair->baseline, pair->run};
@@ -122,7 +122,7 @@ static bool check_one(const struct arguments *a, const struct check_pair *pair, 
     return ok;
 }
 
-/* ---- All of them ---- */
+/* ---- All runs ---- */
 
 static bool writes_files(const struct diff_args *a) {
     return a->heat || a->beside || a->flicker || a->html;

@@ -1,4 +1,4 @@
-/* glint compare: presets beside each other on the same captures. */
+/* glint compare: compares presets on the same captures. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -120,7 +120,7 @@ static bool run_capture(struct contest *contest, const char *path, struct showin
     return ok;
 }
 
-/* Everything that failed, said on stderr. */
+/* Prints all failures to stderr. */
 static enum status report_failures(const struct contest_table *table) {
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < table->capture_count * table->contest->count; i++) {
@@ -140,7 +140,7 @@ static bool make_folders(const char *folder, struct glint_error *err) {
     return glint_make_folder(path, err);
 }
 
-/* A share of the sheet and of the page for each capture. */
+/* Each capture gets the same share of the sheet and of the page. */
 static struct contest_pictures *begin_pictures(const struct arguments *a, struct sheet *sheet, uint32_t columns,
                                                struct glint_error *err) {
     const size_t count = a->captures.count, cells = CONTEST_ROWS * (size_t)columns;

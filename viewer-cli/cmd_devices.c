@@ -1,4 +1,4 @@
-/* glint devices: the Vulkan devices of this machine, best first. */
+/* glint devices: lists the Vulkan devices in the order of preference. */
 #include <string.h>
 
 #include "options/args.h"

@@ -1,4 +1,4 @@
-/* glint diff: whether two images, two runs, or a run and the game's own intermediates are the same. */
+/* glint diff: compares two images, two runs, or a run with the engine's own intermediate images. */
 #include "diff/options.h"
 
 struct arguments {

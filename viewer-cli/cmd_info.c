@@ -1,4 +1,4 @@
-/* glint info: what a capture holds. */
+/* glint info: shows the contents of captures, runs and other EXR files. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -162,7 +162,7 @@ static enum status print_exr(const struct arguments *a, const struct glint_exr *
     return STATUS_DONE;
 }
 
-/* A file without a G-buffer is shown as what it is, any EXR file; one with it must be a capture. */
+/* A file without a G-buffer is listed as any EXR file; one with a G-buffer must be a valid capture. */
 static bool is_capture(const char *path) {
     struct glint_exr *exr = glint_exr_open(path, NULL, NULL);
     bool found = false;
@@ -172,7 +172,7 @@ static bool is_capture(const char *path) {
     return found;
 }
 
-/* A run's own account of itself is run.json. */
+/* With --json, a run is described by its run.json. */
 static enum status print_run(const struct arguments *a) {
     struct glint_error err = {0};
     struct glint_run *run = glint_run_open(a->path, &err);
@@ -186,7 +186,7 @@ static enum status print_run(const struct arguments *a) {
     return STATUS_DONE;
 }
 
-/* What cube maps show and where rays may come is asked by those who read them: the default pipeline. */
+/* The survey of cube maps and of the faces that rays may reach depends on the passes; the default pipeline is used. */
 static bool survey_cubemaps(struct glint_replay *replay, struct glint_error *err) {
     const struct glint_plan_entry *entries;
     size_t count;

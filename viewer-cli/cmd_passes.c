@@ -1,4 +1,4 @@
-/* glint passes: the handbook of passes, from their declarations. */
+/* glint passes: prints the handbook of passes from their declarations. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,7 +101,7 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
     table_destroy(&table);
 }
 
-/* A handbook has room for a column of everything, a terminal has not: choices and source go into the help there. */
+/* The Markdown handbook has a column for everything; in the terminal, choices and source are appended to the help to save width. */
 static void add_parameter(struct table *table, const struct glint_pass *pass, const struct glint_row *row,
                           bool markdown) {
     char *names = row->choices ? join_names("", row->choices) : NULL;
@@ -138,7 +138,7 @@ static void print_parameters(const struct glint_pass *pass, bool markdown) {
     table_destroy(&table);
 }
 
-/* What `glint blame` exchanges the slot for. */
+/* Prints the reference that `glint blame` uses for the slot. */
 static void print_reference(const struct glint_pass *pass) {
     bool is = false;
     for (size_t i = 0; i < pass->row_count; i++) {

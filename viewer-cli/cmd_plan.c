@@ -1,4 +1,4 @@
-/* glint plan: what would run, what not, and why. */
+/* glint plan: shows which passes would run, and why. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,7 +61,7 @@ static error_t cmd_plan_parse(int key, char *arg, struct argp_state *state) {
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-/* What a plan says, and what it takes on the device, if that was measured. */
+/* A plan, and its times on the device if they were measured. */
 struct answer {
     const struct glint_plan_entry *entries;
     size_t count;
@@ -77,7 +77,7 @@ static double saved_ms(const struct glint_saving *saving) {
     return milliseconds(saving->whole_ns) - milliseconds(saving->planned_ns);
 }
 
-/* Time where it was measured; else what a pass that does not run would have gone over. */
+/* Prints the saved time if it was measured, else the pixels or texels that a skipped pass would have processed. */
 static void print_saved(struct table *table, const struct answer *answer, size_t i) {
     const struct glint_plan_entry *entry = &answer->entries[i];
     if (answer->savings.passes && answer->savings.passes[i].whole_ns)
@@ -110,7 +110,7 @@ static void print_plan(const struct answer *answer) {
     table_destroy(&table);
     if (answer->faces->uploaded_of)
         printf("\ncube-map faces: %s%llu of %llu are uploaded, %llu of %llu are filtered\n",
-               savings->passes ? "" : "at most ", /* which ones rays come to a device finds */
+               savings->passes ? "" : "at most ", /* only a device can find which faces rays reach */
                (unsigned long long)answer->faces->uploaded, (unsigned long long)answer->faces->uploaded_of,
                (unsigned long long)answer->faces->filtered, (unsigned long long)answer->faces->filtered_of);
     if (!savings->passes) return;
@@ -154,7 +154,7 @@ static enum status print_plan_json(const char *capture, const struct glint_pipel
     return print_json(root);
 }
 
-/* Passes are boxes, images ellipses; what does not run is dashed. Names are C identifiers, so nothing needs a quote. */
+/* Passes are boxes, images are ellipses, and passes that do not run are dashed. Names are C identifiers and need no escaping. */
 static void print_dot(const struct glint_plan_entry *entries, size_t count) {
     puts("digraph plan {\n    rankdir=LR;\n    node [fontname=\"Helvetica\", fontsize=10];");
     for (size_t i = 0; i < count; i++) {

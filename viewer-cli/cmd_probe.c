@@ -1,4 +1,4 @@
-/* glint probe: one pixel's story through the pipeline. */
+/* glint probe: records what every pass does for one pixel. */
 #include <stdio.h>
 #include <string.h>
 
@@ -69,10 +69,10 @@ static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-/* The tracers that step over nothing, with all else as it is. */
+/* The reference tracers, which skip nothing; all other passes stay. */
 static struct glint_pipeline *reference_of(const struct glint_pipeline *pipeline, struct glint_error *err) {
     static const struct {
-        const char *slot, *none, *assignment; /* by way of none: no value of the other variant is kept */
+        const char *slot, *none, *assignment; /* set via none, so that no parameter of the other variant is kept */
     } uses[] = {{"screen_trace", "screen_trace=none", "screen_trace=dda"},
                 {"cubemap_trace", "cubemap_trace=none", "cubemap_trace=exact"}};
     struct glint_pipeline *copy = glint_pipeline_copy(pipeline, err);

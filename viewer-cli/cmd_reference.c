@@ -200,7 +200,7 @@ static bool compare_with_truth(const struct glint_reference *reference, struct g
     return ok;
 }
 
-/* What the library says of it, and what it is off the truth. */
+/* The library's JSON of the reference, and its error against the truth. */
 static enum status print_as_json(const struct glint_reference *reference, const struct arguments *a,
                                  const struct missing *missing) {
     char *text = glint_reference_json(reference);

@@ -126,7 +126,7 @@ struct job {
     struct glint_replay *replay;
     struct glint_pipeline *pipeline;
     struct against *against;
-    json_t *runs; /* NULL: tables */
+    json_t *runs; /* NULL: print tables */
 };
 
 static const char *const phases[] = {"read", "upload", "passes", "readback", "write"};
@@ -135,7 +135,7 @@ static double milliseconds(uint64_t ns) {
     return (double)ns * 1e-6;
 }
 
-/* Values that no image should hold. */
+/* NaN, infinite and clamped values of a run. */
 struct found {
     const struct glint_bad_values *bad;
     size_t count;
@@ -177,7 +177,7 @@ static void print_passes(const struct glint_pass_result *results, size_t count) 
     table_destroy(&table);
 }
 
-/* How many values no image should hold, and where the first pass made the first of them. */
+/* Prints the number of NaN, infinite and clamped values, and where the first of them was written. */
 static void print_bad_values(const struct glint_bad_values *bad, size_t count) {
     uint64_t not_finite = 0, clamped = 0;
     size_t made = 0;
@@ -268,7 +268,7 @@ static char *run_folder(const struct arguments *a, const char *capture) {
     return failed < 0 ? NULL : folder;
 }
 
-/* One for each capture. */
+/* Run folders, one for each capture. */
 static char **run_folders(const struct arguments *a, struct glint_error *err) {
     char **folders = calloc(a->captures.count, sizeof *folders);
     bool ok = folders != NULL;
@@ -280,7 +280,7 @@ static char **run_folders(const struct arguments *a, struct glint_error *err) {
     return NULL;
 }
 
-/* `history`: a run of the frame before; NULL: what was run last, if it is the frame before. */
+/* `history`: run of the previous frame; NULL: the last replayed capture, if it is the previous frame. */
 static bool replay_one(const struct job *job, const char *path, const char *folder, const char *history,
                        struct glint_error *err) {
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
@@ -325,7 +325,7 @@ static void report_kept(const struct job *job, const char *capture, const char *
     else printf("%s: already complete, kept: %s\n", capture, folder);
 }
 
-/* How many frames from the first are complete; what follows one that is not depends on it through its history. */
+/* Number of complete frames from the first on; frames after an incomplete one depend on it through their history. */
 static bool count_kept(const struct job *job, char **folders, size_t *kept, struct glint_error *err) {
     const struct arguments *a = job->a;
     *kept = 0;
@@ -339,7 +339,7 @@ static bool count_kept(const struct job *job, char **folders, size_t *kept, stru
     return ok;
 }
 
-/* Every capture is tried; one that fails does not keep the others from being replayed, Ctrl-C does. */
+/* Replays all captures even if some fail, but stops after Ctrl-C. */
 static enum status replay_all(const struct job *job) {
     const struct list *captures = &job->a->captures;
     enum status status = STATUS_DONE;
@@ -366,7 +366,7 @@ static enum status replay_all(const struct job *job) {
     return status;
 }
 
-/* The folder asked for, or the usual one; NULL: none. The caller frees it. */
+/* The requested or default cache folder; NULL: none. The caller frees it. */
 static char *cache_folder(const char *asked) {
     const char *named = asked ? asked : getenv("GLINT_CACHE");
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");

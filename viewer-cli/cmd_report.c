@@ -1,4 +1,4 @@
-/* glint report: runs, sweeps and other studies as one page that can be sent. */
+/* glint report: writes runs, sweeps and other studies as one self-contained page. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -62,7 +62,7 @@ static error_t cmd_report_parse(int key, char *arg, struct argp_state *state) {
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Whether a study left its page in the folder. */
+/* Whether the folder contains the page of a study. */
 static bool has_page(const char *folder) {
     char path[4096];
     return snprintf(path, sizeof path, "%s/page.json", folder) < (int)sizeof path && access(path, F_OK) == 0;
@@ -79,7 +79,7 @@ static json_t *make_document(const struct arguments *a, struct glint_error *err)
     return report_runs(folders, a->folders.count, list_or_null(&a->images), err);
 }
 
-/* The chart in place `number` from 1; *seen counts those before. */
+/* Finds chart `number`, counted from 1; *seen counts the charts before it. */
 static const json_t *find_chart(const json_t *document, uint32_t number, uint32_t *seen) {
     size_t i, k;
     json_t *section, *block;

@@ -1,4 +1,4 @@
-/* glint sample: a capture written by the stand-in engine. */
+/* glint sample: renders a capture with the stand-in engine. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -307,7 +307,7 @@ static enum status list_scenes(bool json) {
     return STATUS_DONE;
 }
 
-/* What is no built-in scene's name must be a file. */
+/* Any name that is not a built-in scene must be a file. */
 static bool known_scene(const char *scene, struct glint_error *err) {
     size_t count = 0;
     const struct glint_sample *scenes = glint_samples(&count);

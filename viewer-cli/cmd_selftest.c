@@ -1,4 +1,4 @@
-/* glint selftest: the hard cases on this machine's device. */
+/* glint selftest: runs difficult cases on this machine's device. */
 #include <time.h>
 
 #include <jansson.h>
@@ -145,7 +145,7 @@ static void print_summary(const struct glint_selftest *selftest, double seconds)
     printf("\n%s: %zu cases, %zu failed\n", glint_selftest_device(selftest)->name, all.cases, all.failed);
 }
 
-/* Once more, where nobody has to look for them, with what was claimed. */
+/* Repeats the failed cases at the end, with their description, so that they are easy to find. */
 static void print_failed(const struct glint_selftest_group *group) {
     for (size_t i = 0; i < group->count; i++) {
         const struct glint_selftest_case *c = &group->cases[i];

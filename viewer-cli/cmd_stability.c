@@ -1,4 +1,4 @@
-/* glint stability: how far the rounding of a capture's values moves each pixel, and in which pass that begins. */
+/* glint stability: measures how rounding of the captured values changes each pixel, pass by pass. */
 #include "options/opened.h"
 #include "io/progress.h"
 #include "stability/stability.h"
@@ -91,7 +91,7 @@ static error_t cmd_stability_parse(int key, char *arg, struct argp_state *state)
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-/* Which pass fails the check, said on stderr. */
+/* Prints to stderr which pass fails the check. */
 static enum status check_limits(const struct arguments *a, const struct glint_stability *s) {
     enum status status = STATUS_DONE;
     for (size_t i = 0; a->fails && i < s->pass_count; i++) {

@@ -1,4 +1,4 @@
-/* glint sweep: what each choice of parameters and variants costs and buys. */
+/* glint sweep: measures accuracy against time over ranges of parameters and variants. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -121,7 +121,7 @@ static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
     return parse_answer(key, arg, state, a);
 }
 
-/* Names that are not known, with the nearest that is. */
+/* Reports unknown names, with the nearest known one. */
 static bool check_names(const char *axis, struct glint_error *err) {
     const char *equals = strchr(axis, '=');
     char assignment[300];

@@ -1,4 +1,4 @@
-/* What depth's storage can tell apart, near and far. */
+/* Computes the resolution of the depth storage at several distances. */
 #include "capture/depth_facts.h"
 
 #include <math.h>

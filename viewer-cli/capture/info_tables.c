@@ -1,4 +1,4 @@
-/* What glint info prints for people. */
+/* The tables of glint info. */
 #include "capture/info_tables.h"
 
 #include <stdio.h>
@@ -20,7 +20,7 @@ static bool same_part(const struct channel_row *a, const struct channel_row *b) 
     return n == stem_length(b->part) && !strncmp(a->part, b->part, n);
 }
 
-/* R G B, or X Y Z, of one layer are one line. */
+/* R G B or X Y Z of one layer share a line. */
 static bool same_vector(const struct channel_row *a, const struct channel_row *b) {
     int ra = channel_rank(a->channel), rb = channel_rank(b->channel);
     size_t n = channel_layer_length(a->channel);
@@ -93,7 +93,7 @@ void info_print_channels(const struct channel_table *all) {
     if (of_surfaces) puts("\nIn parts with depth.Z, ranges cover surfaces only, without sky and empty pixels.");
 }
 
-/* Parts of one stem and size are one line. */
+/* Parts with the same stem and size share a line. */
 static bool same_kind(const struct glint_part_info *a, const struct glint_part_info *b) {
     size_t n = stem_length(a->name);
     return a->index >= 0 && b->index >= 0 && n == stem_length(b->name) && !strncmp(a->name, b->name, n) &&

@@ -1,4 +1,4 @@
-/* A run becomes the baseline, all at once. */
+/* Makes a run the baseline, in one atomic step. */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -73,7 +73,7 @@ static bool copy_run(const char *from, const char *to, const json_t *files, stru
     return ok;
 }
 
-/* What a folder holds beside a run's files would be lost with it. */
+/* Refuses folders with files that do not belong to the run, because they would be lost. */
 static bool holds_only(const char *folder, const json_t *files, struct glint_error *err) {
     DIR *directory = opendir(folder);
     if (!directory) return fail_at(folder, err);
@@ -89,7 +89,7 @@ static bool holds_only(const char *folder, const json_t *files, struct glint_err
     return ok;
 }
 
-/* A folder that holds these files at most. */
+/* Whether a folder contains only these files. */
 static void remove_files(const char *folder, const json_t *files) {
     const char *name;
     json_t *value;
@@ -100,7 +100,7 @@ static void remove_files(const char *folder, const json_t *files) {
     rmdir(folder);
 }
 
-/* Removes what was kept before. */
+/* Removes the previous backup. */
 static bool clear_kept(const char *kept, struct glint_error *err) {
     if (access(kept, F_OK) != 0) return true;
     json_t *files = files_of(kept, err);

@@ -1,4 +1,4 @@
-/* A pixel's story for a terminal: pass by pass what was done for it and what came of it. */
+/* Prints the records of a pixel, pass by pass. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 enum { TEXT = 160 };
 
-/* Steps come in tables, one kind after the other; what comes once, in a line. */
+/* Steps are printed as tables, one for each kind; single records as a line. */
 static bool is_step(const struct glint_probe_row *kind) {
     const size_t count = glint_probe_count(kind);
     for (size_t i = 0; i < count; i++)
@@ -16,7 +16,7 @@ static bool is_step(const struct glint_probe_row *kind) {
     return false;
 }
 
-/* How far the ray is behind the surface that it was compared with, which no row says. */
+/* Whether the records have ray and surface depths, whose difference is printed as a column of its own. */
 static bool has_gap(const struct glint_probe_row *kind) {
     bool ray = false, surface = false;
     for (size_t i = 0; i < glint_probe_count(kind); i++) {

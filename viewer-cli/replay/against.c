@@ -1,4 +1,4 @@
-/* --against: how far a run is from a better answer, the truth in the capture, the preset `reference`, or both. */
+/* --against: compares a run with the truth in the capture, the preset `reference`, or both. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,7 +34,7 @@ static bool load_reference(struct against *against, struct glint_capture *captur
     return glint_replay_load(against->replay, capture, err);
 }
 
-/* An answer, and the standard error of one that is a mean of samples. */
+/* A reference image, and the standard error of its samples, if it is a mean of samples. */
 struct answer {
     struct glint_pixels pixels;
     float *error;
@@ -105,10 +105,10 @@ static bool cross_sources(struct against *against, struct glint_capture *capture
     return ok;
 }
 
-/* Every class that is known of the pixels. */
+/* All known classes of pixels. */
 struct sets {
     struct glint_classes of[GLINT_CAPTURE_CLASSES + 1];
-    size_t own, count; /* own: those that are released with this */
+    size_t own, count; /* own: number of classes that this owns */
 };
 
 static bool compare(const struct against *against, struct glint_capture *capture, const struct sets *sets,
@@ -190,7 +190,7 @@ bool against_compare(struct against *against, struct glint_replay *replay, struc
     c->has_rays = against->truth;
     c->has_image = compare_images(against, replay, capture, pipeline, c, &image);
     if (c->has_image) return true;
-    /* Rays can be compared without a picture, as of --passes screen_trace. */
+    /* Rays can be compared without a reflection image, such as with --passes screen_trace. */
     if (against->reference || (image.code != GLINT_ERROR_USAGE && image.code != GLINT_ERROR_FORMAT)) {
         if (err) *err = image;
         return false;

@@ -1,4 +1,4 @@
-/* What --against says: tables for people, JSON. */
+/* The results of --against as tables and JSON. */
 #include <math.h>
 
 #include "replay/against.h"

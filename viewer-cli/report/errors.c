@@ -1,4 +1,4 @@
-/* How far runs are from a better answer, kept beside them and shown in a report. */
+/* The errors of runs against truth and reference, stored in their folders and shown in reports. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ bool report_keep_errors(const char *folder, const struct comparison *compared, s
     return ok;
 }
 
-/* ---- Told ---- */
+/* ---- Tables and charts ---- */
 
 static const struct part {
     const char *key, *title, *series;
@@ -171,7 +171,7 @@ static void add_classes(const struct report *r, json_t *const *errors, json_t *b
     add_table(r, errors, part, "classes", class_columns, blocks, "The same as a table, with other metrics:");
 }
 
-/* How the figures were found. */
+/* Notes on how the figures were computed. */
 static void add_terms(const struct report *r, json_t *const *errors, json_t *blocks) {
     for (size_t k = 0; k < r->count; k++)
         for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) {

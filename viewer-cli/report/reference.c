@@ -1,4 +1,4 @@
-/* What reference runs say of their noise and of what they had to assume. */
+/* The noise and the assumptions of reference runs. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,7 +22,7 @@ static const struct report_column change_columns[] = {
     {0},
 };
 
-/* What a parameter changes on all surfaces, as the member "all" of its row. */
+/* The change that a parameter causes on all surfaces, as the member "all" of its row. */
 static void lift_changes(const json_t *rows) {
     size_t i;
     json_t *row;

@@ -51,7 +51,7 @@ static bool read_runs(struct report *r, struct glint_error *err) {
 
 /* ---- Facts ---- */
 
-/* What a run says of itself: "a.b" is b of a. */
+/* Facts from run.json: "a.b" is the member b of a. */
 static const struct fact {
     const char *name, *key, *unit;
 } facts[] = {

@@ -99,7 +99,7 @@ static void add_work(const struct report *r, json_t *blocks, bool cached_work) {
     json_decref(series);
 }
 
-/* What a device's times are worth, each once. */
+/* Notes about the times of CPU devices, one for each device. */
 static void add_warnings(const struct report *r, json_t *blocks) {
     for (size_t i = 0; i < r->count; i++) {
         const json_t *device = json_object_get(r->runs[i], "device");

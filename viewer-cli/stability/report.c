@@ -1,4 +1,4 @@
-/* A measurement of stability as tables and as JSON. */
+/* The results of glint stability as tables and as JSON. */
 #include "stability/stability.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* A measurement of stability as a run of layers. */
+/* Writes the results of glint stability as a run folder of layers. */
 #include "stability/stability.h"
 
 #include <stdio.h>
@@ -13,7 +13,7 @@
 
 enum { LAYERS = 3 };
 
-/* What run.json says of one part. */
+/* The entry of one part in run.json. */
 static json_t *part_json(const char *file, const char *name, const char *channels, const char *unit,
                          const char *meaning, uint32_t width, uint32_t height, bool integer) {
     return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "file", file, "part", name,
@@ -80,7 +80,7 @@ static bool write_pass(const char *folder, const struct glint_stability *s, cons
     return ok;
 }
 
-/* ---- What all passes together give ---- */
+/* ---- Layers over all passes ---- */
 
 static bool write_all(const char *folder, const struct glint_stability *s, json_t *passes, struct glint_error *err) {
     static const char file[] = "stability.exr";

@@ -1,4 +1,4 @@
-/* The versions of a watched replay. */
+/* Replays the versions of a watched preset or shader. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ struct session {
     unsigned number, shown; /* of the newest version, and of the newest that ran; 0: none */
 };
 
-/* ---- What is said of a version ---- */
+/* ---- Reporting a version ---- */
 
 static void now_text(char text[16]) {
     const time_t now = time(NULL);
@@ -85,7 +85,7 @@ static bool run_version(struct session *s, struct glint_error *err) {
     return ok;
 }
 
-/* False when nothing more can be done, or after Ctrl-C; a version that does not run is waited past. */
+/* False when the watch cannot continue, or after Ctrl-C; a version that fails only waits for the next change. */
 static bool next_version(struct session *s, struct glint_error *err) {
     struct glint_error fault = {0};
     s->number++;
