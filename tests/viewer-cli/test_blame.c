@@ -279,10 +279,10 @@ static void what_is_wrong_is_named(void **state) {
     glint_fails(2, "no variant hizz (did you mean hiz?)", "blame", room, "--use=screen_trace=hizz");
     glint_fails(2, "expected one run for each of 1 captures, found 2", "blame", room, "--reference=a", "--reference=b");
     glint_fails(2, "expected either runs or truth", "blame", room, "--reference=a", "--reference=truth");
-    glint_fails(1, "street.exr: with nothing as in the reference: ", "blame", street, SMALL, "--reference=truth");
-    glint_fails(2, "killed: holds a blame of other reference_rays: there 16, here 8", "blame", room, "-o",
+    glint_fails(1, "street.exr: with nothing replaced by its reference: ", "blame", street, SMALL, "--reference=truth");
+    glint_fails(2, "killed: contains a blame with other reference_rays: 16 instead of 8", "blame", room, "-o",
                 in_folder("killed"), SMALL, "--use=upscale=best_match", "--rays=8");
-    glint_fails(2, "holds a blame of other players", "blame", room, "-o", in_folder("killed"), SMALL,
+    glint_fails(2, "contains a blame with other players", "blame", room, "-o", in_folder("killed"), SMALL,
                 "--use=upscale=best_match", "--player-rays=3");
     static const char *const strange[] = {
         "{\"capture\":0,\"coalition\":4096,\"errors\":{}}", "{\"capture\":1,\"coalition\":0,\"errors\":{}}",
