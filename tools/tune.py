@@ -16,7 +16,7 @@ import time
 import pages
 
 RECORDS = pages.HERE / "records/tune"
-SEEN, UNSEEN = ("street", "room"), "hotel"
+SEEN, HELD_OUT = ("street", "room"), "hotel"
 BUDGETS = (50, 25)
 # Counts, thresholds and switches of the traces: what both costs know of.
 TRACES = ("screen_trace.cells=1..384", "screen_trace.cells_lq=1..384", "cubemap_trace.steps_hq=1..96", "cubemap_trace.steps_lq=1..96",
@@ -29,9 +29,9 @@ FRAME = ("lit_mips.reach=0..3", "screen_trace=hiz,linear", "screen_trace.steps=2
          "blur=plus,none", "temporal.extra", "cubemap_select=score,nearest")
 
 
-def tuned(given, folder, captures, unseen, budget):
+def tuned(given, folder, captures, held_out, budget):
     """What it says, or why it found nothing."""
-    command = [given.glint, "tune", *captures, "--unseen", unseen, "-o", folder / f"{budget}.json", "--folder", given.folder or folder / "tune",
+    command = [given.glint, "tune", *captures, "--held-out", held_out, "-o", folder / f"{budget}.json", "--folder", given.folder or folder / "tune",
                f"--budget-{given.cost}", f"{budget}%", "--baseline", "scale", "--over", "worst", "--rays", given.rays,
                "--tries", given.tries, "--rounds", given.rounds, "--repeat", given.repeat, "--seed", given.seed, "--json"]
     for name in TRACES + (FRAME if given.cost == "ms" and not given.slots else ()):
@@ -55,7 +55,7 @@ def measure(given):
     given.output.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=given.work) as folder:
         folder = pathlib.Path(folder)
-        captures = [pages.sample(given.glint, scene, folder, given.size, given.cube) for scene in (*SEEN, UNSEEN)]
+        captures = [pages.sample(given.glint, scene, folder, given.size, given.cube) for scene in (*SEEN, HELD_OUT)]
         for budget in given.budgets:
             start = time.monotonic()
             found = record["budgets"][str(budget)] = tuned(given, folder, captures[:-1], captures[-1], budget)
@@ -104,7 +104,7 @@ def chapter(record):
             lines += [f"{found['none'].capitalize()}.", ""]
             continue
         for one in found["confirmed"]:
-            lines += [f"`{one['capture']}`{', held out' if one['unseen'] else ''}:", ""]
+            lines += [f"`{one['capture']}`{', held out' if one['held_out'] else ''}:", ""]
             lines += [pages.table(("pipeline", "RMSE, all surfaces", *(f"RMSE, {kind}" for kind in pages.KINDS), "RMSE of tuned − of this", *units), scene(record, one)), ""]
         if not found["scaled"]["within"]:
             lines += [f"Scaling all steps does not reach the budget: with one step of each they cost {found['scaled']['cost']:.4g}.", ""]

@@ -1,4 +1,4 @@
-/* glint blame: which slot a frame's error comes from, and what mending it would cost. */
+/* glint blame: attributes the error of a frame to the slots of the pipeline. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,21 +28,22 @@ enum {
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",    'o',           "FOLDER",        0, "Where all results are kept, with a page and charts of what is known so far; an interrupted call goes on from what is there", 0},
-    {"metric",    KEY_METRIC,    "NAME",          0, "The error that is shared out (default symmetric): symmetric, relative_mse, rmse, clean_relative_mse, clean_rmse, "
-                                                     "flip or hdr_flip", 0},
-    {"reference", KEY_REFERENCE, "RUN|truth",     0, "What errors are against: a run of glint reference (one for each capture), or the truth in the capture "
-                                                     "(default: a reference traced once, kept in the folder; the truth is reported beside it)", 0},
-    {"rays",      KEY_RAYS,      "N",             0, "Rays a pixel of the reference that is traced (default 64)", 0},
-    {"player-rays", KEY_PLAYER_RAYS, "N",         0, "Rays a pixel of pipelines whose rays are exchanged (default: those of the preset reference)", 0},
-    {"shot",      KEY_SHOT,      NULL,            0, "The captures are frames of a shot, one after the other: the last is blamed, and each pipeline runs those "
-                                                     "before it first, so that what remembers frames has a history", 0},
-    {"exact",     KEY_EXACT,     "N",             0, "Up to N players all pipelines are run, 2^N at most, and shares are exact (default 8)", 0},
-    {"interval",  KEY_INTERVAL,  "PERCENT",       0, "With more players: permutations are drawn until no share's 95 % interval is wider than ± this part "
-                                                     "of what is shared out (default 2)", 0},
-    {"permutations", KEY_PERMUTATIONS, "N",       0, "At most so many (default 200)", 0},
-    {"seed",      KEY_SEED,      "N",             0, "Of the permutations (default 1)", 0},
-    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds, in turns: each pipeline once a round, when all shares are known and shown (default 3; 0: no times)", 0},
+    {"output",    'o',           "FOLDER",        0, "Folder for all results, with a page and charts that are updated during the work; an interrupted call resumes from it", 0},
+    {"metric",    KEY_METRIC,    "NAME",          0, "Error metric that is attributed to the slots (default symmetric): symmetric, relative_mse, rmse, clean_relative_mse, "
+        "clean_rmse, flip or hdr_flip", 0},
+    {"reference", KEY_REFERENCE, "RUN|truth",     0, "Errors are measured against this: the run of glint reference (once for each capture), or the truth in the capture "
+        "(default: a reference is traced once and kept in the folder; the error against the truth is reported too)", 0},
+    {"rays",      KEY_RAYS,      "N",             0, "Rays per pixel of the reference that is traced (default 64)", 0},
+    {"player-rays", KEY_PLAYER_RAYS, "N",         0, "Rays per pixel in pipelines in which the ray count is replaced by that of the reference (default: that of the preset "
+        "reference)", 0},
+    {"shot",      KEY_SHOT,      NULL,            0, "The captures are consecutive frames: the error of the last one is attributed, and every pipeline runs the others first, "
+        "so that temporal passes have a history", 0},
+    {"exact",     KEY_EXACT,     "N",             0, "With up to N players, run all 2^N pipelines and compute exact shares (default 8)", 0},
+    {"interval",  KEY_INTERVAL,  "PERCENT",       0, "With more players, draw random permutations until the 95 % interval of every share is narrower than ± this percentage "
+        "of the attributed error (default 2)", 0},
+    {"permutations", KEY_PERMUTATIONS, "N",       0, "Draw at most N permutations (default 200)", 0},
+    {"seed",      KEY_SEED,      "N",             0, "Seed of the permutations (default 1)", 0},
+    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds after the shares are known; every round runs each pipeline once (default 3; 0: no times)", 0},
     WHOLE_PIPELINE_OPTIONS("The pipeline"),
     PROGRESS_OPTION,
     {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/shares.json", 0},
@@ -50,16 +51,19 @@ static const struct argp_option options[] = {
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint blame street.exr -o blame", "where the error of mafia3 comes from; blame/index.html shows it"},
-    {"glint blame street.exr room.exr -o both -p mafia_de", "another preset on two captures: the mean, and each"},
-    {"glint blame street.exr --repeat 0", "no times, nothing kept: the table alone"},
+    {"glint blame street.exr -o blame", "attributes the error of mafia3; see blame/index.html"},
+    {"glint blame street.exr room.exr -o both -p mafia_de",
+     "analyses another preset on two captures: each, and the mean"},
+    {"glint blame street.exr --repeat 0", "prints only the table, without times"},
     {"glint blame street.exr --metric relative_mse --reference truth",
-     "against the path tracer, what is missing included"},
+     "uses the path-traced truth, which includes what the capture does not contain"},
     {"glint blame --shot street.0001.exr street.0002.exr street.0003.exr",
-     "the third frame of a shot, with its history"},
-    {"glint blame street.exr -o quick --exact 0 --interval 5", "permutations until shares are known to ± 5 %"},
-    {"glint blame street.exr -o blame --interval 1", "the same folder again: only what is new is run"},
-    {"glint passes screen_trace", "what the reference of a slot is"},
+     "analyses the third frame of a shot, with its history"},
+    {"glint blame street.exr -o quick --exact 0 --interval 5",
+     "draws permutations until the shares are known to ± 5 %"},
+    {"glint blame street.exr -o blame --interval 1",
+     "refines the results in the folder; known pipelines are not run again"},
+    {"glint passes screen_trace", "shows the reference of a slot"},
     {0},
 };
 
@@ -67,7 +71,7 @@ extern const struct command cmd_blame;
 
 static void split_shot(struct blame *blame, struct argp_state *state) {
     const struct list all = blame->captures;
-    if (all.count < 2) argp_error(state, "--shot: expected the frames before as well");
+    if (all.count < 2) argp_error(state, "--shot: expected at least two frames");
     blame->captures = (struct list){0};
     list_add(&blame->captures, all.items[all.count - 1], state);
     blame->before = all;
@@ -90,7 +94,7 @@ static error_t parse_more(int key, char *arg, struct argp_state *state, struct a
         list_add(&blame->captures, arg, state);
         return 0;
     case ARGP_KEY_END:
-        if (!blame->captures.count) argp_error(state, "which capture?");
+        if (!blame->captures.count) argp_error(state, "no capture given");
         if (blame->shot) split_shot(blame, state);
         answer_args_check(&blame->against, blame->captures.count, state);
         return 0;
@@ -121,7 +125,7 @@ static error_t cmd_blame_parse(int key, char *arg, struct argp_state *state) {
     case KEY_INTERVAL:
         arg_numbers("interval", arg, &percent, 1, state);
         if (!(percent > 0 && percent <= 100))
-            argp_error(state, "--interval %s: expected per cent, above 0 and up to 100", arg);
+            argp_error(state, "--interval %s: expected a percentage above 0 and up to 100", arg);
         shapley->interval = 0.01 * percent;
         return 0;
     case KEY_PERMUTATIONS:
@@ -159,25 +163,24 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
     return (blame->device = pipeline_args_device(&a->pipeline, err)) && blame_open(blame, &a->pipeline.shader, err);
 }
 
-/* Answers as soon as they are known; times take as long again and more. */
-static bool work(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
-    if (!blame_find_shares(blame, err) || !blame_tell(blame, true, err)) return false;
+/* Prints the shares as soon as they are known, because times take at least as long again. */
+static bool attribute_error(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
+    if (!blame_find_shares(blame, err) || !blame_publish(blame, true, err)) return false;
     progress_end(blame->progress);
     if (!json) blame_print_shares(blame);
     *shown = true;
     if (!blame_find_times(blame, err)) return false;
     blame->complete = true;
-    return blame_tell(blame, true, err);
+    return blame_publish(blame, true, err);
 }
 
-/* What is known so far, in the folder and on the screen. */
-static void interrupted(struct blame *blame, bool json, bool shown) {
+/* Writes and prints the results so far. */
+static void report_interrupted_blame(struct blame *blame, bool json, bool shown) {
     struct glint_error err = {0};
-    if (!blame_tell(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);
+    if (!blame_publish(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);
     if (!json && !shown && blame_is_known(&blame->captured[0])) blame_print_shares(blame);
     if (!json && shown) blame_print_times(blame);
-    if (blame->out)
-        command_note(&cmd_blame, "%s keeps what was found; the same command goes on from there", blame->out);
+    if (blame->out) command_note(&cmd_blame, "results are kept in %s; the same command resumes from there", blame->out);
 }
 
 static enum status cmd_blame_run(int argc, char **argv) {
@@ -192,10 +195,10 @@ static enum status cmd_blame_run(int argc, char **argv) {
     progress_begin(&progress);
     blame->progress = &progress;
     progress.lines = a.progress;
-    const bool ok = begin_blame(&a, &err) && work(blame, a.json, &shown, &err);
+    const bool ok = begin_blame(&a, &err) && attribute_error(blame, a.json, &shown, &err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_blame, &err);
-    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->captured) interrupted(blame, a.json, shown);
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->captured) report_interrupted_blame(blame, a.json, shown);
     if (ok && a.json) status = print_json(blame_json(blame));
     else if (ok) blame_print_times(blame);
     struct glint_device *device = blame->device;
@@ -208,22 +211,18 @@ static enum status cmd_blame_run(int argc, char **argv) {
 const struct command cmd_blame = {
     .name = "blame",
     .arguments = "F... [-o FOLDER]",
-    .summary = "which slot the error comes from, and what mending it would cost",
+    .summary = "attribute the error to the slots, and show what removing it would cost",
     .description =
-        "Exchanges the slots of a pipeline for their references, as the passes declare them, runs what follows anew, "
-        "and "
-        "finds what each is to blame for. A slot \"removes\" the error that goes when it alone is the reference's, and "
-        "\"makes\" the error that comes when it alone is kept and all others are the reference's. Where both differ, "
-        "slots interact: a blur mends what few rays leave, and does harm where there are many. The share (Shapley "
-        "value) "
-        "is the mean of what a slot changes over all orders in which slots can be exchanged one after the other; "
-        "shares "
-        "add up to the error of the preset less that of the reference. A negative one makes the picture better than it "
-        "would be without. Any error can be shared out; symmetric, relative_mse and flip are means over pixels, so "
-        "that "
-        "shares are, too. Slots that cannot be exchanged alone are one player, and the output says why. Fog is off, "
-        "which "
-        "the truth lacks. Captures are taken each by itself, without the history of a shot; --shot gives it one.",
+        "Replaces slots of the pipeline by their references, which the passes declare, runs the following passes "
+        "again, and attributes the error to the slots. A slot, or a group of slots that can only be replaced "
+        "together, is called a player, as in game theory; the output explains why slots form a group. The column "
+        "\"removes\" is the error that disappears when only this player is replaced by its reference; \"makes\" is the "
+        "error that appears when only this player is kept and all others are replaced. Where the two differ, players "
+        "interact: a blur hides the noise of few rays, but costs sharpness when there are many. The share (Shapley "
+        "value) is the mean change of error by a player over all orders in which players can be replaced; shares add "
+        "up to the error of the preset minus the error of its reference. A player with a negative share improves the "
+        "image. Any metric can be used; symmetric, relative_mse and flip are means over pixels. Fog is off, because "
+        "the truth has none. Each capture is replayed without the history of previous frames, except with --shot.",
     .options = options,
     .parse = cmd_blame_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint check: whether runs are still what was approved. */
+/* glint check: compares runs with approved baselines. */
 #include <string.h>
 
 #include "check/check.h"
@@ -14,19 +14,19 @@ enum { KEY_BASELINE = KEY_AFTER_DIFF, KEY_APPROVE };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"baseline", KEY_BASELINE, "DIR", 0, "The run that was approved; of a folder of runs, the folder of theirs", 0},
-    {"approve",  KEY_APPROVE,  NULL,  0, "Say what changed, and make RUN the baseline; the one before is kept as DIR~", 0},
+    {"baseline", KEY_BASELINE, "DIR", 0, "The approved run, or the folder of the approved runs if RUN is a folder of runs", 0},
+    {"approve",  KEY_APPROVE,  NULL,  0, "Print what changed, and make RUN the new baseline; the previous one is kept as DIR~", 0},
     DIFF_OPTIONS,
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint check run --baseline approved --approve", "what later runs are compared with"},
-    {"glint check run --baseline approved", "exit 0 the same, 1 warning, 2 failure, as glint diff"},
+    {"glint check run --baseline approved --approve", "approves a run as the baseline"},
+    {"glint check run --baseline approved", "compares a run with the baseline"},
     {"glint check run --baseline approved -fail 0.004 -failpercent 0.1 --html changed.html",
-     "another driver: tolerances, and a page of what changed"},
+     "allows small differences, as of another driver, and writes a page with the changes"},
     {"glint check runs --baseline approved",
-     "every run of a folder, as glint replay shots/room.0*.exr -o runs made them"},
+     "compares all runs of a folder, such as those of glint replay shots/room.0*.exr -o runs"},
     {0},
 };
 
@@ -42,12 +42,12 @@ static error_t cmd_check_parse(int key, char *arg, struct argp_state *state) {
         a->approve = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->run) argp_error(state, "one run, or a folder of them; %s is the second", arg);
+        if (a->run) argp_error(state, "expected one run or one folder of runs, found also %s", arg);
         a->run = arg;
         return 0;
     case ARGP_KEY_END:
-        if (!a->run) argp_error(state, "which run?");
-        if (!a->baseline) argp_error(state, "against what? --baseline DIR");
+        if (!a->run) argp_error(state, "no run given");
+        if (!a->baseline) argp_error(state, "no baseline given: --baseline DIR");
         return 0;
     }
     return diff_args_parse(key, arg, state, &a->diff);
@@ -77,12 +77,12 @@ static void say_approved(const struct arguments *a, const struct check_pair *pai
                             json_pack("{s:I, s:I, s:I}", "changed", (json_int_t)counts->changed, "new",
                                       (json_int_t)counts->added, "gone", (json_int_t)counts->gone));
     else if (!a->diff.quiet && pair->has_baseline)
-        printf("approved: images that changed: %zu, new: %zu, gone: %zu; the baseline before is %s~\n", counts->changed,
+        printf("approved: %zu images changed, %zu added, %zu removed; the previous baseline is %s~\n", counts->changed,
                counts->added, counts->gone, pair->baseline);
-    else if (!a->diff.quiet) printf("approved: a new baseline, %s\n", pair->baseline);
+    else if (!a->diff.quiet) printf("approved: new baseline %s\n", pair->baseline);
 }
 
-/* What both have, compared, and approved when that is asked for. */
+/* Compares a run with its baseline, and approves it if requested. */
 static bool check_both(const struct arguments *a, const struct check_pair *pair, json_t *list, enum diff_status *status,
                        struct glint_error *err) {
     const char *const paths[2] = {pair->baseline, pair->run};
@@ -122,7 +122,7 @@ static bool check_one(const struct arguments *a, const struct check_pair *pair, 
     return ok;
 }
 
-/* ---- All of them ---- */
+/* ---- All runs ---- */
 
 static bool writes_files(const struct diff_args *a) {
     return a->heat || a->beside || a->flicker || a->html;
@@ -131,8 +131,9 @@ static bool writes_files(const struct diff_args *a) {
 static bool check_all(const struct arguments *a, const struct check_pairs *pairs, json_t *list, enum diff_status *worst,
                       struct glint_error *err) {
     if (pairs->count > 1 && writes_files(&a->diff))
-        return glint_fail(err, GLINT_ERROR_USAGE, "pictures and pages are of one run, and %s holds %zu: name one",
-                          a->run, pairs->count);
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "pictures and pages can be written for one run only, but %s contains %zu", a->run,
+                          pairs->count);
     for (size_t i = 0; i < pairs->count; i++) {
         enum diff_status status = DIFF_SAME;
         if (pairs->count > 1 && !list && !a->diff.quiet) printf("%s%s\n", i ? "\n" : "", pairs->items[i].run);
@@ -160,14 +161,12 @@ static enum status cmd_check_run(int argc, char **argv) {
 const struct command cmd_check = {
     .name = "check",
     .arguments = "RUN --baseline DIR",
-    .summary = "whether a run is still the one that was approved",
+    .summary = "compare a run with an approved baseline",
     .description =
-        "Compares a run with an earlier one that was looked at and approved: glint diff DIR RUN, with its limits, "
-        "pictures, page and exit codes (0 the same, 1 a warning, 2 a failure, 3 not the same size, 4 cannot be read). "
-        "An "
-        "image that one of them lacks is a failure, and so is a run without a baseline. --approve says what changed "
-        "and "
-        "makes RUN the baseline, all of it at once; the one before is kept.",
+        "Compares a run with an earlier, approved run: like glint diff DIR RUN, with the same limits, pictures, page "
+        "and exit codes (0 equal, 1 warning, 2 failure, 3 different size, 4 unreadable). An image that only one of "
+        "them contains is a failure, and so is a run without a baseline. --approve prints what changed and makes RUN "
+        "the new baseline in one atomic step; the previous baseline is kept.",
     .options = options,
     .one_dash = true,
     .usage_status = DIFF_USAGE,

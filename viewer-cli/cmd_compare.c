@@ -1,4 +1,4 @@
-/* glint compare: presets beside each other on the same captures. */
+/* glint compare: compares presets on the same captures. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,21 +19,22 @@ enum { KEY_PRESETS = 256, KEY_SET, KEY_REPEAT };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",  'o',         "FOLDER",     0, "Keep the table as table.json and table.csv, a sheet of pictures, sheet.png, and a page of it all, index.html", 0},
-    {"presets", KEY_PRESETS, "NAME|FILE,...", 0, "The presets (default: all but reference); there are ", 0},
-    {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one of them; glint passes SLOT lists them", 0},
-    {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds, in turns: each preset once a round (default 3)", 0},
-    {"device",  'd',         "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"output",  'o',         "FOLDER",     0, "Folder for the table (table.json, table.csv), a sheet of pictures (sheet.png) and a page (index.html)", 0},
+    {"presets", KEY_PRESETS, "NAME|FILE,...", 0, "Presets to compare (default: all but reference), of ", 0},
+    {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one preset; glint passes SLOT lists them", 0},
+    {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds; every round runs each preset once (default 3)", 0},
+    {"device",  'd',         "INDEX|NAME", 0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0},
     {"json",    'j',         NULL,         0, "Print JSON", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint compare street.exr", "every preset: error, coverage, steps, time"},
-    {"glint compare street.exr room.exr --presets mafia3,kf2 -o compared", "two presets on two scenes, with pictures"},
-    {"glint compare street.exr --presets mafia3,mine.json --repeat 20", "a preset of your own beside another"},
-    {"glint compare street.exr --presets kf2,mafia3 --set kf2:resolve.blur=0", "with one parameter changed"},
-    {"glint sample street -o street.exr --truth 16", "errors need a truth in the capture, such as this one's"},
+    {"glint compare street.exr", "compares all presets: error, coverage, steps, time"},
+    {"glint compare street.exr room.exr --presets mafia3,kf2 -o compared",
+     "compares two presets on two scenes, with pictures"},
+    {"glint compare street.exr --presets mafia3,mine.json --repeat 20", "compares a preset file with another preset"},
+    {"glint compare street.exr --presets kf2,mafia3 --set kf2:resolve.blur=0", "changes one parameter of a preset"},
+    {"glint sample street -o street.exr --truth 16", "makes a capture with a truth, which errors need"},
     {0},
 };
 
@@ -71,7 +72,7 @@ static error_t cmd_compare_parse(int key, char *arg, struct argp_state *state) {
         list_add(&a->captures, arg, state);
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "which capture?");
+        argp_error(state, "no capture given");
         return 0;
     case ARGP_KEY_END:
         for (size_t i = 0; !named && glint_preset(i); i++)
@@ -119,7 +120,7 @@ static bool run_capture(struct contest *contest, const char *path, struct showin
     return ok;
 }
 
-/* Everything that failed, said on stderr. */
+/* Prints all failures to stderr. */
 static enum status report_failures(const struct contest_table *table) {
     enum status status = STATUS_DONE;
     for (size_t i = 0; i < table->capture_count * table->contest->count; i++) {
@@ -139,7 +140,7 @@ static bool make_folders(const char *folder, struct glint_error *err) {
     return glint_make_folder(path, err);
 }
 
-/* A share of the sheet and of the page for each capture. */
+/* Each capture gets the same share of the sheet and of the page. */
 static struct contest_pictures *begin_pictures(const struct arguments *a, struct sheet *sheet, uint32_t columns,
                                                struct glint_error *err) {
     const size_t count = a->captures.count, cells = CONTEST_ROWS * (size_t)columns;
@@ -206,12 +207,13 @@ static enum status cmd_compare_run(int argc, char **argv) {
 const struct command cmd_compare = {
     .name = "compare",
     .arguments = "F... --presets A,B,...",
-    .summary = "presets beside each other on the same captures",
+    .summary = "compare presets on the same captures",
     .description =
-        "Runs several presets on captures: how far each preset's reflection is from the truth in the capture, where it "
-        "gives one, and for how many pixels it does (mirror-like, glossy and rough surfaces apart), why rays ended, "
-        "steps and texture fetches of a ray, and the time of all passes, measured in turns. Passes that a scene has "
-        "nothing for are left out and named. Fog is off, which the truth lacks.",
+        "Runs several presets on captures and prints for each: the error of the reflection against the truth in the "
+        "capture, the coverage (the share of pixels for which the preset finds a reflection), separately for "
+        "mirror-like, glossy and rough surfaces, the end reasons, steps and texture fetches of rays, and the time of "
+        "all passes, measured in alternating rounds. Passes that a scene does not need are not run, and listed. Fog "
+        "is off, because the truth has none.",
     .options = options,
     .parse = cmd_compare_parse,
     .examples = examples,

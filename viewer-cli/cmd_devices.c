@@ -1,4 +1,4 @@
-/* glint devices: the Vulkan devices of this machine, best first. */
+/* glint devices: lists the Vulkan devices in the order of preference. */
 #include <string.h>
 
 #include "options/args.h"
@@ -94,8 +94,8 @@ const struct command cmd_devices = {
     .arguments = "",
     .summary = "list the Vulkan devices",
     .description =
-        "Lists the Vulkan devices, best first: discrete, integrated, virtual, CPU. The first usable one runs "
-        "replays unless --device or GLINT_DEVICE names another.",
+        "Lists the Vulkan devices in the order of preference: discrete, integrated, virtual, CPU. The first usable "
+        "one is the default unless GLINT_DEVICE names another.",
     .options = options,
     .parse = cmd_devices_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint diff: whether two images, two runs, or a run and the game's own intermediates are the same. */
+/* glint diff: compares two images, two runs, or a run with the engine's own intermediate images. */
 #include "diff/options.h"
 
 struct arguments {
@@ -9,15 +9,14 @@ struct arguments {
 
 static const struct argp_option options[] = {DIFF_OPTIONS, {0}};
 static const struct example examples[] = {
-    {"glint diff a.exr b.exr", "every part and channel; exit 0 same, 1 warning, 2 failure, 3 other size, 4 unreadable"},
-    {"glint diff -fail 0.004 -failpercent 1 a.exr b.exr -o heat.png", "idiff's options, and where they differ"},
-    {"glint diff run run2", "which parameters differ, and the first pass that does"},
-    {"glint diff run run2 --html diff.html",
-     "a page to look at them with: slider, flicker, heat map, values under the pointer"},
-    {"glint diff planned all", "a run beside one of --all: whether its plan changed a bit of what both have"},
-    {"glint diff run:travelled run2:travelled", "one image of each"},
-    {"glint diff run street.exr", "a run against the engine's own intermediates (engine.SLOT.IMAGE)"},
-    {"glint diff run run2 --metrics rmse,flip --json", "with figures of docs/metrics.md"},
+    {"glint diff a.exr b.exr", "compares all parts and channels"},
+    {"glint diff -fail 0.004 -failpercent 1 a.exr b.exr -o heat.png", "uses options of idiff, and writes a heat map"},
+    {"glint diff run run2", "shows which parameters and which pass differ first"},
+    {"glint diff run run2 --html diff.html", "writes a page with slider, flicker, heat map and pixel values"},
+    {"glint diff planned all", "checks that a plan changed no bit, by a run with --all"},
+    {"glint diff run:travelled run2:travelled", "compares one image"},
+    {"glint diff run street.exr", "compares a run with the engine's images (engine.SLOT.IMAGE)"},
+    {"glint diff run run2 --metrics rmse,flip --json", "prints image metrics (see docs/metrics.md)"},
     {0},
 };
 
@@ -27,7 +26,7 @@ static error_t cmd_diff_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
     case ARGP_KEY_ARG:
-        if (a->count == 2) argp_error(state, "two at a time; %s is the third", arg);
+        if (a->count == 2) argp_error(state, "expected two images or runs, found also %s", arg);
         a->paths[a->count++] = arg;
         return 0;
     case ARGP_KEY_END:
@@ -53,22 +52,17 @@ static enum status cmd_diff_run(int argc, char **argv) {
 const struct command cmd_diff = {
     .name = "diff",
     .arguments = "A B",
-    .summary = "whether two images, two runs, or a run and the engine's own intermediates are the same",
+    .summary = "compare two images, two runs, or a run with the engine's intermediate images",
     .description =
-        "A and B are EXR files, runs, or one image of either (F:PART:LAYER, RUN:IMAGE); a run and a capture compare "
-        "the "
-        "run with the engine's intermediates in the capture. Limits and exit codes are those of idiff: 0 the same, 1 a "
-        "warning, 2 a failure, 3 not the same size, 4 cannot be read (5: wrong usage). An image or a channel that one "
-        "side "
-        "lacks is a failure. NaN is the same as NaN, and nothing else. For each image: the share of pixels that differ "
-        "at "
-        "all, how many are over the limit, the largest difference with its pixel, channel and both values. Of two "
-        "runs: "
-        "what they say differently of themselves, and the first image, in the order of the passes, that differs. "
-        "Beside a "
-        "run of --all, one as planned is compared in what both have: images that its plan does without are named and "
-        "no "
-        "failure, and where it traces no ray only the picture counts.",
+        "A and B are EXR files, runs, or one image of either (F:PART:LAYER, RUN:IMAGE). For a run and a capture, the "
+        "run is compared with the engine's own intermediate images in the capture. Limits and exit codes are those "
+        "of idiff: 0 equal, 1 warning, 2 failure, 3 different size, 4 unreadable (5: wrong usage). An image or "
+        "channel that only one side contains is a failure. NaN equals only NaN. For each image the output shows the "
+        "share of pixels that differ at all, the number of pixels over the limit, and the largest difference with "
+        "its pixel, channel and both values; for two runs also differences of their settings and the first image, in "
+        "the order of the passes, that differs. If one run was made with --all and the other with a plan, only "
+        "common images are compared: images that the plan does not need are listed and are no failure, and pixels "
+        "for which the plan traces no ray are compared only in the final image.",
     .options = options,
     .one_dash = true,
     .usage_status = DIFF_USAGE,

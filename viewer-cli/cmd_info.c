@@ -1,4 +1,4 @@
-/* glint info: what a capture holds. */
+/* glint info: shows the contents of captures, runs and other EXR files. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -19,17 +19,18 @@ struct arguments {
 enum { KEY_HEADERS = 256, KEY_SURVEY };
 
 static const struct argp_option options[] = {
-    {"headers", KEY_HEADERS, NULL, 0, "Read no pixels: no ranges, no survey", 0},
-    {"survey", KEY_SURVEY, NULL, 0, "What a capture's pixels call for, counted on the device, and nothing else", 0},
+    {"headers", KEY_HEADERS, NULL, 0, "Read no pixels: no ranges and no survey", 0},
+    {"survey", KEY_SURVEY, NULL, 0,
+     "Print only the survey, which counts on the device what the pixels of a capture need", 0},
     {"json", 'j', NULL, 0, "Print JSON", 0},
     {0},
 };
 static const struct example examples[] = {
-    {"glint info street.exr", "parts, channels with their ranges, camera, cube maps"},
-    {"glint info street.exr --survey", "sky, surfaces, weights, motion: what a plan goes by"},
-    {"glint info run", "the images of a run; with --json its run.json"},
-    {"glint info run/05-cubemap_trace.exr", "any other EXR file: parts and ranges"},
-    {"glint info street.exr --json | jq .camera.position", "one fact for a script"},
+    {"glint info street.exr", "lists parts, channels with ranges, camera and cube maps"},
+    {"glint info street.exr --survey", "shows the figures that a plan is based on"},
+    {"glint info run", "lists the images of a run; with --json prints its run.json"},
+    {"glint info run/05-cubemap_trace.exr", "lists parts and ranges of any EXR file"},
+    {"glint info street.exr --json | jq .camera.position", "prints one value for a script"},
     {0},
 };
 
@@ -48,11 +49,11 @@ static error_t cmd_info_parse(int key, char *arg, struct argp_state *state) {
         a->survey = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->path) argp_error(state, "one file at a time: %s and %s", a->path, arg);
+        if (a->path) argp_error(state, "expected one file, found %s and %s", a->path, arg);
         a->path = arg;
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "which file?");
+        argp_error(state, "no file given");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -156,12 +157,12 @@ static enum status print_exr(const struct arguments *a, const struct glint_exr *
         }
         return print_json(json_pack("{s:s, s:b, s:o}", "file", a->path, "capture", 0, "parts", parts));
     }
-    printf("%s: an EXR file that is no capture, %zu part%s\n\n", a->path, count, count == 1 ? "" : "s");
+    printf("%s: an EXR file, not a capture, %zu part%s\n\n", a->path, count, count == 1 ? "" : "s");
     info_print_channels(all);
     return STATUS_DONE;
 }
 
-/* A file without a G-buffer is shown as what it is, any EXR file; one with it must be a capture. */
+/* A file without a G-buffer is listed as any EXR file; one with a G-buffer must be a valid capture. */
 static bool is_capture(const char *path) {
     struct glint_exr *exr = glint_exr_open(path, NULL, NULL);
     bool found = false;
@@ -171,7 +172,7 @@ static bool is_capture(const char *path) {
     return found;
 }
 
-/* A run's own account of itself is run.json. */
+/* With --json, a run is described by its run.json. */
 static enum status print_run(const struct arguments *a) {
     struct glint_error err = {0};
     struct glint_run *run = glint_run_open(a->path, &err);
@@ -185,7 +186,7 @@ static enum status print_run(const struct arguments *a) {
     return STATUS_DONE;
 }
 
-/* What cube maps show and where rays may come is asked by those who read them: the default pipeline. */
+/* The survey of cube maps and of the faces that rays may reach depends on the passes; the default pipeline is used. */
 static bool survey_cubemaps(struct glint_replay *replay, struct glint_error *err) {
     const struct glint_plan_entry *entries;
     size_t count;
@@ -261,12 +262,12 @@ static enum status cmd_info_run(int argc, char **argv) {
 const struct command cmd_info = {
     .name = "info",
     .arguments = "F|RUN",
-    .summary = "what a capture, a run or any EXR file holds",
+    .summary = "show the contents of a capture, a run or any EXR file",
     .description =
-        "Shows a capture's camera, what its pixels call for (sky, reflecting pixels, roughness), its parts, channels "
-        "with type, encoding, unit and range, and its cube maps. Where depth says sky, or that there "
-        "is nothing, the part's other channels may hold anything: their ranges are of surfaces alone. Any other EXR "
-        "file is listed as it is.",
+        "Prints the camera of a capture, the survey of its pixels (sky, reflecting pixels, roughness), its parts, "
+        "its channels with type, encoding, unit and range, and its cube maps. Where depth marks sky or no surface, "
+        "other channels of the part may contain anything, so their ranges cover surfaces only. Any other EXR file is "
+        "listed with its parts.",
     .options = options,
     .parse = cmd_info_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint lint: the likely mistakes of an engine's dump, found from the data. */
+/* glint lint: finds likely convention mistakes of an engine's dump from the data. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,17 +18,17 @@ enum { KEY_FIX = 256, KEY_LIST };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"fix",    KEY_FIX, NULL,   0, "Write a copy with the declarations that mend what is certain, and with cube maps' sky as FORMAT.md has it; all other pixels are untouched, and what would make anything agree less is left out; needs -o", 0},
-    {"list",   KEY_LIST, NULL,  0, "List everything that can be found, by its name", 0},
+    {"fix",    KEY_FIX, NULL,   0, "Write a copy that fixes the certain findings: with corrected declarations, and with the sky texels of cube maps as FORMAT.md requires. All other pixels stay as they are. A fix that would make another comparison worse is left out. Needs -o", 0},
+    {"list",   KEY_LIST, NULL,  0, "List all possible findings by name", 0},
     {"output", 'o',     "F2",   0, "The copy that --fix writes", 0},
     {"json",   'j',     NULL,   0, "Print JSON", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint lint frame.exr", "what is likely wrong with a dump"},
-    {"glint lint frame.exr --fix -o mended.exr", "with what a declaration can mend"},
-    {"glint lint --list", "every mistake that it knows"},
+    {"glint lint frame.exr", "lists the likely mistakes of a dump"},
+    {"glint lint frame.exr --fix -o fixed.exr", "also writes a copy in which the certain ones are fixed"},
+    {"glint lint --list", "lists all mistakes that it can find"},
     {0},
 };
 
@@ -50,12 +50,12 @@ static error_t cmd_lint_parse(int key, char *arg, struct argp_state *state) {
         a->json = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->path) argp_error(state, "one capture at a time");
+        if (a->path) argp_error(state, "expected one capture");
         a->path = arg;
         return 0;
     case ARGP_KEY_END:
-        if (!a->path && !a->list) argp_error(state, "which capture? --list shows what can be found in one");
-        if (a->fix != (a->out != NULL)) argp_error(state, "--fix and -o go together");
+        if (!a->path && !a->list) argp_error(state, "no capture given; --list shows what can be found in one");
+        if (a->fix != (a->out != NULL)) argp_error(state, "--fix and -o must be used together");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -69,7 +69,7 @@ static bool find_findings(struct glint_capture *capture, struct lint_findings *f
         struct lint_reading reading = lint_declared(&data);
         *agreement = lint_agree(&data, &reading, NULL, 0);
         struct lint_agreement read = *agreement;
-        progress_report(progress, "other readings", 0.3);
+        progress_report(progress, "other conventions", 0.3);
         lint_find_readings(&data, &reading, &read, findings);
         progress_report(progress, "faces", 0.8);
         lint_find_faces(&data, &reading, &read, findings);
@@ -90,7 +90,7 @@ static json_t *findings_json(const struct lint_findings *findings, const struct 
     for (size_t i = 0; i < findings->count; i++) {
         const struct lint_finding *f = &findings->items[i];
         json_t *item = json_pack("{ss ss ss ss ss sb}", "id", f->id, "what", f->what, "likelihood", f->likelihood,
-                                 "evidence", f->evidence, "mend", f->mend, "fixable", lint_may_mend(f));
+                                 "evidence", f->evidence, "fix", f->remedy, "fixable", lint_is_fixable(f));
         if (f->either[0]) json_object_set_new(item, "or", json_string(f->either));
         json_array_append_new(items, item);
     }
@@ -108,12 +108,12 @@ static void print_depth(const struct glint_capture *capture) {
     const struct depth_facts facts = depth_facts(capture);
     char text[160];
     depth_steps_text(&facts, text, sizeof text);
-    printf("\ndepth storage %s, %s: steps of %s\n", facts.storage, facts.encoding, text);
+    printf("\ndepth stored as %s, %s: steps of %s\n", facts.storage, facts.encoding, text);
 }
 
 static void print_findings(const char *path, const struct lint_findings *findings,
                            const struct lint_agreement *agreement, const struct glint_capture *capture) {
-    static const char *const titles[] = {"<as declared, these agree", ">share", ">compared", NULL};
+    static const char *const titles[] = {"<comparisons as declared", ">match", ">samples", NULL};
     struct table *table = table_create(titles);
     for (int m = 0; m < LINT_MEASURES; m++) {
         table_cell(table, "%s", lint_measure_names[m]);
@@ -127,25 +127,26 @@ static void print_findings(const char *path, const struct lint_findings *finding
         const struct lint_finding *f = &findings->items[i];
         printf("\n%s%s", f->either[0] ? "either " : "", f->what);
         if (f->either[0]) printf(", or %s", f->either);
-        printf("  [%s, %s]\n    %s\n    to mend: %s\n", f->id, f->likelihood, f->evidence, f->mend);
+        printf("  [%s, %s]\n    %s\n    fix: %s\n", f->id, f->likelihood, f->evidence, f->remedy);
     }
-    printf("\nCannot be told from the data:\n");
+    printf("\nCannot be decided from the data:\n");
     for (size_t i = 0; i < findings->undecided_count; i++) printf("  - %s\n", findings->undecided[i]);
     printf("\n%s: %zu finding%s\n", path, findings->count, findings->count == 1 ? "" : "s");
 }
 
-static bool fix(const struct arguments *a, const char *path, struct lint_findings *findings, struct glint_error *err) {
+static bool write_fixed_copy(const struct arguments *a, const char *path, struct lint_findings *findings,
+                             struct glint_error *err) {
     size_t fixed = 0;
     if (!lint_fix(path, a->out, findings, &fixed, err)) return false;
     for (size_t i = 0; i < findings->count && !a->json; i++)
-        if (lint_may_mend(&findings->items[i]) && findings->items[i].left_out)
-            printf("%s is not mended: something else would agree less\n", findings->items[i].id);
-    if (!a->json) printf("%s: %zu finding%s mended\n", a->out, fixed, fixed == 1 ? "" : "s");
+        if (lint_is_fixable(&findings->items[i]) && findings->items[i].left_out)
+            printf("%s is not fixed: another comparison would match less\n", findings->items[i].id);
+    if (!a->json) printf("%s: %zu finding%s fixed\n", a->out, fixed, fixed == 1 ? "" : "s");
     return true;
 }
 
-static enum status list(bool json) {
-    static const char *const titles[] = {"<name", "<what it means", NULL};
+static enum status list_findings(bool json) {
+    static const char *const titles[] = {"<name", "<meaning", NULL};
     json_t *items = json_array();
     struct table *table = json ? NULL : table_create(titles);
     const char *id, *what;
@@ -164,7 +165,7 @@ static enum status list(bool json) {
 static enum status cmd_lint_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_lint, argc, argv, &a);
-    if (a.list) return list(a.json);
+    if (a.list) return list_findings(a.json);
     struct glint_error err = {0};
     struct progress progress;
     struct pipe pipe;
@@ -179,7 +180,7 @@ static enum status cmd_lint_run(int argc, char **argv) {
     enum status status = ok && findings->count ? STATUS_CHECK : STATUS_DONE;
     if (ok && a.json) print_json(findings_json(findings, &agreement, capture));
     else if (ok) print_findings(a.path, findings, &agreement, capture);
-    ok = ok && (!a.fix || fix(&a, path, findings, &err));
+    ok = ok && (!a.fix || write_fixed_copy(&a, path, findings, &err));
     glint_capture_close(&capture);
     pipe_finish(&pipe);
     free(findings);
@@ -189,16 +190,16 @@ static enum status cmd_lint_run(int argc, char **argv) {
 const struct command cmd_lint = {
     .name = "lint",
     .arguments = "F",
-    .summary = "the likely convention mistakes of an engine's dump",
+    .summary = "find likely convention mistakes of an engine's dump",
     .description =
-        "Compares what independent images of a capture say of the same surfaces (depth and normals, depth and cube "
-        "maps, depth and motion, colours on screen and in cube maps, this frame and the one before), as declared and "
-        "under every other reading. Where another reading agrees and the declared one does not, it says so, with the "
-        "evidence, the likelihood and the declaration that would mend it; where two explain the data alike, it names "
-        "both. No cause is named that leaves less than a fifth of the places in agreement, and where rounding of depth "
-        "or normals may decide a comparison it is left out. Then what cube maps hold under sky and in their inner "
-        "volumes, and what depth's storage can tell apart. What the data alone cannot decide is listed. The exit "
-        "status is 1 when anything is found. --list names everything that can be.",
+        "Compares independent images of the same surfaces (depth and normals, depth and cube maps, depth and motion, "
+        "colours on screen and in cube maps, this frame and the previous one), interpreted as the capture declares and "
+        "under every other known convention. Where another convention matches and the declared one does not, this is "
+        "reported with the evidence, the likelihood and the declaration that would fix it; where two conventions "
+        "explain the data equally well, both are named. A convention is reported only if at least a fifth of the "
+        "samples match under it, and samples whose comparison could be decided by rounding of depth or normals are "
+        "skipped. The sky texels and inner volumes of cube maps and the resolution of the depth storage are checked "
+        "too. What cannot be decided from the data is listed. The exit status is 1 when there are findings.",
     .options = options,
     .parse = cmd_lint_parse,
     .examples = examples,

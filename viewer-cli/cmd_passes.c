@@ -1,4 +1,4 @@
-/* glint passes: the handbook of passes, from their declarations. */
+/* glint passes: prints the handbook of passes from their declarations. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,11 +18,11 @@ static const struct argp_option options[] = {
     {0},
 };
 static const struct example examples[] = {
-    {"glint passes", "list all slots and variants, effect by effect"},
-    {"glint passes reflection", "every pass of an effect"},
-    {"glint passes screen_trace", "images and parameters of every variant of a slot"},
-    {"glint passes cubemap_trace/march", "one variant"},
-    {"glint passes --markdown > passes.md", "the whole handbook"},
+    {"glint passes", "lists all slots and variants by effect"},
+    {"glint passes reflection", "prints all passes of an effect"},
+    {"glint passes screen_trace", "prints images and parameters of all variants of a slot"},
+    {"glint passes cubemap_trace/march", "prints one variant"},
+    {"glint passes --markdown > passes.md", "writes the whole handbook"},
     {0},
 };
 
@@ -38,7 +38,7 @@ static error_t cmd_passes_parse(int key, char *arg, struct argp_state *state) {
         a->markdown = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->what) argp_error(state, "one effect, slot or variant at a time: %s and %s", a->what, arg);
+        if (a->what) argp_error(state, "expected one effect, slot or variant, found %s and %s", a->what, arg);
         a->what = arg;
         return 0;
     }
@@ -101,7 +101,7 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
     table_destroy(&table);
 }
 
-/* A handbook has room for a column of everything, a terminal has not: choices and source go into the help there. */
+/* The Markdown handbook has a column for everything; in the terminal, choices and source are appended to the help to save width. */
 static void add_parameter(struct table *table, const struct glint_pass *pass, const struct glint_row *row,
                           bool markdown) {
     char *names = row->choices ? join_names("", row->choices) : NULL;
@@ -138,7 +138,7 @@ static void print_parameters(const struct glint_pass *pass, bool markdown) {
     table_destroy(&table);
 }
 
-/* What `glint blame` exchanges the slot for. */
+/* Prints the reference that `glint blame` uses for the slot. */
 static void print_reference(const struct glint_pass *pass) {
     bool is = false;
     for (size_t i = 0; i < pass->row_count; i++) {
@@ -284,7 +284,7 @@ static void print_handbook(const struct glint_pass *passes, size_t count, const 
     }
 }
 
-static bool known(const char *what, struct glint_error *err) {
+static bool check_selection(const char *what, struct glint_error *err) {
     size_t slot = strcspn(what, "/"), count = 0;
     const struct glint_pass *passes = glint_passes(&count);
     for (size_t i = 0; i < count; i++)
@@ -300,7 +300,7 @@ static enum status cmd_passes_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_passes, argc, argv, &a);
     struct glint_error err = {0};
-    if (a.what && !known(a.what, &err)) return command_fail(&cmd_passes, &err);
+    if (a.what && !check_selection(a.what, &err)) return command_fail(&cmd_passes, &err);
     size_t count = 0;
     const struct glint_pass *passes = glint_passes(&count);
     if (a.json) {
@@ -321,10 +321,10 @@ static enum status cmd_passes_run(int argc, char **argv) {
 const struct command cmd_passes = {
     .name = "passes",
     .arguments = "[EFFECT|SLOT[/VARIANT]]",
-    .summary = "the handbook of passes",
-    .description = "Lists the passes. With an effect, a slot or a variant: which images it reads and writes, with unit "
-                   "and meaning, "
-                   "and every parameter with default, range, unit and source, as replay --set takes it.",
+    .summary = "document the passes, their images and parameters",
+    .description =
+        "Lists all passes. With an effect, a slot or a variant, prints which images it reads and writes, with unit "
+        "and meaning, and its parameters with default, range, unit and source, as used by --set.",
     .options = options,
     .parse = cmd_passes_parse,
     .examples = examples,

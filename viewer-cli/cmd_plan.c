@@ -1,4 +1,4 @@
-/* glint plan: what would run, what not, and why. */
+/* glint plan: shows which passes would run, and why. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 struct arguments {
     struct pipeline_args pipeline;
     const char *capture;
-    uint32_t rounds; /* 0: nothing is measured */
+    uint32_t rounds; /* of --measure; 0: without it */
     bool json, dot;
 };
 
@@ -21,18 +21,18 @@ enum { KEY_DOT = 256, KEY_MEASURE };
 /* clang-format off */
 static const struct argp_option options[] = {
     PIPELINE_OPTIONS,
-    {"measure", KEY_MEASURE, "N", 0, "Time what the plan saves on the device: as planned and with --all, N rounds in turns", 0},
+    {"measure", KEY_MEASURE, "N", 0, "Measure on the device what the plan saves: run N rounds each with the plan and with --all, alternating", 0},
     {"json", 'j', NULL, 0, "Print JSON", 0},
     {"dot", KEY_DOT, NULL, 0, "Print the graph of passes and images for Graphviz", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint plan street.exr", "which passes would run, and why"},
-    {"glint plan street.exr --measure 10", "and how many milliseconds each of them saves"},
-    {"glint plan street.exr --outputs travelled", "only what one image needs"},
-    {"glint plan street.exr --skip blur --force cocoon", "with one pass left out, and one that has nothing to do"},
-    {"glint plan street.exr --dot | dot -Tsvg > plan.svg", "draw the graph"},
+    {"glint plan street.exr", "shows which passes would run, and why"},
+    {"glint plan street.exr --measure 10", "also measures the milliseconds that are saved"},
+    {"glint plan street.exr --outputs travelled", "plans only what one image needs"},
+    {"glint plan street.exr --skip blur --force cocoon", "overrides the plan for two passes"},
+    {"glint plan street.exr --dot | dot -Tsvg > plan.svg", "draws the graph"},
     {0},
 };
 
@@ -51,17 +51,17 @@ static error_t cmd_plan_parse(int key, char *arg, struct argp_state *state) {
         a->rounds = arg_uint("measure", arg, 1, 100000, state);
         return 0;
     case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "one capture at a time: %s and %s", a->capture, arg);
+        if (a->capture) argp_error(state, "expected one capture, found %s and %s", a->capture, arg);
         a->capture = arg;
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "which capture?");
+        argp_error(state, "no capture given");
         return 0;
     }
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-/* What a plan says, and what it takes on the device, if that was measured. */
+/* A plan, and its times on the device if they were measured. */
 struct answer {
     const struct glint_plan_entry *entries;
     size_t count;
@@ -77,7 +77,7 @@ static double saved_ms(const struct glint_saving *saving) {
     return milliseconds(saving->whole_ns) - milliseconds(saving->planned_ns);
 }
 
-/* Time where it was measured; else what a pass that does not run would have gone over. */
+/* Prints the saved time if it was measured, else the pixels or texels that a skipped pass would have processed. */
 static void print_saved(struct table *table, const struct answer *answer, size_t i) {
     const struct glint_plan_entry *entry = &answer->entries[i];
     if (answer->savings.passes && answer->savings.passes[i].whole_ns)
@@ -89,7 +89,7 @@ static void print_saved(struct table *table, const struct answer *answer, size_t
 }
 
 static void print_times(const char *what, const struct glint_savings_time *time) {
-    printf("%s: planned %.3f ms, --all %.3f ms: %.1f %% (half of the rounds between %.1f and %.1f %%)\n", what,
+    printf("%s: planned %.3f ms, with --all %.3f ms: %.1f %% (interquartile range %.1f to %.1f %%)\n", what,
            milliseconds(time->planned.median_ns), milliseconds(time->whole.median_ns), 100 * time->ratio[1],
            100 * time->ratio[0], 100 * time->ratio[2]);
 }
@@ -109,15 +109,15 @@ static void print_plan(const struct answer *answer) {
     table_print(table, stdout);
     table_destroy(&table);
     if (answer->faces->uploaded_of)
-        printf("\nfaces of cube maps: %s%llu of %llu are uploaded, %llu of %llu filtered\n",
-               savings->passes ? "" : "at most ", /* which ones rays come to a device finds */
+        printf("\ncube-map faces: %s%llu of %llu are uploaded, %llu of %llu are filtered\n",
+               savings->passes ? "" : "at most ", /* only a device can find which faces rays reach */
                (unsigned long long)answer->faces->uploaded, (unsigned long long)answer->faces->uploaded_of,
                (unsigned long long)answer->faces->filtered, (unsigned long long)answer->faces->filtered_of);
     if (!savings->passes) return;
     putchar('\n');
     print_times("all passes", &savings->all);
     print_times("without work on cube maps, which is done when one changes", &savings->frame);
-    printf("the survey takes %.3f ms of what is planned; %u rounds in turns\n", milliseconds(savings->survey_ns),
+    printf("of the planned time, the survey takes %.3f ms; %u alternating rounds\n", milliseconds(savings->survey_ns),
            savings->rounds);
 }
 
@@ -154,7 +154,7 @@ static enum status print_plan_json(const char *capture, const struct glint_pipel
     return print_json(root);
 }
 
-/* Passes are boxes, images ellipses; what does not run is dashed. Names are C identifiers, so nothing needs a quote. */
+/* Passes are boxes, images are ellipses, and passes that do not run are dashed. Names are C identifiers and need no escaping. */
 static void print_dot(const struct glint_plan_entry *entries, size_t count) {
     puts("digraph plan {\n    rankdir=LR;\n    node [fontname=\"Helvetica\", fontsize=10];");
     for (size_t i = 0; i < count; i++) {
@@ -174,8 +174,8 @@ static void print_dot(const struct glint_plan_entry *entries, size_t count) {
     puts("}");
 }
 
-static bool measure(const struct arguments *a, struct glint_pipeline *pipeline, struct glint_replay *replay,
-                    struct answer *answer, struct glint_error *err) {
+static bool measure_plan(const struct arguments *a, struct glint_pipeline *pipeline, struct glint_replay *replay,
+                         struct answer *answer, struct glint_error *err) {
     const struct glint_replay_options options = pipeline_args_options(&a->pipeline);
     struct progress progress;
     progress_begin(&progress);
@@ -190,7 +190,7 @@ static enum status plan(const struct arguments *a, struct glint_pipeline *pipeli
     struct glint_error err = {0};
     struct answer answer = {.faces = glint_replay_cube_faces(replay)};
     enum status status = STATUS_DONE;
-    if ((a->rounds && !measure(a, pipeline, replay, &answer, &err)) ||
+    if ((a->rounds && !measure_plan(a, pipeline, replay, &answer, &err)) ||
         !glint_replay_plan(replay, pipeline, &options, &answer.entries, &answer.count, &err))
         status = command_fail(&cmd_plan, &err);
     else if (a->json) status = print_plan_json(a->capture, pipeline, &answer);
@@ -227,12 +227,12 @@ static enum status cmd_plan_run(int argc, char **argv) {
 const struct command cmd_plan = {
     .name = "plan",
     .arguments = "F",
-    .summary = "what would run, what not, and why",
+    .summary = "show which passes would run, and why",
     .description =
-        "Shows what replay would do with a capture: one line for each pass, whether it runs, the rule and the "
-        "figure that decide it, and what leaving it out saves: pixels, texels of cube maps, or with --measure time. "
-        "What a plan leaves out changes no bit of the picture; --all leaves out nothing, --skip and --force "
-        "overrule it for single passes. Needs a Vulkan device for --measure alone.",
+        "Shows what replay would do with a capture: for each pass, whether it runs, the rule and the figure that "
+        "decide this, and what is saved: pixels, texels of cube maps, or with --measure time. The plan changes no "
+        "bit of the image; --all runs everything, and --skip and --force override the plan for single passes. A "
+        "Vulkan device is needed only for --measure.",
     .options = options,
     .parse = cmd_plan_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint probe: one pixel's story through the pipeline. */
+/* glint probe: records what every pass does for one pixel. */
 #include <stdio.h>
 #include <string.h>
 
@@ -17,22 +17,22 @@ enum { KEY_ALONE = 256 };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",  'o',         "FILE.svg",      0, "Draw the ray over the depths that it crossed: in the picture, and in each cube map", 0},
-    {"alone",   KEY_ALONE,   NULL,            0, "Leave the reference out (screen_trace/dda and cubemap_trace/exact on the same ray)", 0},
+    {"output",  'o',         "FILE.svg",      0, "Draw the ray over the depths that it passed, in screen space and in each cube map", 0},
+    {"alone",   KEY_ALONE,   NULL,            0, "Do not trace the same ray with the reference tracers (screen_trace/dda and cubemap_trace/exact)", 0},
     PIPELINE_OPTIONS,
     {"json",    'j',         NULL,            0, "Print JSON", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint probe street.exr 640,500", "what became of this pixel, and why"},
-    {"glint probe street.exr 640,500 -o ray.svg", "and its ray as a picture"},
+    {"glint probe street.exr 640,500", "reports what every pass did for this pixel"},
+    {"glint probe street.exr 640,500 -o ray.svg", "also draws the ray"},
     {"glint probe street.exr 640,500 --use screen_trace=hiz --set screen_trace.cells=64",
-     "the same ray, traced otherwise"},
-    {"glint probe shot.0002.exr 640,500 --history run.0001", "with the frame before, for what passes remember"},
+     "traces the same ray with another tracer"},
+    {"glint probe shot.0002.exr 640,500 --history run.0001", "uses the history of the previous frame"},
     {"glint probe street.exr 640,500 --json | jq '.story.passes[] | select(.slot == "
      "\"cubemap_trace\").steps[].decision'",
-     "for scripts: every step is an object"},
+     "extracts steps for a script: every step is an object"},
     {0},
 };
 
@@ -51,7 +51,7 @@ static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
         a->alone = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->has_pixel) argp_error(state, "one pixel at a time; %s is one argument too many", arg);
+        if (a->has_pixel) argp_error(state, "expected one capture and one pixel, found also %s", arg);
         if (!a->capture) a->capture = arg;
         else {
             char rest;
@@ -62,17 +62,17 @@ static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
         }
         return 0;
     case ARGP_KEY_END:
-        if (!a->capture) argp_error(state, "which capture?");
-        if (!a->has_pixel) argp_error(state, "which pixel of %s? X,Y from the top left corner", a->capture);
+        if (!a->capture) argp_error(state, "no capture given");
+        if (!a->has_pixel) argp_error(state, "no pixel of %s given: X,Y from the top left corner", a->capture);
         return 0;
     }
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-/* The tracers that step over nothing, with all else as it is. */
+/* The reference tracers, which skip nothing; all other passes stay. */
 static struct glint_pipeline *reference_of(const struct glint_pipeline *pipeline, struct glint_error *err) {
     static const struct {
-        const char *slot, *none, *assignment; /* by way of none: no value of the other variant is kept */
+        const char *slot, *none, *assignment; /* set via none, so that no parameter of the other variant is kept */
     } uses[] = {{"screen_trace", "screen_trace=none", "screen_trace=dda"},
                 {"cubemap_trace", "cubemap_trace=none", "cubemap_trace=exact"}};
     struct glint_pipeline *copy = glint_pipeline_copy(pipeline, err);
@@ -137,20 +137,16 @@ const struct command cmd_probe = {
     .name = "probe",
     .arguments = "F X,Y [-o FILE.svg]",
     .numbers = true,
-    .summary = "one pixel's ray, step by step",
+    .summary = "show the ray of one pixel step by step",
     .description =
-        "Replays the capture and tells what every pass did for one pixel: what the G-buffer holds there, the ray that "
-        "was "
-        "drawn for it, every look at the depth buffer and at cube maps with what it was compared with and what "
-        "followed, "
-        "where the colour comes from, and which texels blur, history and upscaling mixed in, or which layers water and "
-        "glass laid over it, each with its weight. The steps are told by the shaders that computed the picture, "
-        "switched "
-        "to tell; the picture's bits stay what they are.\n"
-        "X,Y counts pixels from the top left corner; glint diff names the pixel that differs most. Most passes work at "
-        "half resolution: the story is that of the texel that the pixel lies in, whose ray may be another pixel's of "
-        "the "
-        "block. At the end stands what the tracers that step over nothing find for the same ray.",
+        "Replays the capture and reports what every pass did for one pixel: the G-buffer, the sampled ray, every "
+        "sample of the depth buffer and of cube maps with the values that were compared and the decision, the origin "
+        "of the colour, and the texels that blur, history and upscaling or the layers of water and glass "
+        "contributed, each with its weight. The steps are recorded by the same shaders that compute the image, "
+        "compiled with recording enabled; the image keeps its bits.\nX,Y counts pixels from the top left corner; "
+        "glint diff prints the pixel that differs most. Most passes work at half resolution: then the report is "
+        "about the half-resolution texel that contains the pixel, and its ray may have been sampled for another "
+        "pixel of the 2×2 block. At the end, the same ray is traced by the reference tracers, which skip nothing.",
     .options = options,
     .parse = cmd_probe_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint reference: the converged answer, how much noise it has left and what it depends on. */
+/* glint reference: traces the converged reflection, and reports its noise and its dependence on assumptions. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,25 +12,25 @@ struct arguments {
     const char *capture, *out, *like;
     uint32_t rays, sensitivity;
     double noise;
-    bool anew, json, progress;
+    bool overwrite, json, progress;
 };
 
-enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_ANEW, KEY_PROGRESS };
+enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_OVERWRITE, KEY_PROGRESS };
 enum { RAYS = 64, RAYS_FOR_NOISE = 16384, RAYS_FOR_SENSITIVITY = 32 };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",      'o',             "RUN",  0, "Folder in which the reference is kept: a run that --against reference=RUN and glint view read. "
-        "An interrupted reference goes on from there, and a complete one with more --rays", 0},
-    {"rays",        KEY_RAYS,        "N",    0, "Rays a pixel, rounded up to a multiple of 16 (default 64; with --noise at most 16384)", 0},
-    {"noise",       KEY_NOISE,       "E",    0, "Stop when the noise is at most this part of the mean reflection: 0.01 for 1 %", 0},
-    {"sensitivity", KEY_SENSITIVITY, "RAYS", OPTION_ARG_OPTIONAL, "Also trace it with each thing that it must assume, such as how thick "
-        "objects are, halved and doubled, with so many rays a pixel each (default 32)", 0},
-    {"like",        KEY_LIKE,        "NAME|FILE", 0, "The reference of this preset: of the lobe that it draws from and with its fog", 0},
+    {"output",      'o',             "RUN",  0, "Run folder for the reference, readable by --against reference=RUN and glint view. An interrupted reference resumes from "
+        "it, and a larger --rays adds rays to a complete one", 0},
+    {"rays",        KEY_RAYS,        "N",    0, "Rays per pixel, rounded up to a multiple of 16 (default 64; with --noise at most 16384)", 0},
+    {"noise",       KEY_NOISE,       "E",    0, "Stop when the noise is at most this fraction of the mean reflection, such as 0.01 for 1 %", 0},
+    {"sensitivity", KEY_SENSITIVITY, "RAYS", OPTION_ARG_OPTIONAL, "Also trace with each assumption that the capture cannot settle, such as the thickness of objects, halved and doubled, "
+        "with this number of rays per pixel (default 32)", 0},
+    {"like",        KEY_LIKE,        "NAME|FILE", 0, "Make the reference for this preset: with the lobe that it samples and with its fog", 0},
     USE_OPTION,
-    {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, as pipeline.fog=false for comparisons with the truth, which has no fog", 0},
+    {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, such as pipeline.fog=false to compare with the truth, which has no fog", 0},
     ALL_OPTION,
-    {"anew",        KEY_ANEW,        NULL,   0, "Replace what the folder holds", 0},
+    {"overwrite",   KEY_OVERWRITE,   NULL,   0, "Delete an existing reference in the folder first", 0},
     DEVICE_OPTION,
     PROGRESS_OPTION,
     {"json",        'j',             NULL,   0, "Print JSON", 0},
@@ -38,10 +38,11 @@ static const struct argp_option options[] = {
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint reference street.exr -o reference --rays 256", "256 rays a pixel; again with --rays 1024: 768 more"},
-    {"glint reference street.exr -o reference --noise 0.01", "as many rays as 1 % of noise takes"},
-    {"glint reference street.exr -o reference --sensitivity", "and how far it depends on what it assumes"},
-    {"glint replay street.exr --against reference=reference", "how far a preset is from it"},
+    {"glint reference street.exr -o reference --rays 256",
+     "traces 256 rays per pixel; a second call with --rays 1024 adds 768"},
+    {"glint reference street.exr -o reference --noise 0.01", "traces rays until the noise is 1 %"},
+    {"glint reference street.exr -o reference --sensitivity", "also measures the influence of the assumptions"},
+    {"glint replay street.exr --against reference=reference", "compares a preset with it"},
     {0},
 };
 
@@ -78,15 +79,15 @@ static error_t cmd_reference_parse(int key, char *arg, struct argp_state *state)
     case KEY_PROGRESS:
         a->progress = true;
         return 0;
-    case KEY_ANEW:
-        a->anew = true;
+    case KEY_OVERWRITE:
+        a->overwrite = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "one capture at a time; found %s and %s", a->capture, arg);
+        if (a->capture) argp_error(state, "expected one capture, found %s and %s", a->capture, arg);
         a->capture = arg;
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "which capture?");
+        argp_error(state, "no capture given");
         return 0;
     case ARGP_KEY_END:
         if (a->rays == 0) a->rays = a->noise > 0 ? RAYS_FOR_NOISE : RAYS;
@@ -95,7 +96,7 @@ static error_t cmd_reference_parse(int key, char *arg, struct argp_state *state)
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-/* What a reference is compared with where the capture carries a truth. */
+/* Error of the reference against the truth, where the capture contains one: light that the data of the capture cannot show. */
 struct missing {
     bool known, fog;
     struct glint_image_errors errors;
@@ -199,7 +200,7 @@ static bool compare_with_truth(const struct glint_reference *reference, struct g
     return ok;
 }
 
-/* What the library says of it, and what it is off the truth. */
+/* The library's JSON of the reference, and its error against the truth. */
 static enum status print_as_json(const struct glint_reference *reference, const struct arguments *a,
                                  const struct missing *missing) {
     char *text = glint_reference_json(reference);
@@ -228,15 +229,17 @@ static void print_all(const struct glint_reference *reference, const struct argu
 static void note_interrupted(const struct glint_reference_state *state, const char *folder) {
     const uint32_t rays = state->rays + state->begun;
     if (rays)
-        command_note(&cmd_reference, "%u rays a pixel are kept in %s; the same call goes on from there", rays, folder);
-    else command_note(&cmd_reference, "no ray was complete: nothing is kept");
+        command_note(&cmd_reference, "%u rays per pixel are kept in %s; the same command resumes from there", rays,
+                     folder);
+    else command_note(&cmd_reference, "no round of rays was complete: nothing is kept");
 }
 
-static enum status trace(const struct arguments *a, const struct opened *opened, struct glint_error *err) {
+static enum status trace_reference(const struct arguments *a, const struct opened *opened, struct glint_error *err) {
     struct glint_replay *replay = opened->replay;
     struct glint_capture *capture = opened->capture;
     const struct glint_pipeline *pipeline = opened->pipeline;
-    const struct glint_reference_options options = {.folder = a->out, .anew = a->anew, .all = a->pipeline.replay.all};
+    const struct glint_reference_options options = {
+        .folder = a->out, .overwrite = a->overwrite, .all = a->pipeline.replay.all};
     struct glint_reference_sensitivity sensitivity = {0};
     struct missing missing = {0};
     struct progress progress;
@@ -259,7 +262,7 @@ static enum status trace(const struct arguments *a, const struct opened *opened,
     return status;
 }
 
-/* The preset `reference`, asked what --like's preset asks, with the settings of this call. */
+/* The preset `reference` with the lobe and fog of --like's preset and the settings of this call. */
 static struct glint_pipeline *create_pipeline(struct arguments *a, struct glint_error *err) {
     struct glint_pipeline *pipeline = NULL;
     struct glint_pipeline *like = a->like ? glint_pipeline_create(a->like, err) : NULL;
@@ -278,7 +281,7 @@ static enum status cmd_reference_run(int argc, char **argv) {
     struct glint_error err = {0};
     struct opened opened = {.pipeline = create_pipeline(&a, &err)};
     const bool ok = opened.pipeline && opened_init(&opened, &a.pipeline, a.capture, &err);
-    const enum status status = ok ? trace(&a, &opened, &err) : command_fail(&cmd_reference, &err);
+    const enum status status = ok ? trace_reference(&a, &opened, &err) : command_fail(&cmd_reference, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     return status;
@@ -287,13 +290,14 @@ static enum status cmd_reference_run(int argc, char **argv) {
 const struct command cmd_reference = {
     .name = "reference",
     .arguments = "F -o RUN",
-    .summary = "the converged answer from a capture's own data",
+    .summary = "trace the converged reflection from the data of a capture",
     .description =
-        "Traces many rays a pixel, over the whole lobe of each surface and in fine steps, and says how much noise is "
-        "left: half of the rays share no random number with the others, and what the halves differ by is the noise. "
-        "What a preset is off the reference is the error of its algorithms; what the reference is off the truth that "
-        "the capture may carry is information that its data lack. The truth has no fog: for comparisons with it, trace "
-        "the reference with --set pipeline.fog=false, and give glint replay --against both=RUN the same.",
+        "Traces many rays per pixel over the whole lobe of each surface, in fine steps, and reports the remaining "
+        "noise: the rays are traced as two halves without common random numbers, and the noise is their difference. "
+        "The difference between a preset and the reference is the error of the preset's algorithms. The difference "
+        "between the reference and the truth, if the capture contains it, is due to information that is missing in "
+        "the capture. The truth has no fog: to compare with it, trace the reference with --set pipeline.fog=false, "
+        "and use the same setting in glint replay --against both=RUN.",
     .options = options,
     .parse = cmd_reference_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint replay: runs the passes on captures, writes every image, says what each pass took. */
+/* glint replay: runs the passes on captures, writes every image and prints the time of each pass. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,44 +24,45 @@ enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACH
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",      'o',             "RUN",  0, "Folder for the run: run.json and one EXR a pass. With several captures, "
-        "RUN/NAME for each, in their order; frames that an interrupted replay with the same settings completed are kept. "
-        "Without it nothing is written, only measured", 0},
+    {"output",      'o',             "RUN",  0, "Run folder to write: run.json and one EXR file per pass. With several captures, RUN/NAME for each in their order; "
+        "frames that an interrupted replay with the same settings completed are kept. Without -o nothing is written; passes are "
+        "only timed", 0},
     PIPELINE_OPTIONS,
-    {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round, not warmed up)", 0},
-    {"warmup",      KEY_WARMUP,      "N",    0, "Rounds before the timed ones of --repeat (default 1)", 0},
-    {"precision",   KEY_PRECISION,   "TYPE", 0, "Store half images as declared, or as float: half (default), float", 0},
-    {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write why each ray ended, and its steps and fetches, of all passes that run; changes no other bit", 0},
-    {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass although nothing changed, and every frame although it is complete", 0},
-    {"cache",       KEY_CACHE,       "DIR",  0, "Folder in which work on cube maps that a run holds is kept for later calls, 4 GiB at most; "
-        "none: nowhere. Not looked up with --no-cache and --repeat (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, "
-        "else ~/.cache/glint)", 0},
-    {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better answer. truth: the true reflection and the mirror rays "
-        "that the capture carries (truth.*; turns --diagnostics on; rays want downsample.jitter=false). reference: the "
-        "preset reference on the same capture, or what glint reference kept of it: reference=RUN. both (or both=RUN): also what "
-        "the reference itself is off the truth. The truth has no fog: with truth and both add --set pipeline.fog=false, and trace "
-        "RUN with it too", 0},
+    {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round without warm-up)", 0},
+    {"warmup",      KEY_WARMUP,      "N",    0, "Warm-up rounds before the timed rounds of --repeat (default 1)", 0},
+    {"precision",   KEY_PRECISION,   "TYPE", 0, "Format of images that are declared as half: half (default) or float", 0},
+    {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write the end reason, steps and fetches of each ray for all passes that run. All other images keep their bits", 0},
+    {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass even if nothing changed, and every frame even if it is complete", 0},
+    {"cache",       KEY_CACHE,       "DIR",  0, "Folder in which results for cube maps are kept for later calls, up to 4 GiB; none disables it. Not used with --no-cache "
+        "and --repeat (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, else ~/.cache/glint)", 0},
+    {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better solution. truth: the path-traced reflection and mirror rays in the capture (truth.*); turns on "
+        "--diagnostics; use downsample.jitter=false to compare rays. reference: the preset reference on the same capture; "
+        "reference=RUN: a run of glint reference. both (or both=RUN): both, and the difference between truth and reference. The "
+        "truth has no fog: with truth and both add --set pipeline.fog=false, also when tracing RUN", 0},
     METRIC_OPTIONS,
-    {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset's file or a shader changes: RUN holds the newest version, "
-        "RUN/first the first, and RUN/watch.html shows both and what differs, and loads itself again. A shader that does not compile "
-        "is waited past. Ctrl-C ends", 0},
+    {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset file or a shader changes: RUN contains the newest version, RUN/first the first one, "
+        "and RUN/watch.html compares both and reloads itself. Shaders that do not compile are ignored until they do. Stop with "
+        "Ctrl-C", 0},
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint replay street.exr -o run", "all passes of the preset mafia3, every image written"},
-    {"glint replay street.exr --repeat 20", "times only, median of 20 rounds"},
-    {"glint replay street.exr -o run --set screen_trace.cells=64", "with another limit of steps"},
-    {"glint replay street.exr -o end --passes upscale,compose --inputs run", "only the end of the pipeline"},
-    {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "with a shader of your own"},
-    {"glint replay street.exr --against truth --set downsample.jitter=false", "how many rays are right, and why not"},
-    {"glint replay street.exr --against reference", "how far the picture is from the converged answer"},
-    {"glint replay street.exr --against truth --metrics rmse,hdr_flip --ppd 40", "by these metrics, seen from nearer"},
+    {"glint replay street.exr -o run", "runs all passes of the preset mafia3 and writes every image"},
+    {"glint replay street.exr --repeat 20", "only measures times: median of 20 rounds"},
+    {"glint replay street.exr -o run --set screen_trace.cells=64", "changes a parameter"},
+    {"glint replay street.exr -o end --passes upscale,compose --inputs run",
+     "runs only the end of the pipeline, on the images of another run"},
+    {"glint replay street.exr -o run --shader resolve=my.comp --diagnostics", "replaces a shader"},
+    {"glint replay street.exr --against truth --set downsample.jitter=false",
+     "shows how many rays hit the right point, by end reason"},
+    {"glint replay street.exr --against reference", "measures the error against the converged reference"},
+    {"glint replay street.exr --against truth --metrics rmse,hdr_flip --ppd 40",
+     "chooses metrics, and a shorter viewing distance"},
     {"glint replay street.exr -o run --shader resolve=my.comp --watch",
-     "edit my.comp, and see in run/watch.html what changes"},
+     "shows in run/watch.html what changes while you edit my.comp"},
     {"glint replay shots/room.0*.exr -o runs",
-     "one run for each capture: runs/NAME; again: completes what was interrupted"},
+     "writes one run for each capture, runs/NAME; the same command completes an interrupted call"},
     {0},
 };
 static const char *const precisions[] = {"half", "float", NULL};
@@ -107,13 +108,12 @@ static error_t cmd_replay_parse(int key, char *arg, struct argp_state *state) {
         list_add(&a->captures, arg, state);
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "which capture?");
+        argp_error(state, "no capture given");
         return 0;
     case ARGP_KEY_END:
-        if (a->watch && (!a->out || a->captures.count != 1))
-            argp_error(state, "--watch is of one capture, with -o RUN");
+        if (a->watch && (!a->out || a->captures.count != 1)) argp_error(state, "--watch needs one capture and -o RUN");
         if (a->watch && (a->json || a->against.truth || a->against.reference))
-            argp_error(state, "--watch compares with the first version; --json and --against are of one replay");
+            argp_error(state, "--watch cannot be combined with --json or --against");
         return 0;
     }
     if (metric_args_parse(key, arg, state, &a->against.metrics) == 0) return 0;
@@ -126,7 +126,7 @@ struct job {
     struct glint_replay *replay;
     struct glint_pipeline *pipeline;
     struct against *against;
-    json_t *runs; /* NULL: tables */
+    json_t *runs; /* NULL: print tables */
 };
 
 static const char *const phases[] = {"read", "upload", "passes", "readback", "write"};
@@ -135,7 +135,7 @@ static double milliseconds(uint64_t ns) {
     return (double)ns * 1e-6;
 }
 
-/* Values that no image should hold. */
+/* NaN, infinite and clamped values of a run. */
 struct found {
     const struct glint_bad_values *bad;
     size_t count;
@@ -171,24 +171,24 @@ static void print_passes(const struct glint_pass_result *results, size_t count) 
                    : r->cached_work ? "when a cube map changes"
                                     : "");
     }
-    print_total(table, cubes > 0 ? "every frame" : "together", frame);
+    print_total(table, cubes > 0 ? "every frame" : "total", frame);
     if (cubes > 0) print_total(table, "cube maps", cubes);
     table_print(table, stdout);
     table_destroy(&table);
 }
 
-/* How many values no image should hold, and where the first pass made the first of them. */
+/* Prints the number of NaN, infinite and clamped values, and where the first of them was written. */
 static void print_bad_values(const struct glint_bad_values *bad, size_t count) {
     uint64_t not_finite = 0, clamped = 0;
     size_t made = 0;
     for (size_t i = 0; i < count; i++) not_finite += bad[i].not_finite, clamped += bad[i].clamped;
     if (!count) return;
     while (made < count && !bad[made].pass) made++;
-    printf("\n%llu values are NaN or infinite, %llu were clamped to what half holds; images: %zu\n",
+    printf("\n%llu values are NaN or infinite, %llu were clamped to the range of half; images: %zu\n",
            (unsigned long long)not_finite, (unsigned long long)clamped, count);
     for (size_t i = 0; i < count; i++) {
         if (i != 0 && i != made) continue;
-        if (bad[i].pass) printf("first by a pass: %s: ", bad[i].pass->slot);
+        if (bad[i].pass) printf("first written by the pass %s: ", bad[i].pass->slot);
         else printf("first in the capture: ");
         printf("%s %s at %u,%u: %g\n", bad[i].image, bad[i].channel, bad[i].x, bad[i].y, (double)bad[i].value);
     }
@@ -200,10 +200,11 @@ static void print_run(const char *capture, const char *folder, const struct comp
     const struct glint_pass_result *results = glint_replay_results(job->replay, &count);
     const struct glint_device_info *device = glint_device_get_info(job->device);
     printf("%s on %s%s\n\n", capture, device->name,
-           device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+           device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
     print_passes(results, count);
     print_bad_values(found->bad, found->count);
-    if (job->a->pipeline.replay.repeat == 0) puts("one round, shaders compiled on first use; --repeat N measures");
+    if (job->a->pipeline.replay.repeat == 0)
+        puts("one round without warm-up, so times include first-use costs; use --repeat N to measure");
     putchar('\n');
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         printf("%s%s %s", i ? ", " : "", phases[i], time_text(glint_replay_seconds(job->replay, phases[i])));
@@ -267,7 +268,7 @@ static char *run_folder(const struct arguments *a, const char *capture) {
     return failed < 0 ? NULL : folder;
 }
 
-/* One for each capture. */
+/* Run folders, one for each capture. */
 static char **run_folders(const struct arguments *a, struct glint_error *err) {
     char **folders = calloc(a->captures.count, sizeof *folders);
     bool ok = folders != NULL;
@@ -279,7 +280,7 @@ static char **run_folders(const struct arguments *a, struct glint_error *err) {
     return NULL;
 }
 
-/* `history`: a run of the frame before; NULL: what was run last, if it is the frame before. */
+/* `history`: run of the previous frame; NULL: the last replayed capture, if it is the previous frame. */
 static bool replay_one(const struct job *job, const char *path, const char *folder, const char *history,
                        struct glint_error *err) {
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
@@ -321,10 +322,10 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
 static void report_kept(const struct job *job, const char *capture, const char *folder) {
     if (job->runs)
         json_array_append_new(job->runs, json_pack("{s:s, s:s, s:b}", "capture", capture, "run", folder, "kept", 1));
-    else printf("%s: complete, kept: %s\n", capture, folder);
+    else printf("%s: already complete, kept: %s\n", capture, folder);
 }
 
-/* How many frames from the first are complete; what follows one that is not depends on it through its history. */
+/* Number of complete frames from the first on; frames after an incomplete one depend on it through their history. */
 static bool count_kept(const struct job *job, char **folders, size_t *kept, struct glint_error *err) {
     const struct arguments *a = job->a;
     *kept = 0;
@@ -338,7 +339,7 @@ static bool count_kept(const struct job *job, char **folders, size_t *kept, stru
     return ok;
 }
 
-/* Every capture is tried; one that fails does not keep the others from being replayed, Ctrl-C does. */
+/* Replays all captures even if some fail, but stops after Ctrl-C. */
 static enum status replay_all(const struct job *job) {
     const struct list *captures = &job->a->captures;
     enum status status = STATUS_DONE;
@@ -365,7 +366,7 @@ static enum status replay_all(const struct job *job) {
     return status;
 }
 
-/* The folder asked for, or the usual one; NULL: none. The caller frees it. */
+/* The requested or default cache folder; NULL: none. The caller frees it. */
 static char *cache_folder(const char *asked) {
     const char *named = asked ? asked : getenv("GLINT_CACHE");
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -409,11 +410,11 @@ static enum status cmd_replay_run(int argc, char **argv) {
 const struct command cmd_replay = {
     .name = "replay",
     .arguments = "F... -o RUN",
-    .summary = "run the passes on captures, write every image",
+    .summary = "run the passes on captures and write every image",
     .description =
-        "Runs a preset's reflection passes on captures and writes every intermediate image into a run folder: "
-        "run.json and one EXR a pass. Ends with the time of each pass: median, least and largest of the "
-        "timed rounds.",
+        "Runs the passes of a preset on captures and writes every intermediate image into a run folder: run.json and "
+        "one EXR file per pass. At the end it prints the time of each pass: median, minimum and maximum of the timed "
+        "rounds.",
     .options = options,
     .parse = cmd_replay_parse,
     .examples = examples,

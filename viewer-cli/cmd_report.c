@@ -1,4 +1,4 @@
-/* glint report: runs, sweeps and other studies as one page that can be sent. */
+/* glint report: writes runs, sweeps and other studies as one self-contained page. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -16,17 +16,17 @@ enum { KEY_IMAGES = 256, KEY_CHART };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output", 'o',        "FILE",     0, "The page to write, FILE.html; FILE.svg is one of its charts", 0},
-    {"images", KEY_IMAGES, "NAME,...", 0, "Images of the runs (default: all of the frame's or half the frame's size)", 0},
-    {"chart",  KEY_CHART,  "N",        0, "Which chart FILE.svg holds (default: 1, the first)", 0},
+    {"output", 'o',        "FILE",     0, "File to write: FILE.html for the page, FILE.svg for one of its charts", 0},
+    {"images", KEY_IMAGES, "NAME,...", 0, "Images of the runs to show (default: all of full or half resolution)", 0},
+    {"chart",  KEY_CHART,  "N",        0, "Number of the chart that FILE.svg contains (default 1)", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint report run -o run.html", "a run's pictures, times, plan and parameters on one page"},
-    {"glint report a b -o ab.html", "two runs beside each other, and what differs"},
-    {"glint report swept -o swept.html", "the page of a sweep again"},
-    {"glint report swept -o front.svg", "its first chart as a picture for a document"},
+    {"glint report run -o run.html", "shows pictures, times, plan and parameters of a run"},
+    {"glint report a b -o ab.html", "compares two runs"},
+    {"glint report swept -o swept.html", "writes the page of a sweep"},
+    {"glint report swept -o front.svg", "writes its first chart as a picture"},
     {0},
 };
 
@@ -53,8 +53,8 @@ static error_t cmd_report_parse(int key, char *arg, struct argp_state *state) {
         list_add(&a->folders, arg, state);
         return 0;
     case ARGP_KEY_END:
-        if (!a->folders.count) argp_error(state, "which run?");
-        if (!a->out) argp_error(state, "where to? -o FILE.html");
+        if (!a->folders.count) argp_error(state, "no run given");
+        if (!a->out) argp_error(state, "no output file given: -o FILE.html");
         else if (!ends_with(a->out, ".html") && !ends_with(a->out, ".svg"))
             argp_error(state, "%s: expected FILE.html or FILE.svg", a->out);
         return 0;
@@ -62,7 +62,7 @@ static error_t cmd_report_parse(int key, char *arg, struct argp_state *state) {
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Whether a study left its page in the folder. */
+/* Whether the folder contains the page of a study. */
 static bool has_page(const char *folder) {
     char path[4096];
     return snprintf(path, sizeof path, "%s/page.json", folder) < (int)sizeof path && access(path, F_OK) == 0;
@@ -73,13 +73,13 @@ static json_t *make_document(const struct arguments *a, struct glint_error *err)
     if (a->folders.count == 1 && has_page(folders[0])) return page_load(folders[0], err);
     for (size_t i = 0; i < a->folders.count; i++)
         if (has_page(folders[i])) {
-            glint_fail(err, GLINT_ERROR_USAGE, "%s holds a page of its own: report it alone", folders[i]);
+            glint_fail(err, GLINT_ERROR_USAGE, "%s contains the page of a study: report it separately", folders[i]);
             return NULL;
         }
     return report_runs(folders, a->folders.count, list_or_null(&a->images), err);
 }
 
-/* The chart in place `number` from 1; *seen counts those before. */
+/* Finds chart `number`, counted from 1; *seen counts the charts before it. */
 static const json_t *find_chart(const json_t *document, uint32_t number, uint32_t *seen) {
     size_t i, k;
     json_t *section, *block;
@@ -95,7 +95,7 @@ static bool write_chart(const struct arguments *a, const json_t *document, struc
     uint32_t count = 0;
     const json_t *chart = find_chart(document, a->chart, &count);
     if (chart) return page_chart_write(a->out, chart, err);
-    return glint_fail(err, GLINT_ERROR_USAGE, "%s: chart %u: there are %u", a->folders.items[0], a->chart, count);
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s: no chart %u: the page has %u", a->folders.items[0], a->chart, count);
 }
 
 static enum status cmd_report_run(int argc, char **argv) {
@@ -115,12 +115,12 @@ static enum status cmd_report_run(int argc, char **argv) {
 const struct command cmd_report = {
     .name = "report",
     .arguments = "RUN|STUDY... -o R.html",
-    .summary = "runs or a study as one page that can be sent",
+    .summary = "write runs or a study as one self-contained page",
     .description =
-        "Writes one HTML page that carries everything it shows and fetches nothing: pictures, times, the plan, "
-        "parameters and the device of a run; of several runs, all of it beside each other, and what differs. "
-        "Studies such as sweeps keep their page in their folder, from which it is written again. A click on a "
-        "picture enlarges it, and arrow keys then flip through the others in place.",
+        "Writes a self-contained HTML page with the pictures, times, plan, parameters and device of a run; for "
+        "several runs, side by side with the differences. Studies such as sweeps keep their page in their folder; it "
+        "is written again from there. Click a picture to enlarge it, and use the arrow keys to flip through the "
+        "others in place.",
     .options = options,
     .parse = cmd_report_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint sample: a capture written by the stand-in engine. */
+/* glint sample: renders a capture with the stand-in engine. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,46 +49,50 @@ enum {
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",      'o',             "FILE",  0, "The capture to write, - for stdout; a shot gets .NNNN before the suffix", 0},
+    {"output",      'o',             "FILE",  0, "Capture to write, or - for stdout; with several frames, .NNNN is inserted before the suffix", 0},
     {"list",        'l',             NULL,    0, "List the scenes", 0},
     {"json",        'j',             NULL,    0, "With --list: print JSON", 0},
-    {"size",        KEY_SIZE,        "WxH",   0, "Picture size (default 1280x720)", 0},
-    {"cube-size",   KEY_CUBE_SIZE,   "N",     0, "Face size of the cube maps (default 256)", 0},
-    {"planar-size", KEY_PLANAR,      "WxH",   0, "Size of the planar reflection map of a scene with water (default 240x120)", 0},
-    {"frames",      KEY_FRAMES,      "N",     0, "Length of the shot; its captures share their cube maps (default 1)", 0},
+    {"size",        KEY_SIZE,        "WxH",   0, "Image size (default 1280x720)", 0},
+    {"cube-size",   KEY_CUBE_SIZE,   "N",     0, "Face size of the cube maps in texels (default 256)", 0},
+    {"planar-size", KEY_PLANAR,      "WxH",   0, "Size of the planar reflection of a scene with water (default 240x120)", 0},
+    {"frames",      KEY_FRAMES,      "N",     0, "Number of frames; the captures share their cube maps (default 1)", 0},
     {"first-frame", KEY_FIRST_FRAME, "N",     0, "Number of the first frame (default 1)", 0},
-    {"cut",         KEY_CUT,         NULL,    0, "The first frame follows another shot: nothing of the frame before is of use", 0},
-    {"probes",      KEY_PROBES,      "KIND",  0, "What the cube maps hold. imperfect, as games have them: static "
-        "objects only, simplified, metals as diffuse; perfect: the very scene; auto: placed by the sampler, for glTF files", 0},
-    {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays a pixel into truth.* (default 0: leave it out)", 0},
-    {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "The mean over each pixel's area, as a still camera sees it over its jitter, and not of the frame's one sample", 0},
-    {"finished",    KEY_FINISHED,    "N",     0, "Write the finished picture into scene too, with N rays a pixel for what opaque surfaces reflect; the truth then holds what reflected surfaces reflect", 0},
-    {"foreground",  KEY_FOREGROUND,  NULL,    0, "A gun and hands before the camera, of the class foreground: no ray but the camera's meets them", 0},
-    {"light",       KEY_LIGHT,       "N",     0, "Rays a point for indirect light (default: the scene's)", 0},
-    {"camera",      KEY_CAMERA,      "ex,ey,ez,tx,ty,tz", 0, "Where the camera stands, and a point that it looks at (default: the scene's, which moves in a shot)", 0},
-    {"travel",      KEY_TRAVEL,      "x,y,z", 0, "How far the camera moves each frame, in metres", 0},
-    {"unjittered",  KEY_UNJITTERED,  NULL,    0, "Look through the centres of the pixels in every frame", 0},
-    {"reflecting",  KEY_REFLECTING,  "PERCENT", 0, "So much of the picture reflects, a block in its middle, whatever the materials: squares of 2x2 pixels of roughness 0.05 and 0.4", 0},
-    {"scattered",   KEY_SCATTERED,   NULL,    0, "With --reflecting: squares scattered over the picture instead of one block", 0},
-    {"fov",         KEY_FOV,         "DEG",   0, "Vertical field of view in degrees (default: the scene's)", 0},
-    {"offset",      KEY_OFFSET,      "x,y,z", 0, "Move every stored position, in double; the scene is not rendered again", 0},
-    {"encoding",    KEY_ENCODING,    "WHAT=NAME,...", 0, "Several encodings at once: depth, normal, vertex_normal, normal_space, roughness, motion, motion_depth, color", 0},
-    {"depth",       KEY_DEPTH,       "NAME",  0, "How depth is stored: ", 0},
-    {"normal",      KEY_NORMAL,      "NAME",  0, "How normals are stored: ", 0},
-    {"roughness",   KEY_ROUGHNESS,   "NAME",  0, "How roughness is stored: ", 0},
-    {"motion",      KEY_MOTION,      "NAME",  0, "How motion vectors are stored: ", 0},
-    {"color",       KEY_COLOR,       "NAME",  0, "How colour is stored: ", 0},
+    {"cut",         KEY_CUT,         NULL,    0, "Mark the first frame as the start of a shot, so that no history is used", 0},
+    {"probes",      KEY_PROBES,      "KIND",  0, "Contents of the cube maps. imperfect: as in games, only static objects, simplified, with metals as diffuse; perfect: "
+        "the exact scene; auto: placed automatically, for glTF files", 0},
+    {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays per pixel into truth.* (default 0: no truth)", 0},
+    {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "Average the truth over the area of each pixel, as over the jitter of a static camera, instead of at the frame's single "
+        "sample", 0},
+    {"finished",    KEY_FINISHED,    "N",     0, "Also write the final image into scene, with N rays per pixel for the reflections of opaque surfaces; the truth then "
+        "includes reflections in reflected surfaces", 0},
+    {"foreground",  KEY_FOREGROUND,  NULL,    0, "Add a gun and hands in front of the camera, of the class foreground: only camera rays hit them", 0},
+    {"light",       KEY_LIGHT,       "N",     0, "Rays per point for indirect light (default: set by the scene)", 0},
+    {"camera",      KEY_CAMERA,      "ex,ey,ez,tx,ty,tz", 0, "Camera position and target (default: the camera of the scene, which moves in a shot)", 0},
+    {"travel",      KEY_TRAVEL,      "x,y,z", 0, "Camera motion per frame in metres", 0},
+    {"unjittered",  KEY_UNJITTERED,  NULL,    0, "Sample pixel centres in every frame", 0},
+    {"reflecting",  KEY_REFLECTING,  "PERCENT", 0, "Make this percentage of the image reflective, as a block in the middle, whatever the materials: 2x2 pixel squares of "
+        "roughness 0.05 and 0.4", 0},
+    {"scattered",   KEY_SCATTERED,   NULL,    0, "With --reflecting: scatter the squares over the image instead of one block", 0},
+    {"fov",         KEY_FOV,         "DEG",   0, "Vertical field of view in degrees (default: set by the scene)", 0},
+    {"offset",      KEY_OFFSET,      "x,y,z", 0, "Move all stored positions, in double precision, without rendering again", 0},
+    {"encoding",    KEY_ENCODING,    "WHAT=NAME,...", 0, "Set several encodings: depth, normal, vertex_normal, normal_space, roughness, motion, motion_depth, color", 0},
+    {"depth",       KEY_DEPTH,       "NAME",  0, "Encoding of depth: ", 0},
+    {"normal",      KEY_NORMAL,      "NAME",  0, "Encoding of normals: ", 0},
+    {"roughness",   KEY_ROUGHNESS,   "NAME",  0, "Encoding of roughness: ", 0},
+    {"motion",      KEY_MOTION,      "NAME",  0, "Encoding of motion vectors: ", 0},
+    {"color",       KEY_COLOR,       "NAME",  0, "Encoding of colours: ", 0},
     {"compression", KEY_COMPRESSION, "NAME",  0, "Compression of the file: ", 0},
-    {"threads",     KEY_THREADS,     "N",     0, "Threads (default: one for each core)", 0},
+    {"threads",     KEY_THREADS,     "N",     0, "Number of threads (default: one per core)", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint sample --list", "what scenes there are"},
-    {"glint sample street -o street.exr --truth 64", "a wet street at dusk, with the path traced truth beside it"},
-    {"glint sample room -o room.exr --frames 8 --size 640x360", "a shot: room.0001.exr to room.0008.exr"},
-    {"glint sample scene.glb -o scene.exr --camera 0,1.7,5,0,1,0 --probes auto", "your own glTF scene"},
-    {"glint sample room -o room.exr --encoding depth=reversed,normal=octahedral", "dumped as another engine would"},
+    {"glint sample --list", "lists the scenes"},
+    {"glint sample street -o street.exr --truth 64", "renders a wet street at dusk, with the path-traced truth"},
+    {"glint sample room -o room.exr --frames 8 --size 640x360", "renders a shot: room.0001.exr to room.0008.exr"},
+    {"glint sample scene.glb -o scene.exr --camera 0,1.7,5,0,1,0 --probes auto", "renders a glTF file"},
+    {"glint sample room -o room.exr --encoding depth=reversed,normal=octahedral",
+     "uses the conventions of another engine"},
     {0},
 };
 static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
@@ -181,14 +185,14 @@ static error_t parse_scene(int key, char *arg, struct argp_state *state, struct 
         a->json = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (a->scene) argp_error(state, "one scene at a time: %s and %s", a->scene, arg);
+        if (a->scene) argp_error(state, "expected one scene, found %s and %s", a->scene, arg);
         a->scene = arg;
         return 0;
     case ARGP_KEY_END:
-        if (!a->list && !a->scene) argp_error(state, "which scene? --list shows them");
-        if (!a->list && !a->out) argp_error(state, "where to? -o FILE");
+        if (!a->list && !a->scene) argp_error(state, "no scene given; --list shows them");
+        if (!a->list && !a->out) argp_error(state, "no output file given: -o FILE");
         if (a->out && !strcmp(a->out, "-") && a->sample.frames > 1)
-            argp_error(state, "a shot is several files; stdout takes one");
+            argp_error(state, "several frames cannot be written to stdout");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -292,7 +296,7 @@ static enum status list_scenes(bool json) {
             json_array_append_new(list, json_pack("{s:s, s:s}", "name", scenes[i].name, "summary", scenes[i].summary));
         return print_json(json_pack("{s:o}", "scenes", list));
     }
-    static const char *const titles[] = {"<scene", "<what it shows", NULL};
+    static const char *const titles[] = {"<scene", "<contents", NULL};
     struct table *table = table_create(titles);
     for (size_t i = 0; i < count; i++) {
         table_cell(table, "%s", scenes[i].name);
@@ -303,7 +307,7 @@ static enum status list_scenes(bool json) {
     return STATUS_DONE;
 }
 
-/* What is no built-in scene's name must be a file. */
+/* Any name that is not a built-in scene must be a file. */
 static bool known_scene(const char *scene, struct glint_error *err) {
     size_t count = 0;
     const struct glint_sample *scenes = glint_samples(&count);
@@ -338,12 +342,12 @@ static enum status cmd_sample_run(int argc, char **argv) {
 const struct command cmd_sample = {
     .name = "sample",
     .arguments = "NAME|SCENE.glb -o FILE",
-    .summary = "write a capture with the stand-in engine",
+    .summary = "render a capture with the stand-in engine",
     .description =
-        "Renders a built-in scene or a glTF file and dumps it as an engine would: G-buffer, lit colour, cube "
-        "maps, sky, camera, and on request the path traced truth. The same options give the same bytes. Of a glTF "
-        "file's materials the factors, vertex colours and textures (PNG, JPEG) are used; masked alpha cuts out, "
-        "blended alpha is opaque. A shot that was interrupted is completed: frames already there with the same "
+        "Renders a built-in scene or a glTF file and dumps it as an engine would: G-buffer, lit colour, cube maps, "
+        "sky, camera, and on request the path-traced truth. The same options give the same bytes. Of the materials "
+        "of a glTF file, the factors, vertex colours and textures (PNG, JPEG) are used; masked alpha cuts holes, "
+        "blended alpha is opaque. The same command completes an interrupted shot: existing frames with the same "
         "settings are kept.",
     .options = options,
     .parse = cmd_sample_parse,

@@ -1,4 +1,4 @@
-/* glint selftest: the hard cases on this machine's device. */
+/* glint selftest: runs difficult cases on this machine's device. */
 #include <time.h>
 
 #include <jansson.h>
@@ -18,25 +18,23 @@ enum { KEY_QUICK = 256, KEY_ONLY, KEY_LIST, KEY_PASSES };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"quick",  KEY_QUICK,  NULL,         0, "Fewer points in each table: under 20 s on two cores", 0},
-    {"only",   KEY_ONLY,   "TEXT",       0, "Only cases that have TEXT in their name, their group's, or what they say; "
-                                            "several --only choose more", 0},
-    {"list",   KEY_LIST,   NULL,         0, "List the cases with their bounds and the reasons for them; run none", 0},
-    {"passes", KEY_PASSES, "FOLDER",     0, "Check the shaders of FOLDER, such as a source tree's passes/ that is being edited, "
-                                            "instead of those built in (default: $GLINT_PASSES); nothing needs a rebuild, and what "
-                                            "FOLDER lacks is taken from what is built in", 0},
-    {"device", 'd',        "INDEX|NAME", 0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0},
+    {"quick",  KEY_QUICK,  NULL,         0, "Test fewer points in each table: under 20 s on two cores", 0},
+    {"only",   KEY_ONLY,   "TEXT",       0, "Run only cases whose name, group or description contains TEXT; may be repeated", 0},
+    {"list",   KEY_LIST,   NULL,         0, "List the cases with their bounds and reasons without running them", 0},
+    {"passes", KEY_PASSES, "FOLDER",     0, "Use the shaders in FOLDER, such as the passes/ folder of a source tree, instead of the built-in ones (default: "
+        "$GLINT_PASSES). No rebuild is needed; files that FOLDER does not contain are taken from the built-in ones", 0},
+    {"device", 'd',        "INDEX|NAME", 0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0},
     {"json",   'j',        NULL,         0, "Print JSON", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint selftest", "every case on the best device; exit status 1 when one fails"},
-    {"glint selftest --quick --device llvmpipe", "a short run on the CPU"},
-    {"glint selftest --only time --only geometry", "two of the groups"},
-    {"glint selftest --list --only fog", "what is claimed of fog, how exactly, and why not more so"},
-    {"glint selftest --only cone --passes src/glint/passes", "the cones of a source tree, as its files are now"},
-    {"glint selftest --json | jq '.cases[] | select(.pass | not)'", "what fails, for a script"},
+    {"glint selftest", "runs all cases on the default device"},
+    {"glint selftest --quick --device llvmpipe", "runs a shorter test on the CPU"},
+    {"glint selftest --only time --only geometry", "runs two groups"},
+    {"glint selftest --list --only fog", "shows the properties of fog with bounds and reasons"},
+    {"glint selftest --only cone --passes src/glint/passes", "tests the cone functions of a source tree"},
+    {"glint selftest --json | jq '.cases[] | select(.pass | not)'", "extracts the failed cases for a script"},
     {0},
 };
 
@@ -64,7 +62,7 @@ static error_t cmd_selftest_parse(int key, char *arg, struct argp_state *state) 
         a->json = true;
         return 0;
     case ARGP_KEY_ARG:
-        argp_error(state, "unexpected argument %s (cases are chosen by --only)", arg);
+        argp_error(state, "unexpected argument %s (use --only to choose cases)", arg);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -91,11 +89,11 @@ static void result_row(struct table *table, const struct glint_selftest_case *c,
     table_cell(table, "%s", unit_of(c));
     table_cell(table, "%s", glint_selftest_passes(c, finding) ? "pass" : "FAIL");
     table_cell(table, finding->ties ? "%zu" : "%.0zu", finding->ties);
-    table_cell(table, "%s", finding->values == 0 ? "nothing was compared" : finding->worst > 0 ? finding->at : "");
+    table_cell(table, "%s", finding->values == 0 ? "no value was compared" : finding->worst > 0 ? finding->at : "");
 }
 
 static void print_cases(const struct glint_selftest_group *group, bool list) {
-    static const char *const listed[] = {"<case", ">bound", "<", "<what", NULL};
+    static const char *const listed[] = {"<case", ">bound", "<", "<property: reason for the bound", NULL};
     static const char *const found[] = {"<case", ">worst", ">bound", "<", "<", ">ties", "<worst at", NULL};
     struct table *table = table_create(list ? listed : found);
     for (size_t i = 0; i < group->count; i++)
@@ -147,7 +145,7 @@ static void print_summary(const struct glint_selftest *selftest, double seconds)
     printf("\n%s: %zu cases, %zu failed\n", glint_selftest_device(selftest)->name, all.cases, all.failed);
 }
 
-/* Once more, where nobody has to look for them, with what was claimed. */
+/* Repeats the failed cases at the end, with their description, so that they are easy to find. */
 static void print_failed(const struct glint_selftest_group *group) {
     for (size_t i = 0; i < group->count; i++) {
         const struct glint_selftest_case *c = &group->cases[i];
@@ -155,7 +153,7 @@ static void print_failed(const struct glint_selftest_group *group) {
         if (finding->left_out || glint_selftest_passes(c, finding)) continue;
         printf("FAIL %s, %s (%s): %s %s, bound %s (%s); %s\n", group->name, c->name, c->what,
                number_text(finding->worst), unit_of(c), number_text(c->bound), c->reason,
-               finding->values ? finding->at : "nothing was compared");
+               finding->values ? finding->at : "no value was compared");
     }
 }
 
@@ -258,25 +256,19 @@ static enum status cmd_selftest_run(int argc, char **argv) {
 const struct command cmd_selftest = {
     .name = "selftest",
     .arguments = "",
-    .summary = "the hard cases on this machine's device, each against a stated bound",
+    .summary = "test this machine's device on difficult cases, each with a stated bound",
     .description =
-        "Checks what a device makes of the shaders, case by case. A case is a claim with a bound: the table has the "
-        "worst "
-        "error, the bound, and the input where it is worst; --list has the claim and the bound's reason. Groups: "
-        "functions "
-        "(those that the passes share, over dense tables with 0, poles and infinity, against double precision on the "
-        "very "
-        "inputs that the device had; what captures hold, decoded), geometry (rays through hard places), numbers "
-        "(worlds far "
-        "away, other depths and projections), garbage (bad pixels spoil no others), sizes (pictures and cube maps of "
-        "any "
-        "size), time (histories and noise of frames that follow each other), invariance (one scene under every "
-        "convention). An ULP is the distance of neighbouring floats at the expected value. Where a reason names the "
-        "precision that Vulkan grants, a device may use it up and still conform. Ties are decisions, such as hit or "
-        "not, "
-        "that lie within rounding of going the other way. Cases that fail are said once more at the end, with what "
-        "they "
-        "claim. The exit status is 1 when a case fails, 2 when none could be run.",
+        "Tests how a device executes the shaders. Each case states a property with a bound: the table shows the "
+        "largest error, the bound, and the input with the largest error; --list shows the property and the reason "
+        "for the bound. Groups: functions (shared shader functions, over dense tables with 0, poles and infinity, "
+        "compared with double precision on the exact inputs of the device; decoding of captures), geometry (rays "
+        "through difficult geometry), numbers (positions far from the origin, other depths and projections), garbage "
+        "(invalid pixels do not affect others), sizes (images and cube maps of any size), time (history and noise "
+        "over consecutive frames), invariance (one scene under every convention). An ULP is the distance between "
+        "neighbouring floats at the expected value. Where the reason for a bound is the precision that Vulkan "
+        "guarantees, a conforming device may reach the bound. Ties are decisions, such as hit or miss, that are "
+        "within rounding of the opposite result. Failed cases are repeated at the end with their description. The "
+        "exit status is 1 if a case fails and 2 if none could be run.",
     .options = options,
     .parse = cmd_selftest_parse,
     .examples = examples,

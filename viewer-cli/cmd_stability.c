@@ -1,4 +1,4 @@
-/* glint stability: how far the rounding of a capture's values moves each pixel, and in which pass that begins. */
+/* glint stability: measures how rounding of the captured values changes each pixel, pass by pass. */
 #include "options/opened.h"
 #include "io/progress.h"
 #include "stability/stability.h"
@@ -16,13 +16,13 @@ enum { KEY_SEEDS = 256, KEY_PERTURB, KEY_BOUND, KEY_FAIL_ABOVE, KEY_FAIL_PERCENT
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",  'o',         "FOLDER",        0, "Keep what was found: layers for each pass (glint view shows them), stability.json, and a sheet, stability.png", 0},
-    {"seeds",   KEY_SEEDS,   "N",             0, "Perturbed replays (default 8)", 0},
-    {"perturb", KEY_PERTURB, "PART[:CHANNEL],...", 0, "Move only these values: gbuffer:depth, gbuffer:normal, lit, cubemap:distance … (default: all)", 0},
-    {"precision", KEY_PRECISION, "half|float", 0, "float (default): every image in float, so that storage is not mistaken for arithmetic; half: images in their own formats", 0},
-    {"bound",   KEY_BOUND,   "X",             0, "Amplification above X is ill-conditioned (default 10, or what --fail-above says)", 0},
-    {"fail-above", KEY_FAIL_ABOVE, "X",       0, "Exit with 1 when the amplification of a pixel is above X in any pass", 0},
-    {"fail-percent", KEY_FAIL_PERCENT, "P",   0, "With --fail-above: when that holds for more than P per cent of a pass's pixels (default 0)", 0},
+    {"output",  'o',         "FOLDER",        0, "Folder for the results: layers of each pass for glint view, stability.json, and a sheet, stability.png", 0},
+    {"seeds",   KEY_SEEDS,   "N",             0, "Number of perturbed replays (default 8)", 0},
+    {"perturb", KEY_PERTURB, "PART[:CHANNEL],...", 0, "Perturb only these values: gbuffer:depth, gbuffer:normal, lit, cubemap:distance ... (default: all)", 0},
+    {"precision", KEY_PRECISION, "half|float", 0, "float (default): all images in float, so that only arithmetic is measured; half: images in their declared formats", 0},
+    {"bound",   KEY_BOUND,   "X",             0, "Count pixels with an amplification above X as ill-conditioned (default 10, or the value of --fail-above)", 0},
+    {"fail-above", KEY_FAIL_ABOVE, "X",       0, "Exit with status 1 if the amplification of any pixel exceeds X in any pass", 0},
+    {"fail-percent", KEY_FAIL_PERCENT, "P",   0, "With --fail-above: allow this percentage of the pixels of each pass to exceed it (default 0)", 0},
     WHOLE_PIPELINE_OPTIONS("The pipeline"),
     SKIP_OPTION,
     {"json",    'j',         NULL,            0, "Print JSON", 0},
@@ -30,12 +30,12 @@ static const struct argp_option options[] = {
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint stability street.exr", "how stable is this frame, and which pass makes it less so?"},
-    {"glint stability street.exr -o stable", "with pictures: stable/stability.png"},
-    {"glint view stable --image travelled -o worst.png", "the amplification of one image, large"},
-    {"glint stability street.exr --perturb gbuffer:depth", "what the depth buffer's precision does alone"},
+    {"glint stability street.exr", "measures how stable a frame is, and which pass amplifies rounding"},
+    {"glint stability street.exr -o stable", "also writes pictures: stable/stability.png"},
+    {"glint view stable --image travelled -o worst.png", "shows the amplification of one image"},
+    {"glint stability street.exr --perturb gbuffer:depth", "measures the effect of the precision of depth alone"},
     {"glint stability street.exr --fail-above 1000 --fail-percent 0.1",
-     "a check for a script: exit 1 when more than one pixel in a thousand is worse"},
+     "checks for a script: exit status 1 if more than one pixel in a thousand is worse"},
     {0},
 };
 
@@ -78,26 +78,27 @@ static error_t cmd_stability_parse(int key, char *arg, struct argp_state *state)
         a->fail_percent = positive("fail-percent", arg, state);
         return 0;
     case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "one capture at a time; %s is the second", arg);
+        if (a->capture) argp_error(state, "expected one capture, found also %s", arg);
         a->capture = arg;
         return 0;
     case ARGP_KEY_END:
-        if (!a->capture) argp_error(state, "which capture?");
-        if (a->fails && a->options.bound > 0) argp_error(state, "--bound and --fail-above are the same bound");
+        if (!a->capture) argp_error(state, "no capture given");
+        if (a->fails && a->options.bound > 0)
+            argp_error(state, "--bound and --fail-above set the same bound; use only one");
         if (a->fails) a->options.bound = a->fail_above;
         return 0;
     }
     return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
-/* Which pass fails the check, said on stderr. */
+/* Prints to stderr which pass fails the check. */
 static enum status check_limits(const struct arguments *a, const struct glint_stability *s) {
     enum status status = STATUS_DONE;
     for (size_t i = 0; a->fails && i < s->pass_count; i++) {
         const struct glint_stability_summary *found = &s->passes[i].summary;
         const double percent = found->compared ? 100 * (double)found->above / (double)found->compared : 0;
         if (percent <= a->fail_percent) continue;
-        command_note(&cmd_stability, "%s: %.4g %% of the pixels are above %g, the worst at %.4g",
+        command_note(&cmd_stability, "%s: %.4g %% of the pixels exceed %g; the largest value is %.4g",
                      s->passes[i].pass->slot, percent, s->bound, found->largest);
         status = STATUS_CHECK;
     }
@@ -113,7 +114,7 @@ static enum status report(const struct arguments *a, const struct stability_repo
     return status != STATUS_DONE ? status : check_limits(a, found->stability);
 }
 
-static enum status measure(struct arguments *a, struct opened *opened, struct glint_error *err) {
+static enum status measure_stability(struct arguments *a, struct opened *opened, struct glint_error *err) {
     struct glint_stability stability = {0};
     struct progress progress;
     a->options.inputs = list_or_null(&a->inputs);
@@ -140,7 +141,7 @@ static enum status cmd_stability_run(int argc, char **argv) {
     struct opened opened = {0};
     command_parse(&cmd_stability, argc, argv, &a);
     const bool ok = opened_init(&opened, &a.pipeline, a.capture, &err);
-    const enum status status = ok ? measure(&a, &opened, &err) : command_fail(&cmd_stability, &err);
+    const enum status status = ok ? measure_stability(&a, &opened, &err) : command_fail(&cmd_stability, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     list_free(&a.inputs);
@@ -150,22 +151,17 @@ static enum status cmd_stability_run(int argc, char **argv) {
 const struct command cmd_stability = {
     .name = "stability",
     .arguments = "F [-o FOLDER]",
-    .summary = "how far the rounding of a capture's values moves each pixel, and in which pass that begins",
+    .summary = "measure how rounding of the captured values changes each pixel, pass by pass",
     .description =
-        "Replays the capture as it is, and again with values that the engine may as well have had in mind: each is "
-        "moved "
-        "by half a step of its declared storage format, up or down at random. The relative change of a pixel is the "
-        "root "
-        "mean square, over these replays, of what it changes by: over its size for lengths and radiance (at least a "
-        "hundredth of the image's mean), as it is for everything else. The amplification of a pass is that over the "
-        "root "
-        "of the sum of squares of the relative changes, in the same place, of all that the pass depends on in the "
-        "capture "
-        "(of cube maps: over all their texels). Replays in which a pixel decides otherwise (why a ray ended, which "
-        "cube "
-        "map, which pixel was picked; for filters within 8 pixels) are counted as flips, and are in no change. Also "
-        "says "
-        "how far each image's largest value is from 65504, where half floats end. docs/stability.md has the details.",
+        "Replays the capture as it is, and again with perturbed values that would round to the same stored ones: "
+        "each is moved by half a step of its declared storage format, up or down at random. The relative change of a "
+        "pixel is the root mean square of its changes over these replays; for lengths and radiance it is divided by "
+        "the value (at least a hundredth of the mean of the image). The amplification of a pass is this change "
+        "divided by the root of the sum of squares of the relative changes, at the same pixel, of all capture images "
+        "that the pass depends on (for cube maps: over all texels). Replays in which a discrete decision of a pixel "
+        "changes (the end reason of a ray, the chosen cube map or pixel; for filters, of any pixel within 8 pixels) "
+        "are counted as flips and do not enter the change. Also reports how far the largest value of each image is "
+        "from 65504, the limit of half floats. See docs/stability.md.",
     .options = options,
     .parse = cmd_stability_parse,
     .examples = examples,

@@ -1,4 +1,4 @@
-/* glint sweep: what each choice of parameters and variants costs and buys. */
+/* glint sweep: measures accuracy against time over ranges of parameters and variants. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,36 +22,37 @@ enum { KEY_VARY = 256, KEY_SAMPLE, KEY_SEED, KEY_REPEAT, KEY_WHOLE, KEY_METRIC, 
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",    'o',           "FOLDER",        0, "Where all results are kept; an interrupted sweep goes on from what is there", 0},
-    {"vary",      KEY_VARY,      "NAMES=VALUES",  0, "What varies: SLOT.PARAM=A..B[:STEP|:log|:logN], SLOT.PARAM=A,B,C or SLOT=VARIANT,VARIANT; "
-                                                     "several names with + between them take the same value. Several --vary make a grid", 0},
-    {"sample",    KEY_SAMPLE,    "lhs:N",         0, "Instead of a grid, N points of a Latin hypercube: each axis in N parts, each part hit once", 0},
-    {"seed",      KEY_SEED,      "N",             0, "Of the sample (default 1)", 0},
-    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds, in turns: each point once a round (default 3; 0: no times)", 0},
-    {"whole",     KEY_WHOLE,     NULL,            0, "In each round run all passes of each point in one piece, not what the points have in common once", 0},
-    {"reference", KEY_REFERENCE, "RUN|truth",     0, "What errors are against: a run of glint reference (one for each capture), or the truth in the capture "
-                                                     "(default: a reference traced once and kept in the folder)", 0},
-    {"rays",      KEY_RAYS,      "N",             0, "Rays a pixel of the reference that is traced (default 64)", 0},
-    {"metric",    KEY_METRIC,    "NAME",          0, "The error of fronts (default rmse); there are ", 0},
-    {"no-pictures", KEY_NO_PICTURES, NULL,        0, "Leave the pictures out", 0},
+    {"output",    'o',           "FOLDER",        0, "Folder for all results; an interrupted sweep resumes from it", 0},
+    {"vary",      KEY_VARY,      "NAMES=VALUES",  0, "What to vary: SLOT.PARAM=A..B[:STEP|:log|:logN], SLOT.PARAM=A,B,C or SLOT=VARIANT,VARIANT; names joined by + take the "
+        "same value. Several --vary make a grid", 0},
+    {"sample",    KEY_SAMPLE,    "lhs:N",         0, "Sample N points with a Latin hypercube instead of a full grid", 0},
+    {"seed",      KEY_SEED,      "N",             0, "Seed of --sample (default 1)", 0},
+    {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds; every round runs each point once (default 3; 0: no times)", 0},
+    {"whole",     KEY_WHOLE,     NULL,            0, "Run all passes of each point in every round, instead of sharing the passes that points have in common", 0},
+    {"reference", KEY_REFERENCE, "RUN|truth",     0, "Errors are measured against this: the run of glint reference (once for each capture), or the truth in the capture "
+        "(default: a reference is traced once and kept in the folder)", 0},
+    {"rays",      KEY_RAYS,      "N",             0, "Rays per pixel of the reference that is traced (default 64)", 0},
+    {"metric",    KEY_METRIC,    "NAME",          0, "Error metric of the Pareto fronts (default rmse), one of ", 0},
+    {"no-pictures", KEY_NO_PICTURES, NULL,        0, "Do not write pictures", 0},
     WHOLE_PIPELINE_OPTIONS("The pipeline that is varied"),
     {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/points.json", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint sweep street.exr -o steps --vary screen_trace.cells=8..512:log", "one parameter, doubled from 8 to 512"},
+    {"glint sweep street.exr -o steps --vary screen_trace.cells=8..512:log",
+     "varies one parameter from 8 to 512 in powers of two"},
     {"glint sweep street.exr room.exr -o both --vary screen_trace=linear,hiz,dda",
-     "variants on two captures: mean and worst case"},
+     "compares variants on two captures: mean and worst case"},
     {"glint sweep street.exr -o grid --vary cubemap_trace.steps_hq=8..64:8 --vary cubemap_trace.refinements=1..6",
-     "a grid of two"},
+     "makes a grid of two parameters"},
     {"glint sweep street.exr -o tied --vary cubemap_trace.steps_hq+cubemap_trace.steps_lq=4..128:log9",
-     "two that take the same value"},
+     "varies two parameters together"},
     {"glint sweep street.exr -o many --sample lhs:100 --vary temporal.history=0..32 --vary downsample.share=0.2..1",
-     "a hundred points that cover both evenly"},
+     "samples both ranges evenly with a hundred points"},
     {"glint sweep street.exr -o free --repeat 0 --vary screen_trace.steps=4..128:log -p kf2",
-     "no times: fetches a pixel are the same on every device"},
-    {"glint reference street.exr -o ref --rays 256", "a better reference, for --reference ref"},
+     "skips timing: fetches per pixel are the same on every device"},
+    {"glint reference street.exr -o ref --rays 256", "makes a better reference, for --reference ref"},
     {0},
 };
 
@@ -79,9 +80,9 @@ static error_t parse_answer(int key, char *arg, struct argp_state *state, struct
         list_add(&a->sweep.captures, arg, state);
         return 0;
     case ARGP_KEY_END:
-        if (!a->sweep.captures.count) argp_error(state, "which capture?");
-        if (!a->sweep.out) argp_error(state, "where to? -o FOLDER");
-        if (!a->axes.count) argp_error(state, "what varies? --vary SLOT.PARAM=A..B");
+        if (!a->sweep.captures.count) argp_error(state, "no capture given");
+        if (!a->sweep.out) argp_error(state, "no output folder given: -o FOLDER");
+        if (!a->axes.count) argp_error(state, "nothing to vary: --vary SLOT.PARAM=A..B");
         answer_args_check(&a->sweep.against, a->sweep.captures.count, state);
         return 0;
     }
@@ -120,7 +121,7 @@ static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
     return parse_answer(key, arg, state, a);
 }
 
-/* Names that are not known, with the nearest that is. */
+/* Reports unknown names, with the nearest known one. */
 static bool check_names(const char *axis, struct glint_error *err) {
     const char *equals = strchr(axis, '=');
     char assignment[300];
@@ -225,7 +226,7 @@ static enum status cmd_sweep_run(int argc, char **argv) {
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_sweep, &err);
     if (!ok && err.code == GLINT_ERROR_INTERRUPTED)
-        command_note(&cmd_sweep, "%s keeps what was found; the same command goes on from there", sweep->out);
+        command_note(&cmd_sweep, "results are kept in %s; the same command resumes from there", sweep->out);
     if (ok && a.json) status = print_json(sweep_json(sweep));
     else if (ok) sweep_print(sweep);
     if (ok && status == STATUS_DONE) status = report_failures(sweep);
@@ -239,20 +240,17 @@ static enum status cmd_sweep_run(int argc, char **argv) {
 const struct command cmd_sweep = {
     .name = "sweep",
     .arguments = "F... -o FOLDER --vary NAMES=VALUES",
-    .summary = "accuracy against time over ranges of parameters and variants",
-    .description = "Replays captures with every combination of the values that --vary names, and finds the points that "
-                   "no other beats: "
-                   "less error for as much GPU time, and less error for as many texture fetches a pixel, which no "
-                   "device changes. The "
-                   "capture is uploaded once, and points are ordered so that only what changes from one to the next is "
-                   "run. Fog stays as the "
-                   "preset has it. The folder then holds the page index.html, a chart of each front as SVG, "
-                   "points.csv, points.json, pictures, and "
-                   "log.jsonl with a line for each result, written as it is found: the same command goes on after an "
-                   "interruption. Captures are "
-                   "taken each by itself, without the history of a shot. Times are of plain shaders after a warm-up; "
-                   "passes that several "
-                   "points have in common are measured once a round.",
+    .summary = "measure accuracy against time over ranges of parameters and variants",
+    .description =
+        "Replays captures with every combination of the values that --vary names, and finds the Pareto-optimal "
+        "points: those for which no other point has less error in the same GPU time, or less error with the same "
+        "number of texture fetches per pixel, which does not depend on the device. Captures are uploaded once, and "
+        "points are ordered so that only passes whose inputs or parameters change are run again. Fog stays as the "
+        "preset sets it. The folder contains the page index.html, a chart of each front as SVG, points.csv, "
+        "points.json, pictures, and log.jsonl, to which each result is appended as soon as it is known: the same "
+        "command resumes an interrupted sweep. Each capture is replayed without the history of previous frames. "
+        "Times are measured after a warm-up with shaders without diagnostics; passes that several points share are "
+        "timed once a round.",
     .options = options,
     .parse = cmd_sweep_parse,
     .examples = examples,

@@ -22,7 +22,7 @@ enum {
     KEY_COST,
     KEY_SLOTS,
     KEY_VARY,
-    KEY_UNSEEN,
+    KEY_HELD_OUT,
     KEY_BASELINE,
     KEY_OVER,
     KEY_TRIES,
@@ -35,54 +35,55 @@ enum {
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"budget-ms", KEY_BUDGET_MS, "T",            0, "The least error within this GPU time of a frame; 50% is half of the start's", 0},
-    {"budget-fetches", KEY_BUDGET_FETCHES, "N",  0, "The least error within so many texture fetches of the traces a pixel, which no device changes; 50% likewise", 0},
-    {"error",     KEY_ERROR,     "E",            0, "The least cost whose error is at most this; 110% is a tenth more than the start's", 0},
-    {"cost",      KEY_COST,      "ms|fetches",   0, "What --error makes least (default ms)", 0},
-    {"slots",     KEY_SLOTS,     "SLOT,...",     0, "The time of these alone counts (default: of all that a frame runs)", 0},
-    {"vary",      KEY_VARY,      "NAME[=VALUES]", 0, "What may move: SLOT.PARAM in its declared range, SLOT.PARAM=A..B, SLOT.PARAM=A,B, "
-                                                     "SLOT=VARIANT,VARIANT, pipeline.rays=A..B (default: every parameter that is declared and "
-                                                     "can make a difference to the reflection)", 0},
-    {"output",    'o',           "PRESET.json",  0, "The preset that is found, with where it comes from; --preset reads it", 0},
-    {"folder",    KEY_FOLDER,    "FOLDER",       0, "Where evaluations, references and the page are kept (default: PRESET.tune); a search goes on from what is there, "
-                                                    "and another budget of the same start finds its points again", 0},
-    {"unseen",    KEY_UNSEEN,    "F",            0, "A capture to measure what was found on, and not to tune on; may be repeated", 0},
-    {"baseline",  KEY_BASELINE,  "scale",        0, "Measure beside it what is found without a search: all counts of steps, cells, samples, taps and rays "
-                                                    "that may move and cost something, times the largest factor that keeps the limit. A budget becomes what that "
-                                                    "costs, on each capture, and the search knows it from the start; in the end its factor on each capture is the least "
-                                                    "that costs no less than what was found", 0},
-    {"over",      KEY_OVER,      "mean|worst",   0, "Of several captures: the means count, or the one that errs most, and the one that costs most, in parts "
-                                                    "of what the baseline does there, without one of what the start does (default mean)", 0},
-    {"tries",     KEY_TRIES,     "N",            0, "Points to try at most, and a fourth of that again each time, three at most, that measured times correct the search's "
-                                                    "(default 150, and 3 for each parameter). With fewer than some three for each parameter, groups of parameters are moved together "
-                                                    "first, and those that change most are searched one by one", 0},
-    {"seed",      KEY_SEED,      "N",            0, "Of the search's new starts (default 1)", 0},
-    {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of a point, each in turn with the start (default 3)", 0},
-    {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds in the end, of all that is compared (default 15; 0: no times)", 0},
-    {"reference", KEY_REFERENCE, "RUN|truth",    0, "What errors are against: a run of glint reference (one for each capture, the unseen ones too), or the truth "
-                                                    "in the capture (default: a reference traced once and kept in the folder)", 0},
-    {"rays",      KEY_RAYS,      "N",            0, "Rays a pixel of the reference that is traced (default 64)", 0},
-    {"metric",    KEY_METRIC,    "NAME",         0, "The error, mean over the captures (default rmse); there are ", 0},
-    WHOLE_PIPELINE_OPTIONS("The start"),
+    {"budget-ms", KEY_BUDGET_MS, "T",            0, "Minimize the error within this GPU time per frame; 50% is half the time of the start preset", 0},
+    {"budget-fetches", KEY_BUDGET_FETCHES, "N",  0, "Minimize the error within this number of texture fetches of the trace passes per pixel, which does not depend on the "
+        "device; 50% is half of the start preset's", 0},
+    {"error",     KEY_ERROR,     "E",            0, "Minimize the cost with at most this error; 110% allows a tenth more than the start preset", 0},
+    {"cost",      KEY_COST,      "ms|fetches",   0, "Cost that --error minimizes (default ms)", 0},
+    {"slots",     KEY_SLOTS,     "SLOT,...",     0, "Count only the time of these slots (default: all per-frame passes)", 0},
+    {"vary",      KEY_VARY,      "NAME[=VALUES]", 0, "Parameters to tune: SLOT.PARAM in its declared range, SLOT.PARAM=A..B, SLOT.PARAM=A,B, SLOT=VARIANT,VARIANT, "
+        "pipeline.rays=A..B (default: all parameters that can influence the reflection)", 0},
+    {"output",    'o',           "PRESET.json",  0, "Preset to write, with a record of how it was found; --preset reads it", 0},
+    {"folder",    KEY_FOLDER,    "FOLDER",       0, "Folder for evaluations, references and the page (default: PRESET.tune). A search resumes from it, and a search with "
+        "another budget and the same start reuses its evaluations", 0},
+    {"held-out",  KEY_HELD_OUT,  "F",            0, "Capture on which the result is measured, but not tuned; may be repeated", 0},
+    {"baseline",  KEY_BASELINE,  "scale",        0, "Also measure a baseline without a search: all counts of steps, cells, samples, taps and rays of the start, scaled by "
+        "the largest factor that meets the limit. The budget becomes the cost of this baseline on each capture, and the search "
+        "starts from it. In the end the factor is chosen on each capture so that the baseline costs at least as much as the "
+        "tuned preset", 0},
+    {"over",      KEY_OVER,      "mean|worst",   0, "With several captures, use the mean error and cost, or the worst ones relative to the baseline (or to the start, "
+        "without a baseline) on the same capture (default mean)", 0},
+    {"tries",     KEY_TRIES,     "N",            0, "Maximum number of evaluations (default 150, plus 3 for each parameter). If the final timing shows that the times during "
+        "the search were off, the search is repeated up to three times with N/4 further evaluations each. With fewer than about "
+        "three evaluations for each parameter, groups of parameters are moved together first, and only the most effective ones "
+        "one by one", 0},
+    {"seed",      KEY_SEED,      "N",            0, "Seed of the restarts of the search (default 1)", 0},
+    {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of each evaluation, alternating with the start preset (default 3)", 0},
+    {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds of the final comparison (default 15; 0: no times)", 0},
+    {"reference", KEY_REFERENCE, "RUN|truth",    0, "Errors are measured against this: the run of glint reference (once for each capture, including the held-out ones), or "
+        "the truth in the capture (default: a reference is traced once and kept in the folder)", 0},
+    {"rays",      KEY_RAYS,      "N",            0, "Rays per pixel of the reference that is traced (default 64)", 0},
+    {"metric",    KEY_METRIC,    "NAME",         0, "Error metric, averaged over the captures (default rmse), one of ", 0},
+    WHOLE_PIPELINE_OPTIONS("Preset to start from"),
     {"json",      'j',           NULL,           0, "Print JSON", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint tune street.exr -o half.json --budget-ms 50%", "half of mafia3's time: the least error of all parameters"},
-    {"glint replay street.exr -p ./half.json", "what was found, as any preset"},
+    {"glint tune street.exr -o half.json --budget-ms 50%", "minimizes the error in half the time of mafia3"},
+    {"glint replay street.exr -p ./half.json", "uses the tuned preset"},
     {"glint tune street.exr -o quarter.json --budget-ms 25% --folder half.tune",
-     "another budget, from the same evaluations"},
-    {"glint tune street.exr room.exr --unseen hotel.exr -o both.json --budget-fetches 40 --baseline scale",
-     "two captures, without times; is it better than all steps scaled, on a third one too?"},
+     "tunes for another budget and reuses the evaluations"},
+    {"glint tune street.exr room.exr --held-out hotel.exr -o both.json --budget-fetches 40 --baseline scale",
+     "tunes on two captures without timing, and compares with a scaled start preset, also on a third capture"},
     {"glint tune street.exr -o march.json --budget-ms 0.1 --slots cubemap_trace --vary cubemap_trace.steps_hq=4..64 "
      "--vary cubemap_trace.refinements",
-     "two parameters, and the time of one pass"},
+     "tunes two parameters for the time of one pass"},
     {"glint tune street.exr -o trace.json --budget-ms 50% --vary screen_trace=hiz,linear --vary screen_trace.cells "
      "--vary screen_trace.steps",
-     "variants too, each with its own parameters"},
-    {"glint tune street.exr -o cheap.json --error 105%", "as good but for a twentieth, in the least time"},
-    {"glint report half.tune -o half.html", "the page again, to send"},
+     "also chooses between variants, each with its own parameters"},
+    {"glint tune street.exr -o cheap.json --error 105%", "minimizes the time while the error grows by at most 5 %"},
+    {"glint report half.tune -o half.html", "writes the result page as a single file"},
     {0},
 };
 
@@ -131,23 +132,26 @@ static void read_limit(struct tune *tune, const char *option, const char *text, 
     tune->part = !strcmp(end, "%");
     tune->limit = tune->part ? value / 100 : value;
     if (end == text || (*end && !tune->part) || !isfinite(value) || !(value > 0))
-        argp_error(state, "--%s %s: expected a number above 0, or a part of the start's such as 50%%", option, text);
+        argp_error(state,
+                   "--%s %s: expected a number above 0, or a percentage of the start preset's value such as 50%%",
+                   option, text);
 }
 
 static void check_arguments(struct arguments *a, struct argp_state *state) {
     struct tune *tune = &a->tune;
-    const size_t length = tune->out ? strlen(tune->out) : 0, all = tune->captures.count + tune->unseen.count;
-    if (!tune->captures.count) argp_error(state, "which capture?");
+    const size_t length = tune->out ? strlen(tune->out) : 0, all = tune->captures.count + tune->held_out.count;
+    if (!tune->captures.count) argp_error(state, "no capture given");
     if (!!a->budget_ms + !!a->budget_fetches + !!a->error != 1)
-        argp_error(state, "which limit? one of --budget-ms, --budget-fetches, --error");
-    if (!tune->out) argp_error(state, "where to? -o PRESET.json");
+        argp_error(state, "expected one of --budget-ms, --budget-fetches and --error");
+    if (!tune->out) argp_error(state, "no output file given: -o PRESET.json");
     if (length <= 5 || strcmp(tune->out + length - 5, ".json") != 0 || tune->out[length - 6] == '/')
-        argp_error(state, "-o %s: expected a preset's file, NAME.json", tune->out);
-    if (a->cost && !a->error) argp_error(state, "--cost: a budget says what it is of");
+        argp_error(state, "-o %s: expected a file name NAME.json", tune->out);
+    if (a->cost && !a->error) argp_error(state, "--cost can only be used with --error");
     answer_args_check(&tune->against, all, state);
     tune->by_error = a->error != NULL;
     tune->fetches = a->budget_fetches || (a->cost && !strcmp(a->cost, "fetches"));
-    if (tune->fetches && tune->slots.count) argp_error(state, "--slots: is for times; fetches are those of the traces");
+    if (tune->fetches && tune->slots.count)
+        argp_error(state, "--slots cannot be used with fetches, which are always those of the trace passes");
     if (a->error) read_limit(tune, "error", a->error, state);
     else if (a->budget_ms) read_limit(tune, "budget-ms", a->budget_ms, state);
     else read_limit(tune, "budget-fetches", a->budget_fetches, state);
@@ -178,8 +182,8 @@ static error_t cmd_tune_parse(int key, char *arg, struct argp_state *state) {
     case KEY_VARY:
         list_add(&tune->vary, arg, state);
         return 0;
-    case KEY_UNSEEN:
-        list_add(&tune->unseen, arg, state);
+    case KEY_HELD_OUT:
+        list_add(&tune->held_out, arg, state);
         return 0;
     case KEY_BASELINE:
         tune->baseline = arg_choice("baseline", arg, baselines, state) == 0;
@@ -223,22 +227,24 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
         !(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
         !tune_load(tune, err) || !tune_make_axes(tune, err))
         return false;
-    if (!tune->axis_count) return glint_fail(err, GLINT_ERROR_USAGE, "nothing that may move makes a difference here");
+    if (!tune->axis_count)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "none of the parameters that may be tuned changes the reflection of these captures");
     if (!tune->tries) tune->tries = 150 + 3 * (uint32_t)tune->axis_count;
     return tune_open(tune, err);
 }
 
-/* An interrupted search leaves its best so far. */
-static enum status interrupted(const struct tune *tune) {
+/* An interrupted search writes the best preset so far. */
+static enum status report_interrupted_tune(const struct tune *tune) {
     struct glint_error err = {0};
     const bool some = tune->found.count && tune->found.within;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
-    command_note(&cmd_tune, "%s%s%s keeps what was found; the same command goes on from there", some ? tune->out : "",
-                 some ? " is the best so far, not measured again; " : "", tune->folder);
+    command_note(&cmd_tune, "%s%sthe evaluations are kept in %s; the same command resumes the search",
+                 some ? tune->out : "", some ? " is the best preset so far, without final timing; " : "", tune->folder);
     return STATUS_INTERRUPTED;
 }
 
-static bool work(struct tune *tune, struct glint_error *err) {
+static bool search_and_write(struct tune *tune, struct glint_error *err) {
     return tune_search(tune, err) && (tune->found.within || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
            tune_confirm(tune, err) && tune_write_preset(tune, err) && tune_write_page(tune, err);
 }
@@ -260,8 +266,8 @@ void tune_finish(struct tune *tune) {
     free(tune->left);
     if (tune->base) glint_pipeline_destroy(&tune->base);
     if (tune->device) glint_device_destroy(&tune->device);
-    struct list *const lists[] = {&tune->captures, &tune->unseen, &tune->against.references,
-                                  &tune->vary,     &tune->slots,  &tune->shaders};
+    struct list *const lists[] = {&tune->captures, &tune->held_out, &tune->against.references,
+                                  &tune->vary,     &tune->slots,    &tune->shaders};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
 
@@ -290,15 +296,15 @@ static enum status cmd_tune_run(int argc, char **argv) {
     tune->command_line = line ? line : "glint tune";
     tune->progress = &progress;
     progress_begin(&progress);
-    const bool ok = begin_tune(&a, &err) && work(tune, &err);
+    const bool ok = begin_tune(&a, &err) && search_and_write(tune, &err);
     progress_end(&progress);
     enum status status = ok                                    ? STATUS_DONE
-                         : err.code == GLINT_ERROR_INTERRUPTED ? interrupted(tune)
+                         : err.code == GLINT_ERROR_INTERRUPTED ? report_interrupted_tune(tune)
                                                                : command_fail(&cmd_tune, &err);
     if (ok && a.json) status = print_json(tune_json(tune));
     else if (ok) tune_print(tune);
     if (ok && status == STATUS_DONE && !tune->confirmed_within) {
-        command_note(&cmd_tune, "measured again, no point that was tried keeps the limit; %s is the nearest",
+        command_note(&cmd_tune, "no evaluated point meets the limit in the final timing; %s contains the nearest one",
                      tune->out);
         status = STATUS_CHECK;
     }
@@ -311,27 +317,20 @@ static enum status cmd_tune_run(int argc, char **argv) {
 const struct command cmd_tune = {
     .name = "tune",
     .arguments = "F... -o PRESET.json --budget-ms T",
-    .summary = "the best parameters within a budget of time or error",
+    .summary = "find the best parameters within a budget of time or error",
     .description =
-        "Searches the values of a preset's parameters for the least error within a budget, or for the least cost "
-        "within an error, "
-        "and writes what it finds as a preset. Errors are of the reflection against the reference, mean over the "
-        "captures. "
-        "Parameters that cannot matter are left out, and listed with the reason: passes that do not run, work on cube "
-        "maps "
-        "that no frame pays for, what runs after the reflection, what would ask for another reference, what a "
-        "reference must assume. "
-        "Of the others each is moved alone first; those that change nothing are left out, too. Steps are of an eighth "
-        "of a range, or of a "
-        "doubling where it spans decades. "
-        "With --budget-fetches the same seed gives the same preset on every run. Times are medians of rounds in turns "
-        "with the "
-        "start, and off by some per cent: what is found is measured again in turns, and where it takes more than the "
-        "budget, or leaves some of it, the search goes on with its times corrected; of all points the preset is the "
-        "one that errs least "
-        "and, measured, keeps the budget. Every evaluation is kept as it is found: the same command goes on after "
-        "an interruption, "
-        "and what was the best by then is in the preset's file.",
+        "Searches the parameters of a preset for the least error within a budget, or for the least cost within an "
+        "error limit, and writes the result as a preset. The error is that of the reflection against the reference, "
+        "averaged over the captures. Parameters that cannot matter are left out and listed with the reason: those of "
+        "passes that do not run, of work on cube maps that is not done every frame, of passes after the reflection, "
+        "those that would change the reference, and assumptions that the reference has to make as well. Each "
+        "remaining parameter is first moved alone, and those without effect are left out too. A step is an eighth of "
+        "the range, or a factor of two in ranges over several decades. With --budget-fetches, the same seed always "
+        "gives the same preset. Times are medians of rounds that alternate with the start preset and still have an "
+        "error of some per cent; therefore the result is timed again against the start. If it exceeds the budget or "
+        "leaves a part of it unused, the search continues with corrected times; the preset is the point with the "
+        "least error that meets the budget in the final timing. Every evaluation is stored at once: the same command "
+        "resumes an interrupted search, and the preset file then contains the best point so far.",
     .options = options,
     .parse = cmd_tune_parse,
     .examples = examples,

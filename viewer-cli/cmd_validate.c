@@ -17,8 +17,8 @@ static const struct argp_option options[] = {
     {0},
 };
 static const struct example examples[] = {
-    {"glint validate street.exr", "check one capture, pixels included"},
-    {"glint validate shots/*.exr --json", "check many for a script"},
+    {"glint validate street.exr", "checks one capture, including its pixels"},
+    {"glint validate shots/*.exr --json", "checks many captures for a script"},
     {0},
 };
 
@@ -34,7 +34,7 @@ static error_t cmd_validate_parse(int key, char *arg, struct argp_state *state) 
         list_add(&a->files, arg, state);
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "which capture?");
+        argp_error(state, "no capture given");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -108,8 +108,8 @@ const struct command cmd_validate = {
     .arguments = "F...",
     .summary = "check captures against every rule of the format",
     .description =
-        "Checks captures against every rule of FORMAT.md, pixels included, and lists all violations with the "
-        "rule that each one breaks. The exit status is 1 when there is any.",
+        "Checks captures against every rule of FORMAT.md, including pixel values, and lists all violations with the "
+        "rule that each breaks. The exit status is 1 if there are violations.",
     .options = options,
     .parse = cmd_validate_parse,
     .examples = examples,

@@ -53,48 +53,49 @@ enum {
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",    'o',           "FILE",     0, "The PNG to write; - is stdout (default: draw it in the terminal)", 0},
-    {"terminal",  KEY_TERMINAL,  "MODE",     OPTION_ARG_OPTIONAL, "Draw in the terminal also where it is none: ", 0},
+    {"output",    'o',           "FILE",     0, "PNG file to write, or - for stdout (default: draw in the terminal)", 0},
+    {"terminal",  KEY_TERMINAL,  "MODE",     OPTION_ARG_OPTIONAL, "Draw in the terminal even if stdout is not one: ", 0},
     {"stats",     KEY_STATS,     NULL,       0, "Print statistics of each channel", 0},
-    {"histogram", KEY_HISTOGRAM, NULL,       0, "Print a histogram of each channel, over --range and --scale (default: all finite values, linear)", 0},
-    {"bins",      KEY_BINS,      "N",        0, "Bins of histograms (default 16)", 0},
+    {"histogram", KEY_HISTOGRAM, NULL,       0, "Print a histogram of each channel over --range and --scale (default: all finite values, linear)", 0},
+    {"bins",      KEY_BINS,      "N",        0, "Number of histogram bins (default 16)", 0},
     {"json",      'j',           NULL,       0, "Print --stats and --histogram as JSON", 0},
-    {"to-tev",    KEY_TEV,       "HOST",     0, "Show the image in the tev that runs at HOST or HOST:PORT", 0},
-    {"image",     KEY_IMAGE,     "NAME,...", 0, "Image of a run (default: its last colour image); several for --sheet", 0},
-    {"sheet",     KEY_SHEET,     NULL,       0, "All images of a run on one picture, or those of --image; of several runs: a column each, one range a row", 0},
+    {"to-tev",    KEY_TEV,       "HOST",     0, "Show the image in the viewer tev, which runs at HOST or HOST:PORT", 0},
+    {"image",     KEY_IMAGE,     "NAME,...", 0, "Image of a run (default: its last colour image); several with --sheet", 0},
+    {"sheet",     KEY_SHEET,     NULL,       0, "Show all images of a run, or those of --image, in one picture; for several runs, one column for each and a common range "
+        "for each row", 0},
     {"part",      KEY_PART,      "NAME",     0, "Part of a file (default: lit, or the first with colour)", 0},
-    {"layer",     KEY_LAYER,     "NAME",     0, "Layer or channel of the part: depth, normal, material.roughness", 0},
-    {"as",        KEY_AS,        "KIND",     0, "How to show it (default: by unit and channels): ", 0},
-    {"range",     KEY_RANGE,     "LOW,HIGH", 0, "Values at the ends of the scale", 0},
-    {"percentiles", KEY_PERCENTILES, "LOW,HIGH", 0, "Values at the ends of the scale, by percentile (default: 0.5,99.5)", 0},
-    {"scale",     KEY_SCALE,     "NAME",     0, "Scale of distances (default: log for lengths that span more than 1:20): ", 0},
-    {"no-legend", KEY_NO_LEGEND, NULL,       0, "The picture alone, at its own size", 0},
-    {"faces",     KEY_FACES,     NULL,       0, "Cube maps as they are stored, faces below each other, not as a cross", 0},
-    {"latlong",   KEY_LATLONG,   NULL,       0, "Cube maps by longitude and latitude, not as a cross", 0},
-    {"levels",    KEY_LEVELS,    NULL,       0, "A run's image with all its MIP levels", 0},
-    {"crop",      KEY_CROP,      "X,Y,W,H",  0, "Only this part of the picture and its figures, in pixels", 0},
-    {"zoom",      KEY_ZOOM,      "N",        0, "Each pixel as N × N", 0},
-    {"exposure",  KEY_EXPOSURE,  "EV",       0, "Colour: brighter by this many stops", 0},
-    {"view",      KEY_VIEW,      "NAME",     0, "Colour: the view of the OpenColorIO configuration; built in: ", 0},
-    {"display",   KEY_DISPLAY,   "NAME",     0, "Colour: its display", 0},
-    {"ocio",      KEY_OCIO,      "FILE",     0, "Colour: another OpenColorIO configuration (default: $OCIO, else the one built in)", 0},
-    {"input-space", KEY_INPUT,   "NAME",     0, "Colour: the space of the file's values (default: linear Rec. 709)", 0},
+    {"layer",     KEY_LAYER,     "NAME",     0, "Layer or channel of the part, such as depth, normal, material.roughness", 0},
+    {"as",        KEY_AS,        "KIND",     0, "Type of display (default: by unit and channels): ", 0},
+    {"range",     KEY_RANGE,     "LOW,HIGH", 0, "Values at the ends of the colour scale", 0},
+    {"percentiles", KEY_PERCENTILES, "LOW,HIGH", 0, "Percentiles at the ends of the colour scale (default: 0.5,99.5)", 0},
+    {"scale",     KEY_SCALE,     "NAME",     0, "Colour scale of distances (default: log if they span more than 1:20): ", 0},
+    {"no-legend", KEY_NO_LEGEND, NULL,       0, "Write only the image, at its own size", 0},
+    {"faces",     KEY_FACES,     NULL,       0, "Show cube maps as stored, with the faces below each other, instead of as a cross", 0},
+    {"latlong",   KEY_LATLONG,   NULL,       0, "Show cube maps by longitude and latitude instead of as a cross", 0},
+    {"levels",    KEY_LEVELS,    NULL,       0, "Show all MIP levels of an image of a run", 0},
+    {"crop",      KEY_CROP,      "X,Y,W,H",  0, "Show only this rectangle, and restrict statistics to it", 0},
+    {"zoom",      KEY_ZOOM,      "N",        0, "Enlarge each pixel to N × N", 0},
+    {"exposure",  KEY_EXPOSURE,  "EV",       0, "Colour: add this many stops of exposure", 0},
+    {"view",      KEY_VIEW,      "NAME",     0, "Colour: view of the OpenColorIO configuration; built-in views: ", 0},
+    {"display",   KEY_DISPLAY,   "NAME",     0, "Colour: display of the OpenColorIO configuration", 0},
+    {"ocio",      KEY_OCIO,      "FILE",     0, "Colour: OpenColorIO configuration to use (default: $OCIO, else the built-in one)", 0},
+    {"input-space", KEY_INPUT,   "NAME",     0, "Colour: colour space of the file (default: linear Rec. 709)", 0},
     {0},
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint view run -o reflection.png", "the last colour image of a run, through the ACES view"},
-    {"glint view run --image travelled -o travelled.png", "how far the rays went, with a scale"},
-    {"glint view run --sheet -o sheet.png", "every image of a run on one picture"},
-    {"glint view a b --sheet --image travelled,composed -o ab.png", "two runs beside each other"},
-    {"glint view run:screen_end -o why.png", "why each ray ended (of a run with --diagnostics)"},
-    {"glint view street.exr:gbuffer:normal -o normals.png", "a layer of a capture"},
-    {"glint view street.exr --part cubemap.003 -o cube.png", "a cube map as a cross"},
-    {"glint view run --exposure 2 --view sRGB -o - | display", "brighter, not tone-mapped, into a pipe"},
-    {"glint view run", "into the terminal, as kitty, sixel or blocks"},
-    {"glint view run:screen_travelled --stats --histogram --scale log", "its values in numbers"},
-    {"glint view run:cubemap_color_mips --levels -o mips.png", "a chain of MIP levels"},
-    {"glint view run:reflection --to-tev localhost", "in a running tev"},
+    {"glint view run -o reflection.png", "writes the last colour image of a run, tone-mapped with the ACES view"},
+    {"glint view run --image travelled -o travelled.png", "shows the travelled distance with a legend"},
+    {"glint view run --sheet -o sheet.png", "shows all images of a run in one picture"},
+    {"glint view a b --sheet --image travelled,composed -o ab.png", "shows two runs side by side"},
+    {"glint view run:screen_end -o why.png", "shows why each ray ended (needs a run with --diagnostics)"},
+    {"glint view street.exr:gbuffer:normal -o normals.png", "shows a layer of a capture"},
+    {"glint view street.exr --part cubemap.003 -o cube.png", "shows a cube map as a cross"},
+    {"glint view run --exposure 2 --view sRGB -o - | display", "brightens without tone mapping, and writes to a pipe"},
+    {"glint view run", "draws in the terminal, with kitty graphics, sixels or blocks"},
+    {"glint view run:screen_travelled --stats --histogram --scale log", "prints statistics and a histogram"},
+    {"glint view run:cubemap_color_mips --levels -o mips.png", "shows all MIP levels"},
+    {"glint view run:reflection --to-tev localhost", "sends the image to a running tev"},
     {0},
 };
 
@@ -128,17 +129,17 @@ static bool prints(const struct arguments *a) {
 }
 
 static void end_arguments(struct arguments *a, struct argp_state *state) {
-    if (!a->paths.count) argp_error(state, "which image?");
+    if (!a->paths.count) argp_error(state, "no image given");
     if (!a->out && !a->terminal && !prints(a) && !isatty(STDOUT_FILENO))
-        argp_error(state, "where to? -o FILE.png, or --terminal");
+        argp_error(state, "no output given: -o FILE.png or --terminal");
     a->terminal = a->terminal || (!a->out && !prints(a));
     if (a->statistics.json && !a->statistics.table && !a->statistics.histogram)
-        argp_error(state, "--json is of --stats or --histogram");
-    if (a->statistics.json && a->terminal) argp_error(state, "--json and --terminal both want stdout");
+        argp_error(state, "--json needs --stats or --histogram");
+    if (a->statistics.json && a->terminal) argp_error(state, "--json and --terminal cannot share stdout");
     if (a->sheet && (prints(a) || a->levels))
-        argp_error(state, "--sheet is a picture of many images; the rest is of one");
+        argp_error(state, "--sheet cannot be combined with options for a single image");
     if (!a->sheet && a->paths.count > 1)
-        argp_error(state, "%s and %s: one image at a time, several runs need --sheet", a->paths.items[0],
+        argp_error(state, "%s and %s: expected one image; several runs need --sheet", a->paths.items[0],
                    a->paths.items[1]);
     if (!a->sheet && a->images.count > 1) argp_error(state, "several images need --sheet");
     a->choice.path = a->paths.items[0];
@@ -224,7 +225,8 @@ static error_t cmd_view_parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_RANGE:
         arg_numbers("range", arg, range, 2, state);
-        if (!(range[0] < range[1])) argp_error(state, "--range=%s: the first must be the smaller", arg);
+        if (!(range[0] < range[1]))
+            argp_error(state, "--range=%s: the first value must be smaller than the second", arg);
         a->render.falsecolor.range_given = true;
         a->render.falsecolor.low = range[0];
         a->render.falsecolor.high = range[1];
@@ -232,7 +234,7 @@ static error_t cmd_view_parse(int key, char *arg, struct argp_state *state) {
     case KEY_PERCENTILES:
         arg_numbers("percentiles", arg, range, 2, state);
         if (!(range[0] >= 0 && range[0] < range[1] && range[1] <= 100))
-            argp_error(state, "--percentiles=%s: expected two from 0 to 100, the first the smaller", arg);
+            argp_error(state, "--percentiles=%s: expected two increasing numbers from 0 to 100", arg);
         a->render.falsecolor.percentiles_given = true;
         memcpy(a->render.falsecolor.percentiles, range, sizeof range);
         return 0;
@@ -265,7 +267,7 @@ static bool print_statistics(const struct source *source, const struct arguments
     struct source part = *source;
     if (!a->render.has_crop) return statistics_print(source, &a->statistics, err);
     if (source->cube && !a->render.faces)
-        return glint_fail(err, GLINT_ERROR_USAGE, "--crop of a cube map's figures wants --faces, too");
+        return glint_fail(err, GLINT_ERROR_USAGE, "--crop with statistics of a cube map needs --faces");
     if (!picture_holds(source->width, source->height, crop, err)) return false;
     const size_t texel = source->components * sizeof *part.texels;
     part.width = crop[2], part.height = crop[3];
@@ -321,10 +323,11 @@ static enum status cmd_view_run(int argc, char **argv) {
 const struct command cmd_view = {
     .name = "view",
     .arguments = "IMAGE|RUN... [-o P.png]",
-    .summary = "a picture of an image, a capture's part or a run",
-    .description = "Writes a PNG of an EXR layer (FILE:PART:LAYER), a capture's part or an image of a run (RUN:IMAGE). "
-                   "Colour goes through OpenColorIO; distances, normals, indices and end reasons are shown in false "
-                   "colour with a legend. NaN is magenta. Without -o the picture goes to the terminal.",
+    .summary = "show an image, a part of a capture or a run as a picture",
+    .description =
+        "Writes a PNG of an EXR layer (FILE:PART:LAYER), a part of a capture or an image of a run (RUN:IMAGE). "
+        "Colour is converted by OpenColorIO; distances, normals, indices and end reasons are shown in false colour "
+        "with a legend. NaN is magenta. Without -o the picture is drawn in the terminal.",
     .options = options,
     .parse = cmd_view_parse,
     .examples = examples,

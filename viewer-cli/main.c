@@ -57,7 +57,7 @@ static enum status dispatch(int argc, char **argv) {
         return STATUS_DONE;
     }
     if (first[0] == '-') {
-        fprintf(stderr, "glint: unknown option %s; options stand after the command (glint --help)\n", first);
+        fprintf(stderr, "glint: unknown option %s; options come after the command (glint --help)\n", first);
         return STATUS_USAGE;
     }
     const struct command *command = command_find(first);

@@ -77,17 +77,17 @@ void print_man_page(void) {
            ".Sh COMMANDS\n");
     for (size_t i = 0; i < command_count; i++) print_command(commands[i]);
     printf(".Sh ENVIRONMENT\n.Bl -tag -width GLINT_VALIDATION\n"
-           ".It Ev GLINT_CACHE\nThe folder in which work on cube maps is kept; none: nowhere.\n"
+           ".It Ev GLINT_CACHE\nThe folder in which results for cube maps are kept; none disables it.\n"
            ".It Ev GLINT_DEVICE\nThe device to use: its index or a part of its name.\n"
-           ".It Ev GLINT_PASSES\nA folder whose shaders stand in for those built in, such as a source tree's\n.Pa "
+           ".It Ev GLINT_PASSES\nA folder whose shaders replace the built-in ones, such as a source tree's\n.Pa "
            "passes/\n"
-           "that is being edited; what it lacks stays built in, and so do the declarations.\n"
+           "that is being edited.\nFiles that it does not contain, and the declarations, stay built in.\n"
            ".It Ev GLINT_PRESETS\nA folder with presets, searched before the installed one.\n"
-           ".It Ev GLINT_VALIDATION\n1 switches the Khronos validation layer on.\n"
+           ".It Ev GLINT_VALIDATION\n1 enables the Khronos validation layer.\n"
            ".It Ev OCIO\nThe OpenColorIO configuration for\n.Nm glint view .\n.El\n"
            ".Sh EXIT STATUS\n.Bl -tag -width 130\n"
            ".It 0\nDone.\n.It 1\nA check failed, or the input is bad.\n.It 2\nWrong usage.\n"
-           ".It 130\nInterrupted; files that were not complete are not there.\n.El\n"
+           ".It 130\nInterrupted; no incomplete files are left.\n.El\n"
            ".Sh SEE ALSO\n.Xr exrheader 1 ,\n.Xr oiiotool 1\n");
 }
 

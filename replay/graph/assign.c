@@ -15,8 +15,8 @@ bool glint_pipeline_set_value(struct glint_pipeline *pipeline, const struct glin
                           pipeline->name);
     const bool within = value >= row->lowest && value <= row->highest;
     if (!within || (row->type != GLINT_VALUE_FLOAT && value != floor(value)))
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s%g to %g (%s), found %g", pass->slot, row->name,
-                          within ? "a whole number from " : "", row->lowest, row->highest, row->unit, value);
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s%.9g to %.9g (%s), found %.9g", pass->slot,
+                          row->name, within ? "a whole number from " : "", row->lowest, row->highest, row->unit, value);
     entry->values[row - pass->rows] = value;
     return true;
 }
@@ -38,7 +38,7 @@ static bool read_value(const char *slot, const struct glint_row *row, const char
                off = flag && (strcmp(text, "false") == 0 || strcmp(text, "off") == 0);
     *value = on || off ? on : strtod(text, &end);
     if (on || off || (end != text && !*end)) return true;
-    return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s from %g to %g (%s), found '%s'", slot, row->name,
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s from %.9g to %.9g (%s), found '%s'", slot, row->name,
                       flag ? "true, false or a number" : "a number", row->lowest, row->highest, row->unit, text);
 }
 

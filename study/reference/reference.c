@@ -36,7 +36,7 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
     if (ok && options && options->folder) {
         reference->folder = strdup(options->folder);
         ok = (reference->folder || glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory")) &&
-             reference_settings(reference, err) && reference_resume(reference, options->anew, err);
+             reference_settings(reference, err) && reference_resume(reference, options->overwrite, err);
     }
     if (!ok) glint_reference_destroy(&reference);
     return reference;

@@ -53,7 +53,7 @@ bool reference_same_settings(const char *where, const json_t *there, const json_
 json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity);
 
 /* reference_folder.c */
-bool reference_resume(struct glint_reference *reference, bool anew, struct glint_error *err);
+bool reference_resume(struct glint_reference *reference, bool overwrite, struct glint_error *err);
 /* What the replay's last run was is kept for run.json. */
 bool reference_note(struct glint_reference *reference, struct glint_error *err);
 bool reference_save(struct glint_reference *reference, struct glint_error *err);

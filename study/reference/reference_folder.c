@@ -79,12 +79,12 @@ static bool probe_folder(const char *folder, struct glint_error *err) {
     return true;
 }
 
-bool reference_resume(struct glint_reference *reference, bool anew, struct glint_error *err) {
+bool reference_resume(struct glint_reference *reference, bool overwrite, struct glint_error *err) {
     char path[4096];
     if (!probe_folder(reference->folder, err)) return false;
     if (snprintf(path, sizeof path, "%s/run.json", reference->folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
-    if (anew) return reference_remove_round(reference), glint_run_remove(reference->folder, err);
+    if (overwrite) return reference_remove_round(reference), glint_run_remove(reference->folder, err);
     if (access(path, F_OK) != 0) return reference_resume_round(reference, err);
     struct glint_run *run = glint_run_open(reference->folder, err);
     bool ok = run && read_folder(reference, run, err);

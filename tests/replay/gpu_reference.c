@@ -15,21 +15,21 @@
 #include "glint/reference.h"
 #include "plain_capture.h"
 
-static struct glint_reference *open_at_once(struct fixture *fixture, const char *folder, const char *set, bool anew,
-                                            uint32_t at_once, struct glint_error *err) {
+static struct glint_reference *open_at_once(struct fixture *fixture, const char *folder, const char *set,
+                                            bool overwrite, uint32_t at_once, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_create("reference", err);
     assert_non_null(pipeline);
     if (set && !glint_pipeline_set(pipeline, set, err)) fail_msg("%s", err->message);
     struct glint_reference *reference = glint_reference_create(
         fixture->replay, fixture->capture, pipeline,
-        &(struct glint_reference_options){.folder = folder, .anew = anew, .at_once = at_once}, err);
+        &(struct glint_reference_options){.folder = folder, .overwrite = overwrite, .at_once = at_once}, err);
     glint_pipeline_destroy(&pipeline);
     return reference;
 }
 
-static struct glint_reference *open_reference(struct fixture *fixture, const char *folder, const char *set, bool anew,
-                                              struct glint_error *err) {
-    return open_at_once(fixture, folder, set, anew, 0, err);
+static struct glint_reference *open_reference(struct fixture *fixture, const char *folder, const char *set,
+                                              bool overwrite, struct glint_error *err) {
+    return open_at_once(fixture, folder, set, overwrite, 0, err);
 }
 
 static struct glint_reference *need_reference(struct fixture *fixture, const char *folder, const char *set) {
@@ -283,7 +283,7 @@ static void a_folder_of_something_else_is_refused(void **state) {
     fixture_run(fixture, NULL);
     fixture_write_run(fixture, "plain", plain);
     refused(fixture, plain, NULL, "no reference");
-    /* Anew, with the other setting. */
+    /* Overwritten, with the other setting. */
     reference = open_reference(fixture, folder, "cubemap_trace.tolerance=0.03", true, &err);
     assert_non_null(reference);
     trace(reference, 32, 0);

@@ -300,7 +300,7 @@ class Tests:
             run = glint("report", self.folder, "--chart", str(i), "-o", out)
             assert run.returncode == 0, run.stderr
             xml.dom.minidom.parse(out)
-        assert "there are 4" in glint("report", self.folder, "--chart=5", "-o", out).stderr
+        assert "the page has 4" in glint("report", self.folder, "--chart=5", "-o", out).stderr
 
     def test_dark_and_light(self):
         ground = "getComputedStyle(document.body).backgroundColor"

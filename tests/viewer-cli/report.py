@@ -59,7 +59,7 @@ class Tests:
         plan = dict(self.table("Plan"))
         assert list(plan) == [p["slot"] for p in run["passes"]]
         for p in run["passes"]:
-            assert p["reason"] in plan[p["slot"]] and (p["ran"] or "left out" in plan[p["slot"]]), plan[p["slot"]]
+            assert p["reason"] in plan[p["slot"]] and (p["ran"] or "not run" in plan[p["slot"]]), plan[p["slot"]]
         assert any(not p["ran"] for p in run["passes"])
         parameters = {(slot, name): value for slot, name, value in self.table("Parameters")}
         assert len(parameters) == sum(len(p["parameters"]) for p in run["passes"])
@@ -92,8 +92,8 @@ class Tests:
 
     def test_runs_stand_beside_each_other(self):
         self.show("a", "b")
-        assert self.table("What differs") == [["cubemap_trace", "steps_hq", "24", "8"], ["blur", "", "plus", "–"],
-                                               ["temporal", "", "rough", "–"]], self.table("What differs")
+        assert self.table("Parameters that differ") == [["cubemap_trace", "steps_hq", "24", "8"], ["blur", "", "plus", "–"],
+                                               ["temporal", "", "rough", "–"]], self.table("Parameters that differ")
         captions = self.browser.evaluate("[...document.querySelectorAll('main figcaption')].map(c => c.textContent)")
         assert sum(c.startswith("a, composed") for c in captions) == sum(c.startswith("b, composed") for c in captions) == 2
         self.browser.quiet()
@@ -113,7 +113,7 @@ class Tests:
         glint("reference", small, "-o", self.path("reference"), "--rays=16", "--sensitivity=16")
         reference = self.run_json("reference")["reference"]
         self.show("reference")
-        assert "16 rays a pixel" in self.browser.evaluate("document.querySelector('main').textContent")
+        assert "16 rays per pixel" in self.browser.evaluate("document.querySelector('main').textContent")
         noise = {row[0]: row for row in self.table("Reference")}
         for n in reference["noise"]:
             assert abs(float(noise[n["surfaces"]][3]) - n["error"]) <= 0.06 * n["error"], (noise, n)  # two digits at least
@@ -174,7 +174,7 @@ class Tests:
         self.browser.show(os.path.join(compared, "index.html"))
         assert self.browser.evaluate("[...document.querySelectorAll('h2')].map(e => e.textContent)") == [NAME]
         assert self.browser.evaluate("[...document.querySelectorAll('h3')].map(e => e.textContent)") == \
-            ["Error against time", "Error by surface", "Why rays ended", "Reflection", "Its error, 0 (dark) to 1 (bright); grey: not compared", "Picture"]
+            ["Error against time", "Error by surface", "End reasons of rays", "Reflection", "Its error, 0 (dark) to 1 (bright); grey: not compared", "Image"]
         (rows,) = [t for t in self.browser.evaluate(f"{TABLE}({json.dumps(NAME)})") if t[0][-1] == "notes"]
         for row, preset in zip(rows[1:], presets, strict=True):
             (everything,) = [s for s in preset["surfaces"] if s["surfaces"] == "all"]
@@ -226,7 +226,7 @@ class Tests:
         with open(self.path("study/page.json"), "w", encoding="utf-8") as file:
             file.write('{"format": 2}')
         assert "format" in glint("report", self.path("study"), "-o", self.path("x.html"), status=1)
-        assert "alone" in glint("report", self.path("a"), self.path("study"), "-o", self.path("x.html"), status=2)
+        assert "report it separately" in glint("report", self.path("a"), self.path("study"), "-o", self.path("x.html"), status=2)
         assert not os.path.exists(self.path("x.html"))
 
 

@@ -71,7 +71,7 @@ class Tests:
 
     def test_the_table_lists_what_differs_in_the_order_of_the_passes(self):
         self.show()
-        rows = self.ask("[...[...document.querySelectorAll('section')].find(s => s.querySelector('h2')?.textContent.startsWith('What differs')).querySelectorAll('tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+        rows = self.ask("[...[...document.querySelectorAll('section')].find(s => s.querySelector('h2')?.textContent.startsWith('Images that differ')).querySelectorAll('tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
         expected = [(i["slot"], i["name"]) for i in self.told["images"] if i["status"] or i.get("differing")]
         assert [(r[1], r[2]) for r in rows] == expected and 3 < len(rows) < len(self.told["images"]), rows
         facts = self.ask("document.querySelector('header dl').textContent")
@@ -82,7 +82,7 @@ class Tests:
 
     def test_a_click_on_a_head_sorts(self):
         self.show()
-        heads = "[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent.startsWith('What differs'))"
+        heads = "[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent.startsWith('Images that differ'))"
         column = f"[...{heads}.querySelectorAll('tbody tr')].map(r => +r.cells[5].textContent.replace(/\\D/g, ''))"
         self.ask(f"{heads}.querySelectorAll('th button')[5].click()")
         values = self.ask(column)

@@ -143,9 +143,9 @@ static void settings_reach_their_preset_alone(void **state) {
     assert_true(number(surfaces_of(preset_of(json, 0, "mafia3_shipped"), "all"), "coverage") > 0.5);
     json_decref(json);
     free(text);
-    glint_fails(2, "which capture?", "compare");
+    glint_fails(2, "no capture given", "compare");
     glint_fails(2, "unknown preset 'kf3'", "compare", in_folder("box.exr"), "--presets=kf3");
-    glint_fails(2, "preset kf2: named twice", "compare", in_folder("box.exr"), "--presets=kf2,kf2");
+    glint_fails(2, "preset kf2 is listed twice", "compare", in_folder("box.exr"), "--presets=kf2,kf2");
     glint_fails(2, "preset mafia3 is not among --presets", "compare", in_folder("box.exr"), "--presets=kf2",
                 "--set=mafia3:resolve.fog=true");
     glint_fails(2, "preset kf2: slot resolve has no parameter blurr (did you mean blur?)", "compare",

@@ -171,14 +171,14 @@ static void runs_name_what_differs_first(void **state) {
     assert_true(number(setting, "a") == 24 && number(setting, "b") == 5);
     assert_string_equal(json_string_value(json_object_get(json_object_get(json, "first"), "slot")), "cubemap_trace");
     const json_t *images = json_object_get(json, "images"), *lost = named(images, "name", "reflection_sharp");
-    assert_contains(json_string_value(json_object_get(lost, "note")), "the second has no such image");
+    assert_contains(json_string_value(json_object_get(lost, "note")), "the second does not contain this image");
     assert_true(number(named(images, "name", "screen_travelled"), "differing") == 0);
     assert_true(number(named(images, "name", "cubemap_end"), "differing") > 0);
     json_decref(json);
     struct outcome found =
         glint("diff", in_folder("one"), in_folder("other"), "-o", in_folder("heat.png"), "--metrics=rmse", NULL);
     assert_int_equal(found.status, 2);
-    assert_contains(found.out, "cubemap_trace: travelled is the first that differs");
+    assert_contains(found.out, "the first that differs is cubemap_trace: travelled");
     outcome_free(&found);
     struct pixels heat = read_png(in_folder("heat.png"));
     assert_true(heat.width > 480);
@@ -202,8 +202,8 @@ static void a_plan_is_compared_in_what_both_have(void **state) {
         const char *const a = turned ? "all" : "planned", *const b = turned ? "planned" : "all";
         struct outcome found = glint("diff", in_folder(a), in_folder(b), NULL);
         assert_int_equal(found.status, 0);
-        assert_contains(found.out, "not made by the plan of ");
-        assert_contains(found.out, "images that both have are the same");
+        assert_contains(found.out, "not computed by the plan of ");
+        assert_contains(found.out, "images that both contain are the same");
         outcome_free(&found);
         json_t *json = diff_of(0, a, b);
         const json_t *planned = json_object_get(json, "planned"), *images = json_object_get(json, "images");
@@ -224,7 +224,7 @@ static void a_plan_is_compared_in_what_both_have(void **state) {
     json = diff_of(2, "planned", "cut");
     assert_contains(
         json_string_value(json_object_get(named(json_object_get(json, "images"), "name", "composed"), "note")),
-        "the second has no such image");
+        "the second does not contain this image");
     json_decref(json);
 }
 

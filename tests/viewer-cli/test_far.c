@@ -99,7 +99,7 @@ static void motion_agrees_as_at_the_origin(void **state) {
     double shares[2];
     for (int i = 0; i < 2; i++) {
         json_t *json = parse_json(texts[i]);
-        const json_t *motion = named(json_object_get(json, "agreement"), "what", "motion with depth and both cameras");
+        const json_t *motion = named(json_object_get(json, "agreement"), "what", "motion with the reprojection");
         shares[i] = number(motion, "share");
         assert_int_equal(json_array_size(json_object_get(json, "findings")), 0);
         json_decref(json);

@@ -160,7 +160,7 @@ static void ranges_are_of_surfaces_alone(void **state) {
     assert_true(fabs(number(range, "mean") - sum / (double)surfaces) < printed);
     const json_t *depths = json_object_get(named(channels, "name", "depth.Z"), "range");
     assert_true(number(depths, "values") == PIXELS && number(depths, "inf") == (double)(PIXELS - surfaces));
-    assert_contains(text, "of surfaces alone");
+    assert_contains(text, "ranges cover surfaces only");
     json_decref(json);
     free(text);
     free(json_text);

@@ -268,27 +268,27 @@ static void damage_and_fix(struct rewrite *r, const char *id, int n) {
     assert_true(damages[d].apply(r, 0.5));
     rewrite_save(r, in_folder("damaged.exr"));
     rewrite_finish(r);
-    struct outcome run = glint("lint", in_folder("damaged.exr"), "--fix", "-o", in_folder("mended.exr"), NULL);
+    struct outcome run = glint("lint", in_folder("damaged.exr"), "--fix", "-o", in_folder("fixed.exr"), NULL);
     assert_int_equal(run.status, 1);
     assert_contains(run.out, id);
     outcome_free(&run);
 }
 
 static bool same_pixels(void) {
-    struct outcome same = run_program("idiff", "-a", in_folder("damaged.exr"), in_folder("mended.exr"), NULL);
+    struct outcome same = run_program("idiff", "-a", in_folder("damaged.exr"), in_folder("fixed.exr"), NULL);
     const bool all = same.status == 0;
     outcome_free(&same);
     return all;
 }
 
-static void fix_mends(const char *id, bool pixels) {
+static void check_fix(const char *id, bool pixels) {
     struct rewrite *r = malloc(sizeof *r);
     assert_non_null(r);
     damage_and_fix(r, id, 0);
-    json_t *json = lint(in_folder("mended.exr"));
+    json_t *json = lint(in_folder("fixed.exr"));
     if (json_array_size(json_object_get(json, "findings"))) fail_msg("%s: still %s", id, first_finding(json));
     json_decref(json);
-    free(glint_ok("validate", in_folder("mended.exr")));
+    free(glint_ok("validate", in_folder("fixed.exr")));
     assert_int_equal(same_pixels(), !pixels);
     free(r);
 }
@@ -297,16 +297,16 @@ static void fix_declares_and_leaves_every_pixel(void **state) {
     static const char *const ids[] = {"normal.view_space", "depth.reversed", "camera.inverse", "camera.inverse_current",
                                       "motion.pixels"};
     (void)state;
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) fix_mends(ids[i], false);
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) check_fix(ids[i], false);
 }
 
 static void fix_writes_what_stands_under_sky(void **state) {
     static const char *const ids[] = {"cubemap.sky_color", "cubemap.sky_alpha", "cubemap.sky_distance"};
     (void)state;
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) fix_mends(ids[i], true);
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) check_fix(ids[i], true);
 }
 
-/* What is named, but mended by no declaration; and a declaration that would be right for this frame's G-buffer and is wrong for the one
+/* A finding that no declaration fixes; and a declaration that would be right for this frame's G-buffer and is wrong for the one
    before, which then breaks a rule. */
 static void fix_leaves_what_it_would_make_worse(void **state) {
     struct rewrite *r = malloc(sizeof *r);
@@ -316,11 +316,11 @@ static void fix_leaves_what_it_would_make_worse(void **state) {
     assert_true(same_pixels());
     damage_and_fix(r, "normal.unorm", 0);
     assert_true(same_pixels());
-    struct outcome run = glint("validate", in_folder("mended.exr"), NULL);
+    struct outcome run = glint("validate", in_folder("fixed.exr"), NULL);
     assert_true(!strstr(run.out, "previous.gbuffer"));
     outcome_free(&run);
-    run = glint("lint", in_folder("damaged.exr"), "--fix", "-o", in_folder("mended.exr"), NULL);
-    assert_contains(run.out, "normal.unorm is not mended");
+    run = glint("lint", in_folder("damaged.exr"), "--fix", "-o", in_folder("fixed.exr"), NULL);
+    assert_contains(run.out, "normal.unorm is not fixed");
     outcome_free(&run);
     free(r);
 }
@@ -337,13 +337,13 @@ static void storage_of_depth_is_told(void **state) {
     (void)state;
     char *text = glint_ok("lint", base(1, BASE_DEVICE));
     /* near 0.1 m: 10² / 0.1 / (2²⁴ − 1) */
-    assert_contains(text, "depth storage D24, device: steps of 0.6 µm at 1 m, 60 µm at 10 m, 6 mm at 100 m");
+    assert_contains(text, "depth stored as D24, device: steps of 0.6 µm at 1 m, 60 µm at 10 m, 6 mm at 100 m");
     free(text);
 }
 
 static void wrong_use_is_refused(void **state) {
     (void)state;
-    glint_fails(2, "which capture", "lint");
+    glint_fails(2, "no capture given", "lint");
     glint_fails(2, "--fix and -o", "lint", base(0, BASE_PLAIN), "--fix");
     glint_fails(1, "nowhere.exr", "lint", "nowhere.exr");
 }

@@ -114,7 +114,7 @@ static void a_drawing_has_every_step(void **state) {
     assert_true(drawn > 3);
     assert_int_equal(count(svg, "<title>"), drawn);
     assert_contains(svg, "pixel 40,45");
-    assert_contains(svg, "depth in m, even in 1/z");
+    assert_contains(svg, "depth in m, linear in 1/z");
     assert_contains(svg, "in front: continues");
     assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
     assert_non_null(json_object_get(json, "reference"));
@@ -132,8 +132,8 @@ static void mixtures_are_told_and_drawn(void **state) {
     assert_contains(text, "attenuates the reflection");
     assert_contains(text, "image reflection, share 0.");
     char *svg = read_text(in_folder("kf2.svg"));
-    assert_contains(svg, "resolve/blurred: mixes in");
-    assert_contains(svg, "compose/contribution: blends a colour over another");
+    assert_contains(svg, "resolve/blurred: combines");
+    assert_contains(svg, "compose/contribution: blends one colour over another");
     assert_contains(svg, "above: reflection, ");
     assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
     free(svg);
@@ -146,7 +146,7 @@ static void mixtures_are_told_and_drawn(void **state) {
     assert_int_equal(json_number_value(json_object_get(made, "texel_x")), 40 / 2 / 2); /* level 1, last */
     assert_true(json_number_value(json_object_get(tap, "weight")) > 0);
     svg = read_text(in_folder("de.svg"));
-    assert_contains(svg, "reflection_across level 0, texel 5,5 is made of");
+    assert_contains(svg, "reflection_across level 0, texel 5,5 combines");
     json_decref(json);
     free(svg);
     free(text);
@@ -156,7 +156,7 @@ static void the_text_tells_it_all(void **state) {
     (void)state;
     make_capture();
     char *text = glint_ok("probe", CAPTURE, "40,45", "--set=screen_trace.length_m=0");
-    assert_contains(text, "capture  what the G-buffer holds");
+    assert_contains(text, "capture  G-buffer at the pixel");
     assert_contains(text, "normal_jittered");
     assert_contains(text, "cubemap_trace/march");
     assert_contains(text, "behind m");
@@ -165,7 +165,7 @@ static void the_text_tells_it_all(void **state) {
     assert_contains(text, "reference: screen_trace/dda, cubemap_trace/exact");
     free(text);
     text = glint_ok("probe", CAPTURE, "48,1", "--alone");
-    assert_contains(text, "no ray: it shows the sky");
+    assert_contains(text, "no ray: it is sky");
     free(text);
     free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=64x36", "--cube-size=8"));
     text = glint_ok("probe", in_folder("matte.exr"), "20,30"); /* no pass runs */
@@ -176,10 +176,10 @@ static void the_text_tells_it_all(void **state) {
 static void what_is_asked_wrong_is_said(void **state) {
     (void)state;
     make_capture();
-    glint_fails(2, "which capture?", "probe");
-    glint_fails(2, "which pixel of", "probe", CAPTURE);
+    glint_fails(2, "no capture given", "probe");
+    glint_fails(2, "no pixel of", "probe", CAPTURE);
     glint_fails(2, "expected a pixel X,Y", "probe", CAPTURE, "12.5,3");
-    glint_fails(2, "one pixel at a time", "probe", CAPTURE, "12,3", "13,3");
+    glint_fails(2, "expected one capture and one pixel", "probe", CAPTURE, "12,3", "13,3");
     glint_fails(2, "pixel 96,3: outside of the picture of 96 x 54 pixels", "probe", CAPTURE, "96,3");
     glint_fails(2, "pixel -5,3: outside of the picture of 96 x 54 pixels", "probe", CAPTURE, "-5,3");
     glint_fails(2, "pixel 5,-3: outside of the picture of 96 x 54 pixels", "probe", CAPTURE, "--alone", "5,-3");

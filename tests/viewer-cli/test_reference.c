@@ -129,7 +129,7 @@ static void what_cannot_be_is_said(void **state) {
     glint_fails(2, "expected a whole number", "reference", in_folder("room.exr"), "--rays=0");
     glint_fails(2, "one capture", "reference", in_folder("room.exr"), in_folder("matte.exr"));
     glint_fails(2, "unknown preset", "reference", in_folder("room.exr"), "--like=nobody");
-    free(glint_ok("reference", in_folder("room.exr"), "-o", in_folder("run"), "--rays=16", "--anew", "--like=kf2",
+    free(glint_ok("reference", in_folder("room.exr"), "-o", in_folder("run"), "--rays=16", "--overwrite", "--like=kf2",
                   "--set=resolve.fog=false"));
 }
 

@@ -77,7 +77,7 @@ static void checks_end_with_their_status(void **state) {
     outcome_free(&found);
     free(glint_ok("stability", in_folder("room.exr"), "--seeds=1", "--fail-above=0.001", "--fail-percent=100"));
     glint_fails(2, "found \"gbuffer:depht\"", "stability", in_folder("room.exr"), "--perturb=gbuffer:depht");
-    glint_fails(2, "which capture?", "stability");
+    glint_fails(2, "no capture given", "stability");
     glint_fails(2, "the same bound", "stability", in_folder("room.exr"), "--bound=3", "--fail-above=4");
     glint_fails(1, "nowhere.exr", "stability", in_folder("nowhere.exr"));
 }

@@ -97,7 +97,7 @@ static void an_interrupted_shot_is_completed(void **state) {
     free(text);
     /* complete: nothing is done, unless it is asked for */
     text = glint_ok("replay", SHOT);
-    assert_contains(text, "s.0003.exr: complete, kept");
+    assert_contains(text, "s.0003.exr: already complete, kept");
     free(text);
     free(glint_ok("replay", SHOT, "--no-cache"));
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));

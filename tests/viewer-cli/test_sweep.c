@@ -202,9 +202,9 @@ static void several_captures_have_a_mean_and_a_worst_case(void **state) {
 static void what_is_wrong_is_named(void **state) {
     (void)state;
     char *room = strdup(in_folder("room.exr")), *out = strdup(in_folder("bad")); /* they outlive the calls between */
-    glint_fails(2, "which capture?", "sweep", "-o", out, "--vary=screen_trace.cells=8,16");
-    glint_fails(2, "where to? -o FOLDER", "sweep", room, "--vary=screen_trace.cells=8,16");
-    glint_fails(2, "what varies?", "sweep", room, "-o", out);
+    glint_fails(2, "no capture given", "sweep", "-o", out, "--vary=screen_trace.cells=8,16");
+    glint_fails(2, "no output folder given: -o FOLDER", "sweep", room, "--vary=screen_trace.cells=8,16");
+    glint_fails(2, "nothing to vary", "sweep", room, "-o", out);
     glint_fails(2, "there is no slot scren_trace (did you mean screen_trace?)", "sweep", room, "-o", out,
                 "--vary=scren_trace.cells=8,16");
     glint_fails(2, "no parameter cell (did you mean cells?)", "sweep", room, "-o", out,
@@ -215,7 +215,7 @@ static void what_is_wrong_is_named(void **state) {
     glint_fails(2, "expected lhs:N", "sweep", room, "-o", out, "--vary=screen_trace.cells=8,16", "--sample=sobol:4");
     glint_fails(2, "expected one run for each of 1 captures, found 2", "sweep", room, "-o", out,
                 "--vary=screen_trace.cells=8,16", "--reference=a", "--reference=b");
-    glint_fails(2, "expected runs or the truth, found both", "sweep", room, "-o", out, "--vary=screen_trace.cells=8,16",
+    glint_fails(2, "expected either runs or truth", "sweep", room, "-o", out, "--vary=screen_trace.cells=8,16",
                 "--reference=a", "--reference=truth");
     glint_fails(2, "metric 'rmsd': expected one of", "sweep", room, "-o", out, "--vary=screen_trace.cells=8,16",
                 "--metric=rmsd");
@@ -224,10 +224,10 @@ static void what_is_wrong_is_named(void **state) {
     glint_fails(2, "expected a run of", "sweep", in_folder("street.exr"), "-o", in_folder("bad2"), PLAIN, "--reference",
                 in_folder("reference"), "--vary=screen_trace.steps=8,16");
     /* a folder that holds another sweep, and one whose log somebody wrote into */
-    glint_fails(2, "two: holds a sweep of other metrics", "sweep", room, in_folder("street.exr"), "-o",
+    glint_fails(2, "two: contains a sweep with other metrics", "sweep", room, in_folder("street.exr"), "-o",
                 in_folder("two"), PLAIN, "--rays=16", "--repeat=0", "--vary=screen_trace=linear,dda",
                 "--vary=screen_trace.steps=4,64", "--metric=ssim");
-    glint_fails(2, "holds a sweep of other vary: there [\"screen_trace=linear,dda\"", "sweep", room,
+    glint_fails(2, "contains a sweep with other vary: [\"screen_trace=linear,dda\"", "sweep", room,
                 in_folder("street.exr"), "-o", in_folder("two"), PLAIN, "--rays=16", "--repeat=0",
                 "--vary=screen_trace=linear,dda");
     FILE *log = fopen(in_folder("two/log.jsonl"), "ab");

@@ -152,7 +152,7 @@ static void an_interrupted_search_goes_on(void **state) {
              in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
     struct outcome stopped = run_program("bash", "-c", command, NULL);
     assert_int_equal(stopped.status, 130);
-    assert_contains(stopped.err, "the same command goes on from there");
+    assert_contains(stopped.err, "the same command resumes the search");
     outcome_free(&stopped);
     json_t *best = load("c.json");
     assert_true(json_is_false(json_object_get(json_object_get(best, "provenance"), "confirmed")));
@@ -206,20 +206,20 @@ static bool says(const json_t *left, const char *name, const char *why) {
     return false;
 }
 
-/* Everything declared, but what cannot matter; two captures, one unseen, in the least time for an error. */
+/* Everything declared, but what cannot matter; two captures, one held out, in the least time for an error. */
 static void what_cannot_matter_is_left_alone(void **state) {
     (void)state;
-    char *text = glint_ok("tune", in_folder("room.exr"), "--unseen", in_folder("street.exr"), "-o", in_folder("d.json"),
-                          PLAIN, "--error=120%", "--tries=2", "--rounds=1", "--repeat=1", "--rays=4", "--json",
-                          "--use=cubemap_mips=plain");
+    char *text = glint_ok("tune", in_folder("room.exr"), "--held-out", in_folder("street.exr"), "-o",
+                          in_folder("d.json"), PLAIN, "--error=120%", "--tries=2", "--rounds=1", "--repeat=1",
+                          "--rays=4", "--json", "--use=cubemap_mips=plain");
     json_t *tuned = parse_json(text);
     free(text);
     const json_t *left = json_object_get(tuned, "left");
-    assert_true(says(left, "downsample.ndf", "another reference"));
-    assert_true(says(left, "compose.fresnel", "no part in the reflection"));
-    assert_true(says(left, "cubemap_active.count", "on the host"));
-    assert_true(says(left, "cubemap_mips.join", "works on cube maps"));
-    assert_true(says(left, "screen_trace.thickness", "the reference assumes it too"));
+    assert_true(says(left, "downsample.ndf", "would change the reference"));
+    assert_true(says(left, "compose.fresnel", "does not influence the reflection"));
+    assert_true(says(left, "cubemap_active.count", "on the host only"));
+    assert_true(says(left, "cubemap_mips.join", "not processed every frame"));
+    assert_true(says(left, "screen_trace.thickness", "which the reference makes too"));
     assert_false(says(left, "cubemap_trace.steps_hq", ""));
     assert_int_equal(json_array_size(json_object_get(tuned, "confirmed")), 2);
     assert_true(number(json_object_get(contender(tuned, 1, "tuned"), "ms"), "median") > 0);
@@ -230,17 +230,19 @@ static void what_is_wrong_is_named(void **state) {
     (void)state;
     char *room = strdup(in_folder("room.exr")), *out = strdup(in_folder("bad.json"));
     const char *budget = "--budget-ms=50%";
-    glint_fails(2, "which capture?", "tune", "-o", out, budget);
-    glint_fails(2, "which limit?", "tune", room, "-o", out);
-    glint_fails(2, "which limit?", "tune", room, "-o", out, budget, "--error=0.1");
-    glint_fails(2, "where to?", "tune", room, budget);
-    glint_fails(2, "expected a preset's file, NAME.json", "tune", room, "-o", "bad", budget);
-    glint_fails(2, "expected a preset's file, NAME.json", "tune", room, "-o", ".json", budget);
+    glint_fails(2, "no capture given", "tune", "-o", out, budget);
+    glint_fails(2, "expected one of --budget-ms, --budget-fetches and --error", "tune", room, "-o", out);
+    glint_fails(2, "expected one of --budget-ms, --budget-fetches and --error", "tune", room, "-o", out, budget,
+                "--error=0.1");
+    glint_fails(2, "no output file given", "tune", room, budget);
+    glint_fails(2, "expected a file name NAME.json", "tune", room, "-o", "bad", budget);
+    glint_fails(2, "expected a file name NAME.json", "tune", room, "-o", ".json", budget);
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=-1");
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=nan");
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=2x");
-    glint_fails(2, "a budget says what it is of", "tune", room, "-o", out, budget, "--cost=fetches");
-    glint_fails(2, "is for times", "tune", room, "-o", out, "--budget-fetches=9", "--slots=resolve");
+    glint_fails(2, "--cost can only be used with --error", "tune", room, "-o", out, budget, "--cost=fetches");
+    glint_fails(2, "--slots cannot be used with fetches", "tune", room, "-o", out, "--budget-fetches=9",
+                "--slots=resolve");
     glint_fails(2, "there is no slot resolv", "tune", room, "-o", out, budget, "--slots=resolv");
     glint_fails(2, "which is better when lower", "tune", room, "-o", out, budget, "--metric=psnr");
     glint_fails(2, "expected one run for each of 1 captures", "tune", room, "-o", out, budget, "--reference=a",
@@ -251,31 +253,31 @@ static void what_is_wrong_is_named(void **state) {
         {"--vary=screen_trace.steps=0..8", "expected a range within 1 to"},
         {"--vary=screen_trace.steps=8..2", "expected A..B with A below B"},
         {"--vary=screen_trace.steps=2.5..64", "expected whole numbers"},
-        {"--vary=screen_trace.steps=2..3", "expected a range that holds the start's own"},
+        {"--vary=screen_trace.steps=2..3", "expected a range that contains the start value"},
         {"--vary=screen_trace.steps=", "--vary: expected SLOT.PARAMETER"},
         {"--vary=screen_trace=linear,hizz", "no variant hizz"},
         {"--vary=screen_trace", "expected variants"},
-        {"--vary=downsample.ndf", "changes what is asked"},
+        {"--vary=downsample.ndf", "would change the reference"},
         {"--vary=cubemap_trace.fallback=0..1", "expected a list of choices"},
         {"--vary=pipeline.rays=0..4", "expected a range within 1 to 1024"},
     };
     for (size_t i = 0; i < sizeof axes / sizeof *axes; i++)
         glint_fails(2, axes[i][1], "tune", room, "-o", out, PLAIN, "--reference=truth", budget, axes[i][0]);
-    glint_fails(2, "nothing that may move is a count", "tune", room, "-o", in_folder("odd.json"), PLAIN,
+    glint_fails(2, "no tuned parameter is a count", "tune", room, "-o", in_folder("odd.json"), PLAIN,
                 "--reference=truth", budget, "--baseline=scale", "--repeat=0", "--rounds=1",
                 "--vary=cubemap_trace.secant");
-    glint_fails(1, "; of that screen_trace/linear takes 100 % (not tried: ", "tune", room, "-o", in_folder("none.json"),
-                PLAIN, "--reference=truth", "--budget-ms=1e-6", "--slots=screen_trace", "--tries=1", "--rounds=1",
-                AXES);
-    glint_fails(2, "varied twice", "tune", room, "-o", out, PLAIN, "--reference=truth", budget,
+    glint_fails(1, "; its most expensive passes: screen_trace/linear takes 100 % (not tried: ", "tune", room, "-o",
+                in_folder("none.json"), PLAIN, "--reference=truth", "--budget-ms=1e-6", "--slots=screen_trace",
+                "--tries=1", "--rounds=1", AXES);
+    glint_fails(2, "is given twice", "tune", room, "-o", out, PLAIN, "--reference=truth", budget,
                 "--vary=screen_trace.steps", "--vary=screen_trace.steps=2..64");
     glint_fails(1, "truth.reflection.ggx: missing", "tune", in_folder("street.exr"), "-o", out, PLAIN,
                 "--reference=truth", budget, "--vary=screen_trace.steps");
     /* a budget that nothing reaches; a folder that holds another search, and one whose log somebody wrote into */
-    glint_fails(1, "no point reaches a cost of 0.001 fetches/px: the least of", "tune", room, "-o", out, PLAIN,
+    glint_fails(1, "no point meets a cost limit of 0.001 fetches/px: the best of", "tune", room, "-o", out, PLAIN,
                 "--reference=truth", "--budget-fetches=0.001", "--tries=12", AXES);
     assert_false(file_exists(out));
-    glint_fails(2, "bad.tune: holds a tuning of other axes", "tune", room, "-o", out, PLAIN, "--reference=truth",
+    glint_fails(2, "bad.tune: contains a tuning with other axes", "tune", room, "-o", out, PLAIN, "--reference=truth",
                 "--budget-fetches=0.001", "--vary=screen_trace.steps");
     FILE *log = fopen(in_folder("bad.tune/log.jsonl"), "ab");
     assert_non_null(log);

@@ -335,8 +335,8 @@ static void wrong_use_and_bad_files(void **state) {
     glint_fails(2, "there is no display", "view", path, "--display=P3", "-o", out);
     glint_fails(2, "did you mean normal?", "view", path, "--as=normals", "-o", out);
     glint_fails(2, "--zoom=0", "view", path, "--zoom=0", "-o", out);
-    glint_fails(2, "the first must be the smaller", "view", path, "--range=2,1", "-o", out);
-    glint_fails(2, "where to?", "view", path);
+    glint_fails(2, "the first value must be smaller than the second", "view", path, "--range=2,1", "-o", out);
+    glint_fails(2, "no output given", "view", path);
     glint_fails(1, "nowhere.exr", "view", "nowhere.exr", "-o", out);
     glint_fails(1, "nofolder", "view", path, "-o", "/nofolder/x.png");
     glint_fails(1, "OpenColorIO", "view", path, "--ocio", "/nofolder/config.ocio", "-o", out);

@@ -72,7 +72,7 @@ class Tests:
         self.write("mine.json", json.dumps(preset))
         watched = Watched(self.path("room.exr"), "-o", self.path("run"), "--preset", self.path("mine.json"), f"--shader=compose={self.path('my.comp')}")
         try:
-            assert "the same as the first" in watched.until("version 1")
+            assert "equal to the first" in watched.until("version 1")
             watched.until("watching", "watch.html")
             self.browser.show(self.path("run/watch.html"))
             assert self.page_says("Version 1") and self.browser.evaluate("document.querySelectorAll('.stage').length") == 1
@@ -88,7 +88,7 @@ class Tests:
             assert abs(largest["b"] / largest["a"] - 2) < 2e-3, largest  # each is rounded to half
 
             self.write("my.comp", shader.replace(store, "vec4(storable(colour, frame.up.w), 1.0)"))
-            line = watched.until("version 3 does not run")
+            line = watched.until("version 3 failed")
             assert "my.comp" in line and watched.process.poll() is None, line
             assert self.page_says("Version 3") and self.page_says("this is version 2"), self.browser.messages
             fault = self.browser.evaluate("document.querySelector('pre').textContent")
@@ -96,7 +96,7 @@ class Tests:
             assert self.browser.evaluate("document.querySelectorAll('.stage').length") >= 1
 
             self.write("my.comp", shader)
-            assert "the same as the first" in watched.until("version 4")
+            assert "equal to the first" in watched.until("version 4")
 
             preset["set"]["cubemap_trace.steps_hq"] = 2
             self.write("mine.json", json.dumps(preset))
@@ -104,7 +104,7 @@ class Tests:
             assert "cubemap_trace: " in line, line
             assert self.page_says("Version 5") and self.page_says("cubemap_trace.steps_hq")
             self.write("mine.json", "{")
-            assert "mine.json" in watched.until("version 6 does not run")
+            assert "mine.json" in watched.until("version 6 failed")
             asked = {url for url in self.browser.requests if not url.startswith("data:image/")}
             assert len(asked) == 1 and not self.browser.messages, (asked, self.browser.messages)
         finally:

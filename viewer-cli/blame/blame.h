@@ -1,5 +1,5 @@
-/* Blame: every pipeline between one and its reference that is asked for, on every capture, and what each exchanged slot is
-   worth. */
+/* Attributes the error of a pipeline to its slots: evaluates pipelines in which some slots are replaced by their references, on every
+   capture, and computes the share of each slot. */
 #ifndef GLINT_VIEWER_BLAME_H
 #define GLINT_VIEWER_BLAME_H
 
@@ -10,30 +10,31 @@
 #include "journal/journal.h"
 #include "io/progress.h"
 
-/* What a coalition is worth: errors against both answers by class, the chosen answer first, and texture fetches. */
+/* Values of a coalition (a set of replaced players): errors by class of pixels against reference and truth, the chosen one first, and
+   texture fetches. */
 enum { BLAME_CLASSES = GLINT_SURFACE_COUNT, BLAME_FETCHES = GLINT_ANSWER_COUNT * BLAME_CLASSES, BLAME_VALUES };
 extern const char *const blame_classes[BLAME_CLASSES];
 
-/* Milliseconds a frame, NAN without: what exchanging a player alone adds, and what having it alone as it is saves. */
+/* Milliseconds per frame, NAN if not timed: added when only this player is replaced; saved when only this player is kept. */
 struct blame_time {
-    double preset, reference; /* of the whole pipelines */
+    double preset, reference; /* time of the whole pipelines */
     double added[GLINT_PLAYERS_MAX], saved[GLINT_PLAYERS_MAX];
 };
-/* Of one capture, or the mean of several. */
+/* Results of one capture, or the mean of several. */
 struct blame_sum {
     struct glint_shapley shapley;
     struct blame_time time;
 };
 
 struct blame {
-    const char *out; /* NULL: nothing is kept */
+    const char *out; /* NULL: results are not written */
     struct list captures;
-    bool shot;          /* the captures are frames one after the other, and the last is blamed */
-    struct list before; /* of the shot: what each pipeline runs first */
+    bool shot;          /* the captures are consecutive frames, and the error of the last is attributed */
+    struct list before; /* earlier frames of the shot, which each pipeline runs first */
     struct glint_pipeline *base;
     struct glint_players *players;
     struct glint_device *device;
-    struct answer_args against; /* which answer comes first */
+    struct answer_args against; /* reference or truth */
     bool all;
     uint32_t rounds, player_rays;
     enum glint_metric metric;
@@ -41,36 +42,36 @@ struct blame {
     struct glint_shapley_options options;
     struct progress *progress;
 
-    size_t count; /* of players */
+    size_t count; /* number of players */
     struct journal journal;
-    json_t *definition, *lines; /* lines: by blame_look_key, blame_time_key */
-    struct blame_sum *captured; /* of each capture */
-    struct blame_sum mean;      /* of those whose shares are known, or of the first; the only one's when there is one */
-    bool complete;              /* all shares, and all times */
-    struct timespec told;
+    json_t *definition, *lines; /* lines: results, by blame_look_key and blame_time_key */
+    struct blame_sum *captured; /* one for each capture */
+    struct blame_sum mean;      /* mean of the captures whose shares are known, or the first capture */
+    bool complete;              /* all shares and times are known */
+    struct timespec published;
 };
 void blame_finish(struct blame *blame);
 static inline size_t blame_value(size_t answer, size_t class) {
     return answer * BLAME_CLASSES + class;
 }
-/* The answer in the first place, and in the second. */
+/* Whether the first (place 0) or the second value is against the reference or the truth. */
 static inline enum glint_answer blame_answer(const struct blame *blame, size_t place) {
     return (place == 0) == answer_args_kind(&blame->against);
 }
-/* The error that the player takes away (positive) or makes when it alone is exchanged in the preset; that it makes when it
-   alone is as it is in the reference; its share of what lies between both. */
+/* The error that disappears when only this player is replaced; the error that appears when only this player is kept; its share of
+   the difference between preset and reference. */
 static inline double blame_removed(const struct blame_sum *sum, size_t player, size_t value) {
     return -sum->shapley.first[player * BLAME_VALUES + value];
 }
 static inline double blame_made(const struct blame_sum *sum, size_t player, size_t value) {
     return -sum->shapley.last[player * BLAME_VALUES + value];
 }
-/* NAN as long as it is not known. */
+/* NAN as long as the share is not known. */
 static inline double blame_share(const struct blame_sum *sum, size_t player, size_t value) {
     const bool known = sum->shapley.exact || sum->shapley.permutations;
     return known ? -sum->shapley.share[player * BLAME_VALUES + value] : (double)NAN;
 }
-/* Whether it says anything: what one exchange changes is known first, then shares, then times. */
+/* Whether there are any results: single replacements are evaluated first, then shares, then times. */
 static inline bool blame_is_known(const struct blame_sum *sum) {
     return sum->shapley.share != NULL;
 }
@@ -80,26 +81,26 @@ static inline double blame_half(const struct blame_sum *sum, size_t player, size
 static inline double blame_total(const struct blame_sum *sum, size_t value) {
     return sum->shapley.none[value] - sum->shapley.all[value];
 }
-/* Error for each millisecond: what exchanging the player buys, or (*already) what it buys as it is where its reference takes
-   less time and errs more. NAN when neither, or without times. */
+/* Error removed per added millisecond by replacing the player, or (*already) error that the player itself avoids per millisecond, if its
+   reference takes less time but has more error. NAN in other cases and without times. */
 double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bool *already);
-/* "exact, of all 128 pipelines" */
+/* "exact, from all 128 pipelines" */
 void blame_how(const struct blame_sum *sum, char text[96]);
 
-/* blame_run.c: finds what is missing: the shares of all captures, then times. Both tell what is known as they go. */
+/* run.c: evaluates what is not in the log yet: first the shares of all captures, then times. Both publish intermediate results. */
 bool blame_open(struct blame *blame, const struct list *shaders, struct glint_error *err);
 bool blame_find_shares(struct blame *blame, struct glint_error *err);
 bool blame_find_times(struct blame *blame, struct glint_error *err);
 
-/* blame_tell.c: writes what is known so far into the folder, if there is one. `at_once`: though it was done a moment ago. */
-bool blame_tell(struct blame *blame, bool at_once, struct glint_error *err);
+/* publish.c: writes the results so far into the folder, if there is one, at most every few seconds. `at_once`: regardless of the interval. */
+bool blame_publish(struct blame *blame, bool at_once, struct glint_error *err);
 
 /* blame_sum.c */
-/* What a line of a look says; NAN where it does not. */
+/* The values in a line of the log; NAN where it has none. */
 void blame_values(const struct blame *blame, const json_t *line, double values[BLAME_VALUES]);
 void blame_sum_times(struct blame *blame, size_t capture);
 bool blame_sum_up(struct blame *blame, struct glint_error *err);
-/* Coalitions that are timed: the preset, the reference, and both with one player exchanged; returns how many. */
+/* The coalitions that are timed: the preset, the reference, and both with one player replaced or kept. Returns their number. */
 size_t blame_timed(const struct blame *blame, uint32_t timed[2 * GLINT_PLAYERS_MAX + 2]);
 /* Keys of `lines`. */
 void blame_look_key(size_t capture, uint32_t coalition, char key[64]);

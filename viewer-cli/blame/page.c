@@ -1,11 +1,11 @@
-/* A blame as a page: where the error comes from, and what mending it buys. */
+/* The page of glint blame: the error by slot, and the error that replacements remove per millisecond. */
 #include <math.h>
 #include <string.h>
 
 #include "blame/blame.h"
 #include "draw/page/page.h"
 
-/* Players as they run: the first one on top. */
+/* Players in the order in which they run, the first one on top. */
 static size_t player_at(const struct blame *blame, size_t place) {
     return blame->count - 1 - place;
 }
@@ -36,7 +36,7 @@ static json_t *bars_of(const struct blame *blame, const struct blame_sum *sum, e
     return points;
 }
 
-/* Where the error comes from: three bars a player. */
+/* Chart with three bars for each player: share, removes, makes. */
 static json_t *shares_chart(const struct blame *blame, const struct blame_sum *sum, size_t answer, const char *title) {
     json_t *names = json_array(), *series = json_array();
     char text[300];
@@ -45,13 +45,13 @@ static json_t *shares_chart(const struct blame *blame, const struct blame_sum *s
     for (int bar = 0; bar < BARS; bar++)
         json_array_append_new(series, json_pack("{s:s, s:s, s:o}", "name", bar_names[bar], "kind", "bar", "points",
                                                 bars_of(blame, sum, (enum bar)bar, blame_value(answer, 0))));
-    snprintf(text, sizeof text, "Where %s's error comes from: %.200s", glint_pipeline_name(blame->base), title);
+    snprintf(text, sizeof text, "Error of %s by slot: %.200s", glint_pipeline_name(blame->base), title);
     return json_pack("{s:s, s:I, s:{s:s, s:s}, s:{s:s, s:s, s:o}, s:o}", "title", text, "height",
                      (json_int_t)(110 + 58 * blame->count), "x", "name", glint_metric(blame->metric)->title, "unit", "",
                      "y", "name", "", "scale", "category", "categories", names, "series", series);
 }
 
-/* What each millisecond buys. */
+/* Chart of the error removed per millisecond. */
 static json_t *bought_chart(const struct blame *blame, const struct blame_sum *sum, size_t answer, const char *title) {
     json_t *points[2] = {json_array(), json_array()}, *names = json_array();
     char text[300];
@@ -65,12 +65,12 @@ static json_t *bought_chart(const struct blame *blame, const struct blame_sum *s
             json_array_append_new(points[already],
                                   json_pack("{s:f, s:I, s:s}", "x", bought, "y", (json_int_t)i, "name", name));
     }
-    snprintf(text, sizeof text, "What each millisecond buys: %.200s", title);
+    snprintf(text, sizeof text, "Error removed per millisecond: %.200s", title);
     return json_pack("{s:s, s:{s:s, s:s, s:s}, s:{s:s, s:s, s:o}, s:[{s:s, s:s, s:o}, {s:s, s:s, s:o}]}", "title", text,
-                     "x", "name", "error for each millisecond", "unit", glint_metric(blame->metric)->title, "scale",
-                     "log", "y", "name", "", "scale", "category", "categories", names, "series", "name",
-                     "reference buys", "kind", "scatter", "points", points[0], "name", "buys already", "kind",
-                     "scatter", "points", points[1]);
+                     "x", "name", "error per millisecond", "unit", glint_metric(blame->metric)->title, "scale", "log",
+                     "y", "name", "", "scale", "category", "categories", names, "series", "name", "reference buys",
+                     "kind", "scatter", "points", points[0], "name", "buys already", "kind", "scatter", "points",
+                     points[1]);
 }
 
 static json_t *share_cell(const struct blame_sum *sum, size_t p, size_t v) {
@@ -86,7 +86,7 @@ static void add_players(const struct blame *blame, const struct blame_sum *sum, 
     json_t *table = page_table(blocks);
     page_column(table, "player", "");
     page_column(table, "share", "|");
-    page_column(table, "of all", "%");
+    page_column(table, "of total", "%");
     for (size_t i = 0; i < sizeof more / sizeof *more; i++) page_column(table, more[i][0], more[i][1]);
     for (size_t i = 0; i < blame->count; i++) {
         const size_t p = player_at(blame, i);
@@ -107,7 +107,7 @@ static void add_players(const struct blame *blame, const struct blame_sum *sum, 
                        json_number(100 * shares / blame_total(sum, v)), json_number(removed), json_number(made)));
 }
 
-/* Shares within each class of surface. */
+/* Table of the shares within each class of surfaces. */
 static void add_classes(const struct blame *blame, const struct blame_sum *sum, size_t answer, json_t *blocks) {
     json_t *table = page_table(blocks);
     page_column(table, "shares by surface", "");
@@ -149,25 +149,26 @@ static void add_sum(const struct blame *blame, json_t *document, const char *tit
 }
 
 static const char meaning[] =
-    "Removes, adds, buys, fetches: this player alone exchanged in the preset: the error that goes, the time it adds, "
-    "the "
-    "error that goes for each millisecond (where exchanging it saves time and errs more: what its own milliseconds buy "
-    "already), texture fetches added. Makes, saves: it alone kept as it is while all others are as in the reference: "
-    "the "
-    "error that comes, the time that it saves. Where removes and makes differ, players interact. The share is the mean "
-    "of "
-    "what a player changes over all orders in which they can be exchanged one after the other; shares add up to the "
-    "error "
-    "of the preset less that of its reference. A negative one: the player makes the picture better than it would be "
-    "without.";
+    "A player is a slot, or a group of slots that can only be replaced together. Removes, adds, buys, fetches: only "
+    "this "
+    "player is replaced by its reference; the columns show the error that disappears, the added time, the error "
+    "removed "
+    "per millisecond (where the replacement saves time but increases the error: the error that the player itself "
+    "avoids "
+    "per millisecond), and the added texture fetches. Makes, saves: only this player is kept and all others are "
+    "replaced; "
+    "the columns show the error that appears and the time saved. Where removes and makes differ, players interact. The "
+    "share (Shapley value) is the mean change of error by a player over all orders in which players can be replaced; "
+    "shares add up to the error of the preset minus that of its reference. A player with a negative share improves the "
+    "image.";
 
 static void add_meaning(const struct blame *blame, json_t *document) {
-    json_t *blocks = page_section(document, "What the players are");
+    json_t *blocks = page_section(document, "Players: slots and groups of slots");
     page_text(blocks, "text", meaning);
     json_t *table = page_table(blocks);
     page_column(table, "player", "");
-    page_column(table, "exchanged", "");
-    page_column(table, "why together", "");
+    page_column(table, "replacement", "");
+    page_column(table, "reason for the group", "");
     for (size_t i = 0; i < blame->count; i++) {
         const size_t p = player_at(blame, i);
         page_row(table, json_pack("[s, s, s]", glint_player_name(blame->players, p),
@@ -179,13 +180,12 @@ static void add_facts(const struct blame *blame, json_t *document) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
     char text[300];
     for (size_t c = 0; c < blame->captures.count; c++) page_fact(document, "capture", blame->captures.items[c]);
-    if (!blame->complete)
-        page_fact(document, "not complete", "what is known so far; the same command goes on from there");
+    if (!blame->complete) page_fact(document, "incomplete", "the search was interrupted; the same command resumes it");
     page_fact(document, "preset", glint_pipeline_name(blame->base));
     page_fact(document, "error", glint_metric(blame->metric)->title);
     page_fact(document, "device", device->name);
-    snprintf(text, sizeof text, "median of %u rounds in turns%s", blame->rounds,
-             device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");
+    snprintf(text, sizeof text, "median of %u alternating rounds%s", blame->rounds,
+             device->is_cpu ? "; a CPU device: times do not represent a GPU" : "");
     if (blame->rounds) page_fact(document, "times", text);
 }
 
@@ -206,7 +206,7 @@ static bool write_charts(const struct blame *blame, struct glint_error *err) {
 
 bool blame_write_page(const struct blame *blame, struct glint_error *err) {
     char title[200], path[4096];
-    snprintf(title, sizeof title, "Where the error of %.100s comes from", glint_pipeline_name(blame->base));
+    snprintf(title, sizeof title, "Error of %.100s by slot", glint_pipeline_name(blame->base));
     json_t *document = page_create(title);
     if (!document) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     add_facts(blame, document);

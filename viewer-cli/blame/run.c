@@ -1,16 +1,16 @@
-/* Looks at coalitions and times some, as far as that is not in the log yet. */
+/* Evaluates coalitions and times some of them, unless the results are in the log already. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "blame/blame.h"
 
-/* One capture under way. */
+/* State of the work on one capture. */
 struct work {
     struct blame *blame;
     size_t capture;
     struct glint_judge *judge;
-    struct glint_capture *open, **before; /* as many as blame->before */
+    struct glint_capture *open, **before; /* blame->before.count of them */
     size_t done, total;
     char label[64];
 };
@@ -33,7 +33,7 @@ static bool place_line(const struct work *work, uint32_t coalition, json_t *line
     return journal_append(&work->blame->journal, line, err);
 }
 
-/* Which slots are exchanged, for errors. */
+/* Adds to an error message which slots are replaced. */
 static bool fail_coalition(const struct work *work, uint32_t coalition, const struct glint_error *own,
                            struct glint_error *err) {
     char names[600] = "";
@@ -43,8 +43,8 @@ static bool fail_coalition(const struct work *work, uint32_t coalition, const st
             snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "",
                      glint_player_name(work->blame->players, p));
     }
-    return glint_fail(err, own->code, "%s: with %s as in the reference: %s", work->blame->captures.items[work->capture],
-                      names[0] ? names : "nothing", own->message);
+    return glint_fail(err, own->code, "%s: with %s replaced by its reference: %s",
+                      work->blame->captures.items[work->capture], names[0] ? names : "nothing", own->message);
 }
 
 static json_t *look_json(const struct blame *blame, const struct glint_verdict *verdict) {
@@ -57,7 +57,7 @@ static json_t *look_json(const struct blame *blame, const struct glint_verdict *
                      verdict->run_seconds, "metric_seconds", verdict->metric_seconds);
 }
 
-/* The frames before in a shot, so that the pipeline finds there what it left itself. */
+/* Runs the earlier frames of a shot, so that the pipeline has its own history. */
 static bool run_before(struct work *work, const struct glint_pipeline *pipeline, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(work->judge);
     const struct glint_replay_options options = {.all = work->blame->all};
@@ -120,7 +120,7 @@ static bool time_one(struct work *work, uint32_t coalition, uint32_t round, stru
     return ok;
 }
 
-/* A B C A B C …: what changes with time, as a device's clock, meets all alike. */
+/* Times pipelines in the order A B C A B C …, so that slow changes, such as of the device's clock, affect all equally. */
 static bool take_turns(struct work *work, struct glint_error *err) {
     struct blame *blame = work->blame;
     uint32_t timed[2 * GLINT_PLAYERS_MAX + 2];
@@ -137,12 +137,12 @@ static bool take_turns(struct work *work, struct glint_error *err) {
             if (!json_object_get(blame->lines, key) && !time_one(work, timed[i], round, err)) return false;
         }
         blame_sum_times(blame, work->capture);
-        if (!blame_tell(blame, false, err)) return false;
+        if (!blame_publish(blame, false, err)) return false;
     }
     return true;
 }
 
-/* The answer before the coalitions: it can take longer than they do. */
+/* Makes the reference before the coalitions, because it can take longer than they do. */
 static bool find_answer(struct work *work, struct glint_error *err) {
     const float *error;
     return work->blame->against.truth || glint_judge_answer(work->judge, GLINT_ANSWER_REFERENCE, work->blame->base,
@@ -151,7 +151,7 @@ static bool find_answer(struct work *work, struct glint_error *err) {
 
 static bool tell_progress(void *user, struct glint_error *err) {
     struct work *work = user;
-    return blame_tell(work->blame, false, err);
+    return blame_publish(work->blame, false, err);
 }
 
 static bool find_shares(struct work *work, struct glint_error *err) {
@@ -166,7 +166,7 @@ static bool find_shares(struct work *work, struct glint_error *err) {
            glint_shapley(&game, &blame->options, &blame->captured[work->capture].shapley, err);
 }
 
-/* Frames that do not follow each other, or follow a cut, leave no history. */
+/* Frames that are not consecutive, or that follow a cut, have no history. */
 static bool open_shot(struct work *work, struct glint_error *err) {
     const struct list *before = &work->blame->before;
     const struct glint_capture *last = NULL;
@@ -218,7 +218,7 @@ bool blame_find_times(struct blame *blame, struct glint_error *err) {
     return true;
 }
 
-static bool keep(void *user, json_t *line) {
+static bool keep_blame_line(void *user, json_t *line) {
     struct blame *blame = user;
     const json_t *c = json_object_get(line, "capture"), *s = json_object_get(line, "coalition"),
                  *r = json_object_get(line, "round");
@@ -235,7 +235,7 @@ static bool keep(void *user, json_t *line) {
     return json_object_set(blame->lines, key, line) == 0;
 }
 
-/* All that lines depend on. How many permutations are drawn is none of it: they share coalitions. */
+/* Everything that results in the log depend on. The number of permutations does not belong to it, because permutations share coalitions. */
 static json_t *define(const struct blame *blame, const struct list *shaders, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
     json_t *captures = captures_json(&blame->captures, err), *before = captures_json(&blame->before, err),
@@ -261,8 +261,8 @@ static json_t *define(const struct blame *blame, const struct list *shaders, str
 bool blame_open(struct blame *blame, const struct list *shaders, struct glint_error *err) {
     blame->lines = json_object();
     blame->captured = calloc(blame->captures.count + 1, sizeof *blame->captured);
-    blame->journal = (struct journal){.folder = blame->out, .kind = "blame", .keep = keep, .user = blame};
+    blame->journal = (struct journal){.folder = blame->out, .kind = "blame", .keep = keep_blame_line, .user = blame};
     if (!blame->lines || !blame->captured) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t c = 0; c < blame->captures.count; c++) blame_sum_times(blame, c); /* none are known */
+    for (size_t c = 0; c < blame->captures.count; c++) blame_sum_times(blame, c); /* no time is known yet */
     return (blame->definition = define(blame, shaders, err)) && journal_open(&blame->journal, blame->definition, err);
 }

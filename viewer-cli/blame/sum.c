@@ -1,4 +1,4 @@
-/* What the lines of a blame say together. */
+/* Sums up the lines of the log: shares and times of each capture, and their mean. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,13 +48,13 @@ size_t blame_timed(const struct blame *blame, uint32_t timed[2 * GLINT_PLAYERS_M
         timed[count++] = 1u << p;
         timed[count++] = everyone(blame) & ~(1u << p);
     }
-    qsort(timed, count, sizeof *timed, by_coalition); /* neighbours have most in common */
+    qsort(timed, count, sizeof *timed, by_coalition); /* neighbouring coalitions share most passes */
     for (size_t i = 0; i < count; i++)
         if (!kept || timed[kept - 1] != timed[i]) timed[kept++] = timed[i];
     return kept;
 }
 
-/* Median of the rounds; NAN without any. */
+/* Median of the timed rounds; NAN without rounds. */
 static double time_of(const struct blame *blame, size_t capture, uint32_t coalition) {
     double *ms = malloc((blame->rounds + 1) * sizeof *ms), median = (double)NAN;
     uint32_t count = 0;
@@ -79,7 +79,7 @@ void blame_sum_times(struct blame *blame, size_t capture) {
     }
 }
 
-/* Those whose shares are known; before there is any, the first alone. */
+/* Captures that enter the mean: those whose shares are known, or only the first as long as there are none. */
 static bool in_mean(const struct blame *blame, size_t capture, bool any) {
     const struct glint_shapley *of = &blame->captured[capture].shapley;
     return any ? of->exact || of->permutations : capture == 0 && of->share;
@@ -94,8 +94,8 @@ static void add_times(const struct blame *blame, struct blame_time *mean, const 
     }
 }
 
-/* Shares of a mean are means of shares; captures are independent of each other, but permutations were drawn alike, so that
-   widths are added as they are. */
+/* The shares of the mean error are the means of the shares. The same permutations are used for all captures, so their errors are
+   correlated and the widths of the intervals are averaged without the square root of independent errors. */
 bool blame_sum_up(struct blame *blame, struct glint_error *err) {
     struct glint_shapley *mean = &blame->mean.shapley;
     const size_t n = blame->count * BLAME_VALUES, size = 4 * n + 2 * BLAME_VALUES;
@@ -131,7 +131,7 @@ double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bo
 
 void blame_how(const struct blame_sum *sum, char text[96]) {
     if (!sum->shapley.exact && !sum->shapley.permutations) snprintf(text, 96, "not known yet");
-    else if (sum->shapley.exact) snprintf(text, 96, "exact, of all %u pipelines", sum->shapley.coalitions);
+    else if (sum->shapley.exact) snprintf(text, 96, "exact, from all %u pipelines", sum->shapley.coalitions);
     else
         snprintf(text, 96, "of %u permutations, %u pipelines; ± 95 %%", sum->shapley.permutations,
                  sum->shapley.coalitions);

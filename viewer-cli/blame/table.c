@@ -1,4 +1,4 @@
-/* A blame as tables, for people and as JSON. */
+/* The results of glint blame as printed tables and as JSON. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,14 +6,14 @@
 #include "blame/blame.h"
 #include "io/table.h"
 
-static void cell(struct table *table, double value) {
+static void value_or_dash_cell(struct table *table, double value) {
     if (isfinite(value)) table_cell(table, "%s", number_text(value));
     else table_cell(table, "–");
 }
 
 static void share_cell(struct table *table, double share, double half) {
     if (half > 0) table_cell(table, "%s ± %s", number_text(share), number_text(half));
-    else cell(table, share);
+    else value_or_dash_cell(table, share);
 }
 
 static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
@@ -28,17 +28,17 @@ static void print_players(const struct blame *blame, const struct blame_sum *sum
         made += blame_made(sum, p, v);
         table_cell(table, "%s", glint_player_name(blame->players, p));
         share_cell(table, share, blame_half(sum, p, v));
-        cell(table, 100 * share / blame_total(sum, v));
-        cell(table, blame_removed(sum, p, v));
-        cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
-        cell(table, blame_made(sum, p, v));
+        value_or_dash_cell(table, 100 * share / blame_total(sum, v));
+        value_or_dash_cell(table, blame_removed(sum, p, v));
+        value_or_dash_cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
+        value_or_dash_cell(table, blame_made(sum, p, v));
     }
     table_cell(table, "sum");
-    cell(table, shares);
-    cell(table, 100 * shares / blame_total(sum, v));
-    cell(table, removed);
+    value_or_dash_cell(table, shares);
+    value_or_dash_cell(table, 100 * shares / blame_total(sum, v));
+    value_or_dash_cell(table, removed);
     table_cell(table, "%s", "");
-    cell(table, made);
+    value_or_dash_cell(table, made);
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -49,8 +49,8 @@ static void print_sum(const struct blame *blame, const char *title, const struct
         char how[96];
         if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
         blame_how(sum, how);
-        printf("%s: %s of %s against the %s is %s, its reference's %s; shares of the difference %s (%s):\n\n", title,
-               glint_metric(blame->metric)->title, glint_pipeline_name(blame->base),
+        printf("%s: the %s of %s against the %s is %s, that of its reference %s; shares of the difference %s (%s):\n\n",
+               title, glint_metric(blame->metric)->title, glint_pipeline_name(blame->base),
                glint_answer_name(blame_answer(blame, a)), number_text(sum->shapley.none[v]),
                number_text(sum->shapley.all[v]), number_text(blame_total(sum, v)), how);
         print_players(blame, sum, a);
@@ -66,18 +66,21 @@ static void each_sum(const struct blame *blame,
 
 void blame_print_shares(const struct blame *blame) {
     each_sum(blame, print_sum);
-    puts("share: mean of what a player changes over all orders of exchanging them; removes, adds: it alone exchanged "
-         "for its reference in the preset;\nmakes: it alone kept in the reference. Players:");
+    puts("share: mean change of the error by a player (a slot or group of slots) over all orders of replacement; "
+         "removes, adds:\n"
+         "change of error and fetches when only this player is replaced by its reference; makes: error when only this "
+         "player is\n"
+         "kept and all others are replaced. Replacement of each player:");
     for (size_t p = blame->count; p-- > 0;) {
         const char *why = glint_player_why(blame->players, p);
         printf("  %s: %s%s%s%s\n", glint_player_name(blame->players, p), glint_player_change(blame->players, p),
                why[0] ? " (" : "", why, why[0] ? ")" : "");
     }
-    if (blame->out) printf("page, charts and tables: %s/index.html\n", blame->out);
+    if (blame->out) printf("page with charts and tables: %s/index.html\n", blame->out);
     fflush(stdout);
 }
 
-/* What a millisecond buys is by the error that comes first. */
+/* Error per millisecond uses the first of the two kinds of error. */
 static void print_time(const struct blame *blame, const char *title, const struct blame_sum *sum) {
     static const char *const titles[] = {"<player", ">adds ms", ">buys per ms", ">saves ms", NULL};
     if (!blame_is_known(sum)) return;
@@ -86,14 +89,14 @@ static void print_time(const struct blame *blame, const char *title, const struc
         bool already;
         const double bought = blame_bought(sum, p, blame_value(0, 0), &already);
         table_cell(table, "%s", glint_player_name(blame->players, p));
-        cell(table, sum->time.added[p]);
+        value_or_dash_cell(table, sum->time.added[p]);
         if (already && isfinite(bought)) table_cell(table, "%s already", number_text(bought));
-        else cell(table, bought);
-        cell(table, sum->time.saved[p]);
+        else value_or_dash_cell(table, bought);
+        value_or_dash_cell(table, sum->time.saved[p]);
     }
     printf("\n%s: %s takes ", title, glint_pipeline_name(blame->base));
     printf("%s ms, ", number_text(sum->time.preset));
-    printf("its reference %s ms:\n\n", number_text(sum->time.reference));
+    printf("and its reference %s ms:\n\n", number_text(sum->time.reference));
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -102,10 +105,12 @@ void blame_print_times(const struct blame *blame) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
     if (!blame->rounds) return;
     each_sum(blame, print_time);
-    printf("buys: error against the %s removed for each ms, or what its own ms buy already; saves: it alone kept in "
-           "the reference\ntimes: median of %u rounds in turns on %s%s\n",
+    printf("buys: error against the %s that disappears per added ms (already: error that the player itself avoids per "
+           "ms); saves:\n"
+           "time saved when only this player is kept and all others are replaced\ntimes: median of %u alternating "
+           "rounds on %s%s\n",
            glint_answer_name(blame_answer(blame, 0)), blame->rounds, device->name,
-           device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+           device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
 }
 
 static json_t *player_json(const struct blame_sum *sum, size_t p, size_t v) {

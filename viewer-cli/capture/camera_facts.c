@@ -1,4 +1,4 @@
-/* A capture's camera in words that people use. */
+/* Describes a capture's camera: position, direction, field of view, planes. */
 #include "capture/camera_facts.h"
 
 #include <math.h>

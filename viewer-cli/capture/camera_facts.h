@@ -1,4 +1,4 @@
-/* A capture's camera in words that people use: position, direction, field of view, planes. */
+/* Describes a capture's camera: position, direction, field of view, planes. */
 #ifndef GLINT_VIEWER_CAMERA_FACTS_H
 #define GLINT_VIEWER_CAMERA_FACTS_H
 
@@ -13,7 +13,7 @@ struct camera_facts {
 };
 
 struct camera_facts camera_facts(const struct glint_frame *frame);
-/* glint_frame_notes, as a list and as lines on stdout. */
+/* The notes of glint_frame_notes as JSON, and as lines on stdout. */
 json_t *frame_notes_json(const struct glint_frame *frame);
 void frame_notes_print(const struct glint_frame *frame);
 const char *axis_name(enum glint_axis axis);

@@ -1,4 +1,4 @@
-/* The channels of a capture or of any EXR file, and what values they hold. */
+/* Lists the channels of a capture or of any EXR file with statistics of their values. */
 #include "capture/channels.h"
 
 #include <math.h>
@@ -58,7 +58,7 @@ int channel_rank(const char *channel) {
     return 7;
 }
 
-/* Files hold channels by the alphabet; people expect R G B within a layer. */
+/* EXR files sort channels alphabetically; R G B order is expected within a layer. */
 static void order_channels(struct channel_row *rows, size_t count) {
     for (size_t i = 1; i < count; i++)
         for (size_t k = i; k > 0; k--) {
@@ -88,7 +88,7 @@ static struct channel_row *new_rows(struct channel_table *table, size_t count, s
     return rows + table->count - count;
 }
 
-/* What the registry says about a channel of a part. */
+/* Looks up a channel of a part in the registry of the format. */
 static void describe(struct channel_row *row, const struct glint_part_info *part) {
     const struct glint_encodings *e = &part->encodings;
     row->encoding = row->unit = "";
@@ -120,7 +120,7 @@ struct source {
     const struct glint_part_info *captured;
     struct glint_exr *exr;
     size_t part;
-    const bool *nothing; /* pixels without a surface, where channels other than depth may hold anything; NULL: none */
+    const bool *nothing; /* pixels without a surface, where channels other than depth are undefined; NULL: none */
 };
 
 static bool read_channels(const struct source *s, const char *const *names, size_t count, enum glint_type type,
@@ -131,7 +131,7 @@ static bool read_channels(const struct source *s, const char *const *names, size
 
 static const char *const depth = "depth.Z";
 
-/* Of a part that holds a surface in each pixel, and says by its depth where there is none; *nothing stays NULL for others. */
+/* Marks the pixels without a surface in parts with a depth channel; *nothing stays NULL for other parts. */
 static bool read_nothing(bool **nothing, const struct source *source, size_t pixels, struct glint_error *err) {
     const struct glint_part_info *part = source->captured;
     bool has_depth = false;
@@ -148,7 +148,7 @@ static bool read_nothing(bool **nothing, const struct source *source, size_t pix
     return ok;
 }
 
-/* A chunk holds all channels of its lines, so several are read at a time; not all, to bound the memory. */
+/* EXR chunks contain all channels of their lines, so several channels are read together, but not all, to bound the memory. */
 enum { BATCH = 8 };
 
 struct batch {

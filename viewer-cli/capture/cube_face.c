@@ -1,4 +1,4 @@
-/* Which face of a cube map a direction meets. */
+/* Finds the cube-map face that a direction hits. */
 #include "capture/cube_face.h"
 
 #include <math.h>

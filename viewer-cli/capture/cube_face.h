@@ -1,4 +1,4 @@
-/* Which face of a cube map a direction meets, as Vulkan orients faces. */
+/* Finds the cube-map face that a direction hits, with Vulkan's orientation of faces. */
 #ifndef GLINT_VIEWER_CUBE_FACE_H
 #define GLINT_VIEWER_CUBE_FACE_H
 
@@ -6,7 +6,7 @@
 extern "C" {
 #endif
 
-/* 0 to 5: +X -X +Y -Y +Z -Z; u and v in [0, 1] from its top left corner. */
+/* Returns 0 to 5 for +X -X +Y -Y +Z -Z; u and v are in [0, 1] from the top left corner. */
 int cube_face_of(const double direction[3], double *u, double *v);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* What depth's storage can tell apart, near and far. */
+/* Computes the resolution of the depth storage at several distances. */
 #include "capture/depth_facts.h"
 
 #include <math.h>
@@ -35,8 +35,8 @@ void depth_steps_text(const struct depth_facts *f, char *text, size_t size) {
     size_t length = 0;
     text[0] = '\0';
     for (int i = 0; i < DEPTH_PLACES; i++) {
-        char step[32] = "out of its range";
-        if (isinf(f->step_m[i])) snprintf(step, sizeof step, "not told from sky");
+        char step[32] = "out of range";
+        if (isinf(f->step_m[i])) snprintf(step, sizeof step, "not distinct from sky");
         else if (!isnan(f->step_m[i])) length_text(f->step_m[i], step, sizeof step);
         const int n = snprintf(text + length, size - length, "%s%s at %g m", i ? ", " : "", step, f->at_m[i]);
         if (n > 0 && (size_t)n < size - length) length += (size_t)n;

@@ -1,4 +1,4 @@
-/* What glint info prints for people. */
+/* The tables of glint info. */
 #include "capture/info_tables.h"
 
 #include <stdio.h>
@@ -20,7 +20,7 @@ static bool same_part(const struct channel_row *a, const struct channel_row *b) 
     return n == stem_length(b->part) && !strncmp(a->part, b->part, n);
 }
 
-/* R G B, or X Y Z, of one layer are one line. */
+/* R G B or X Y Z of one layer share a line. */
 static bool same_vector(const struct channel_row *a, const struct channel_row *b) {
     int ra = channel_rank(a->channel), rb = channel_rank(b->channel);
     size_t n = channel_layer_length(a->channel);
@@ -90,10 +90,10 @@ void info_print_channels(const struct channel_table *all) {
     table_destroy(&table);
     bool of_surfaces = false;
     for (size_t i = 0; i < all->count; i++) of_surfaces |= all->rows[i].of_surfaces;
-    if (of_surfaces) puts("\nRanges beside a depth.Z are of surfaces alone: not of sky, nor of where there is none.");
+    if (of_surfaces) puts("\nIn parts with depth.Z, ranges cover surfaces only, without sky and empty pixels.");
 }
 
-/* Parts of one stem and size are one line. */
+/* Parts with the same stem and size share a line. */
 static bool same_kind(const struct glint_part_info *a, const struct glint_part_info *b) {
     size_t n = stem_length(a->name);
     return a->index >= 0 && b->index >= 0 && n == stem_length(b->name) && !strncmp(a->name, b->name, n) &&
@@ -101,7 +101,7 @@ static bool same_kind(const struct glint_part_info *a, const struct glint_part_i
 }
 
 void info_print_parts(const struct glint_capture *capture) {
-    static const char *const titles[] = {"<part", ">size", "<what it is", NULL};
+    static const char *const titles[] = {"<part", ">size", "<meaning", NULL};
     struct table *table = table_create(titles);
     size_t count = glint_capture_part_count(capture);
     for (size_t i = 0; i < count; i++) {
@@ -117,7 +117,7 @@ void info_print_parts(const struct glint_capture *capture) {
         if (alike > 1) table_cell(table, "%.*s.NNN × %zu", (int)stem_length(part->name), part->name, alike);
         else table_cell(table, "%s", part->name);
         table_cell(table, "%u × %u", part->width, part->height);
-        const char *meaning = part->role ? part->role->meaning : "not known to this version; kept";
+        const char *meaning = part->role ? part->role->meaning : "unknown to this version; kept";
         table_cell(table, "%.*s%s%s%s", (int)strcspn(meaning, ":;"), meaning,
                    part->previous ? ", one frame earlier" : "", part->sibling[0] ? "; stored in " : "", part->sibling);
     }
@@ -225,13 +225,12 @@ static const char *faces_text(uint8_t faces, char text[32]) {
 }
 
 static void print_cubemaps(const struct glint_survey *survey) {
-    static const char *const titles[] = {">cube map", "<sky on", "<rays may come to", NULL};
+    static const char *const titles[] = {">cube map", "<faces with sky", "<faces that rays may reach", NULL};
     char text[32];
     if (survey->looked_at == 0) return;
-    printf("%u of %u faces of the active cube maps show the sky, rays may come to %u%s:\n",
+    printf("%u of %u faces of the active cube maps show sky; rays may reach %u%s:\n",
            glint_survey_faces(survey, GLINT_SURVEY_SKY), 6 * survey->looked_at,
-           glint_survey_faces(survey, GLINT_SURVEY_CROSSED),
-           survey->followed ? "" : " (only of mirrors it is known which)");
+           glint_survey_faces(survey, GLINT_SURVEY_CROSSED), survey->followed ? "" : " (known for mirrors only)");
     struct table *table = table_create(titles);
     for (uint32_t i = 0; i < survey->looked_at; i++) {
         table_cell(table, "%u", survey->active[i].number);
@@ -246,9 +245,9 @@ void info_print_whole_survey(const struct glint_survey *survey, const struct gli
                              const struct glint_frame *frame) {
     info_print_survey(survey);
     if (survey->reflecting.count)
-        printf("their roughness lies between %.3g and %.3g\n", (double)survey->reflecting.roughness[0],
+        printf("their roughness is between %.3g and %.3g\n", (double)survey->reflecting.roughness[0],
                (double)survey->reflecting.roughness[1]);
-    puts("share of a reflection that they send to the viewer:");
+    puts("reflecting pixels by weight of the reflection:");
     print_bins(halvings, survey->weight, GLINT_SURVEY_WEIGHTS, survey->reflecting.count);
     puts("surfaces by metalness:");
     print_bins(tenths, survey->metalness, GLINT_SURVEY_BINS, survey->surfaces.count);
@@ -257,11 +256,11 @@ void info_print_whole_survey(const struct glint_survey *survey, const struct gli
            (unsigned long long)survey->water, (unsigned long long)survey->transparent, survey->has_planar ? "a" : "no",
            survey->cubemaps, survey->volumes);
     print_cubemaps(survey);
-    printf("motion: %s (%llu pixels were elsewhere, %llu move by themselves)\n", glint_survey_motion(survey),
+    printf("motion: %s (%llu pixels moved on screen, %llu belong to moving objects)\n", glint_survey_motion(survey),
            (unsigned long long)survey->moved, (unsigned long long)survey->moving);
     printf("luminance %.3g to %.3g; depth %.3g to %.3g m\n", (double)survey->light[0], (double)survey->light[1],
            (double)survey->depth_m[0], (double)survey->depth_m[1]);
-    if (time->n) printf("counted in %.3f ms\n", (double)time->median_ns * 1e-6);
+    if (time->n) printf("survey took %.3f ms\n", (double)time->median_ns * 1e-6);
 }
 
 void info_print_run(const struct glint_run *run) {

@@ -1,4 +1,4 @@
-/* What glint info prints for people. */
+/* The tables of glint info. */
 #ifndef GLINT_VIEWER_INFO_TABLES_H
 #define GLINT_VIEWER_INFO_TABLES_H
 
@@ -6,15 +6,15 @@
 #include "glint/replay.h"
 
 void info_print_camera(const struct glint_frame *frame);
-/* Parts and channels that differ by their number alone are one line each. */
+/* Parts and channels whose names differ only by a number share a line. */
 void info_print_parts(const struct glint_capture *capture);
 void info_print_channels(const struct channel_table *all);
-/* What depth's storage can tell apart. */
+/* The resolution of the depth storage. */
 void info_print_depth(const struct glint_capture *capture);
-/* Nothing when the capture has no cube maps. */
+/* Prints nothing if the capture has no cube maps. */
 void info_print_cubemaps(const struct glint_capture *capture);
 void info_print_survey(const struct glint_survey *survey);
-/* With what a device counts. */
+/* Including the figures that are counted on the device. */
 void info_print_whole_survey(const struct glint_survey *survey, const struct glint_time *time,
                              const struct glint_frame *frame);
 void info_print_run(const struct glint_run *run);

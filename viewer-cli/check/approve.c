@@ -1,4 +1,4 @@
-/* A run becomes the baseline, all at once. */
+/* Makes a run the baseline, in one atomic step. */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -73,7 +73,7 @@ static bool copy_run(const char *from, const char *to, const json_t *files, stru
     return ok;
 }
 
-/* What a folder holds beside a run's files would be lost with it. */
+/* Refuses folders with files that do not belong to the run, because they would be lost. */
 static bool holds_only(const char *folder, const json_t *files, struct glint_error *err) {
     DIR *directory = opendir(folder);
     if (!directory) return fail_at(folder, err);
@@ -81,14 +81,15 @@ static bool holds_only(const char *folder, const json_t *files, struct glint_err
     for (struct dirent *entry; ok && (entry = readdir(directory)) != NULL;)
         if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
             !json_object_get(files, entry->d_name))
-            ok = glint_fail(err, GLINT_ERROR_USAGE,
-                            "%s: %s is no file of this run, and approving would move it away: put it elsewhere", folder,
-                            entry->d_name);
+            ok = glint_fail(
+                err, GLINT_ERROR_USAGE,
+                "%s: %s does not belong to this run and would be moved by --approve; move it elsewhere first", folder,
+                entry->d_name);
     closedir(directory);
     return ok;
 }
 
-/* A folder that holds these files at most. */
+/* Whether a folder contains only these files. */
 static void remove_files(const char *folder, const json_t *files) {
     const char *name;
     json_t *value;
@@ -99,7 +100,7 @@ static void remove_files(const char *folder, const json_t *files) {
     rmdir(folder);
 }
 
-/* Removes what was kept before. */
+/* Removes the previous backup. */
 static bool clear_kept(const char *kept, struct glint_error *err) {
     if (access(kept, F_OK) != 0) return true;
     json_t *files = files_of(kept, err);
@@ -145,7 +146,7 @@ bool check_approve(const char *run, const char *baseline, struct glint_error *er
     if (length >= sizeof path || !join(fresh, path, suffix, err))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", baseline);
     if (stat(run, &from) == 0 && stat(path, &to) == 0 && from.st_dev == to.st_dev && from.st_ino == to.st_ino)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: run and baseline are one folder", run);
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: run and baseline are the same folder", run);
     json_t *files = files_of(run, err);
     const bool ok = files && copy_run(run, fresh, files, err) && replace(fresh, path, err);
     if (!ok && files) remove_files(fresh, files);

@@ -1,4 +1,4 @@
-/* glint check: which runs have a baseline to be compared with, and how a run becomes one. */
+/* glint check: finds the baselines of runs, and makes a run the baseline. */
 #ifndef GLINT_VIEWER_CHECK_H
 #define GLINT_VIEWER_CHECK_H
 

@@ -1,4 +1,4 @@
-/* Runs and their baselines: one of each, or two folders of them. */
+/* Pairs runs with their baselines: a single pair, or two folders of runs. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>

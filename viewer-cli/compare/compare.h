@@ -1,4 +1,4 @@
-/* Several presets on the same capture: what each gives, how far it is from the truth, what it takes. */
+/* Compares presets on the same captures: coverage, error against the truth, and cost. */
 #ifndef GLINT_VIEWER_COMPARE_H
 #define GLINT_VIEWER_COMPARE_H
 
@@ -16,28 +16,28 @@ struct contestant {
 enum { CONTEST_OVER = 2 };
 extern const char *const contest_over[CONTEST_OVER];
 
-/* Of the rounds' sums over the passes, in ms. */
+/* Over the rounds, of the sum of all passes, in ms. */
 struct contest_time {
     uint32_t n;
     double min, median, max;
 };
 
-/* One preset on one capture. */
+/* Results of one preset on one capture. */
 struct showing {
     bool ran, compared; /* compared: with the truth */
-    char failure[1024]; /* why it did not run, or why nothing was compared */
-    char *notes;        /* passes left out, and why; "" when none; malloc'd */
+    char failure[1024]; /* why it did not run, or why it was not compared */
+    char *notes;        /* passes that did not run, with the reason; "" if none; malloc'd */
     uint64_t reflecting[GLINT_SURFACE_COUNT], given[GLINT_SURFACE_COUNT];
-    struct glint_image_errors own;    /* where the preset gives a reflection */
-    struct glint_image_errors shared; /* where every preset does */
-    /* the finished picture against the capture's `scene` where water or glass covers it; no pixels without them */
+    struct glint_image_errors own;    /* over the pixels that the preset covers */
+    struct glint_image_errors shared; /* over the pixels that all presets cover */
+    /* the final image against the capture's `scene` where water or glass covers opaque surfaces */
     struct {
-        bool drawn; /* some pass looked at it */
+        bool drawn; /* a pass drew it */
         struct glint_image_error error;
     } over[CONTEST_OVER];
     struct glint_ends ends;
-    struct contest_time frame, cubemaps; /* cubemaps: work that is paid when a cube map changes */
-    double *frame_ms, *cubemaps_ms;      /* each round's; malloc'd */
+    struct contest_time frame, cubemaps; /* cubemaps: work that is only done when a cube map changes */
+    double *frame_ms, *cubemaps_ms;      /* one for each round; malloc'd */
     json_t *passes;                      /* {slot, variant, ran, reason} */
 };
 
@@ -46,7 +46,7 @@ struct contest {
     size_t count;
     uint32_t rounds;
     struct glint_device *device;
-    struct glint_judge *judge; /* made with the first capture; a contestant's place is its lineage */
+    struct glint_judge *judge; /* created with the first capture; the index of a contestant is its lineage */
     struct progress *progress;
 };
 
@@ -56,14 +56,14 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
                    struct glint_error *err);
 void contest_finish(struct contest *contest);
 
-/* Pictures of one capture: rows of a column each for the truth and the presets. */
+/* Pictures of one capture: a column each for the truth and the presets. */
 enum { CONTEST_ROWS = 3 }; /* reflection, its error, the composed picture */
 struct contest_pictures {
-    struct picture *cells; /* of a sheet, row by row */
+    struct picture *cells; /* cells of the sheet, row by row */
     size_t columns, capture;
-    const char *folder;  /* where they are kept at their own size, in pictures/ */
-    size_t values_bytes; /* for the values of each */
-    json_t *rows;        /* for each row what a page's stage shows of it */
+    const char *folder;  /* folder in which pictures/ contains them at their own size */
+    size_t values_bytes; /* bytes of pixel values stored for each picture */
+    json_t *rows;        /* for each row, the pictures as JSON for the page */
 };
 
 /* Runs every preset on the capture; showings[i] is of contestant i. One that fails says so in its showing. `pictures`: NULL

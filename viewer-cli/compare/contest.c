@@ -1,4 +1,4 @@
-/* Several presets on the same capture, taking turns. */
+/* Runs several presets on the same capture, in alternating rounds. */
 #include "compare/compare.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
         struct contestant *c = &contest->contestants[i];
         label_of(c->label, presets[i]);
         if (find_contestant(contest, c->label, strlen(c->label)))
-            return glint_fail(err, GLINT_ERROR_USAGE, "preset %s: named twice in --presets", c->label);
+            return glint_fail(err, GLINT_ERROR_USAGE, "preset %s is listed twice in --presets", c->label);
         contest->count++;
         if (!(c->pipeline = glint_pipeline_create(presets[i], err)) || !pipeline_fog_off(c->pipeline, err))
             return false;
@@ -99,7 +99,7 @@ static void note_reason(FILE *notes, const struct glint_verdict_pass *results, s
     fprintf(notes, " left out: %s", results[i].reason);
 }
 
-/* Which passes ran, and a note of those that had nothing to do. */
+/* Records which passes ran, and a note of those that did not. */
 static bool note_passes(struct showing *s, const struct glint_verdict *verdict, struct glint_error *err) {
     size_t size = 0;
     FILE *notes = open_memstream(&s->notes, &size);
@@ -124,7 +124,7 @@ static void count_given(struct showing *s, const uint8_t *given, const uint8_t *
     }
 }
 
-/* The errors of the pixels of a mask. */
+/* Errors over the pixels of a mask. */
 static bool masked_errors(const struct answer *a, const uint8_t *mask, const uint8_t *surfaces,
                           struct glint_image_errors *errors, struct glint_error *err) {
     size_t pixels = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
@@ -136,7 +136,7 @@ static bool masked_errors(const struct answer *a, const uint8_t *mask, const uin
     return ok;
 }
 
-/* The finished picture, and how far it is from the true one where something covers the opaque surfaces. */
+/* Compares the final image with the true one where water or glass covers opaque surfaces. */
 static bool read_picture(struct glint_judge *judge, struct showing *s, struct answer *a, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(judge);
     const struct glint_image *image = glint_study_picture(replay);
@@ -150,7 +150,7 @@ static bool read_picture(struct glint_judge *judge, struct showing *s, struct an
     return ok;
 }
 
-/* The run whose images are looked at: with diagnostics, which the timed ones are without. */
+/* Runs once with diagnostics for images and end reasons; timed rounds run without. */
 static bool measure_contestant(const struct contest *contest, size_t i, struct showing *s, struct answer *a,
                                struct glint_error *err) {
     const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
@@ -168,7 +168,7 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
     return a->truth && masked_errors(a, a->verdict.given, surfaces, &s->own, err);
 }
 
-/* One round after one that warms up, each pass executed. */
+/* Times one round in which every pass is executed, after a warm-up round. */
 static bool time_round(const struct contest *contest, size_t i, struct showing *s, uint32_t round,
                        struct glint_error *err) {
     struct glint_cost cost;
@@ -186,7 +186,7 @@ static struct contest_time statistics(double *ms, uint32_t n) {
     return (struct contest_time){n, ms[0], median, ms[n - 1]};
 }
 
-/* Whether a preset's failure ends everything. */
+/* Whether a failure ends the comparison; other failures are recorded for the preset. */
 static bool fail_alone(struct showing *s, const struct contestant *c, const struct glint_error *own,
                        struct glint_error *err) {
     if (own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY)
@@ -196,7 +196,7 @@ static bool fail_alone(struct showing *s, const struct contestant *c, const stru
     return true;
 }
 
-/* A B C A B C …: what changes with time, as a device's clock, meets all alike. */
+/* Times presets in the order A B C A B C …, so that slow changes, such as of the device's clock, affect all equally. */
 static bool take_turns(const struct contest *contest, struct showing *showings, struct glint_error *err) {
     for (uint32_t round = 0; round < contest->rounds; round++)
         for (size_t i = 0; i < contest->count; i++) {
@@ -219,7 +219,7 @@ static bool take_turns(const struct contest *contest, struct showing *showings, 
     return true;
 }
 
-/* Errors over the pixels that every preset gives: who gives little, and only what is easy, gains nothing there. */
+/* Errors over the pixels that all presets cover, so that covering only easy pixels is no advantage. */
 static bool share_pixels(const struct contest *contest, struct showing *showings, const struct answer *answers,
                          const uint8_t *surfaces, size_t pixels, struct glint_error *err) {
     uint8_t *mask = malloc(pixels + 1);

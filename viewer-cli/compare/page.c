@@ -1,4 +1,4 @@
-/* Presets beside each other as a page: error against time, errors by surface, why rays ended, pictures. */
+/* Comparison of presets as a page: error against time, errors by surface, why rays ended, pictures. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,8 +31,8 @@ static json_t *time_json(const struct contest_time *time) {
 
 /* ---- Pictures ---- */
 
-static const char *const row_titles[CONTEST_ROWS] = {
-    "Reflection", "Its error, 0 (dark) to 1 (bright); grey: not compared", "Picture"};
+static const char *const row_titles[CONTEST_ROWS] = {"Reflection",
+                                                     "Its error, 0 (dark) to 1 (bright); grey: not compared", "Image"};
 
 /* A capture's pictures by column, the truth's first, without their values. */
 static json_t *by_column(const struct contest_pictures *pictures) {
@@ -70,7 +70,7 @@ static json_t *values_of(const struct showing *s) {
         json_array_append_new(values, json_pack("[o, o, s]",
                                                 json_sprintf("error, %s", glint_surface_name((enum glint_surface)k)),
                                                 error_json(s, k), ""));
-    json_array_append_new(values, json_pack("[s, o, s]", "pixels given", share_json(s, 0), "%"));
+    json_array_append_new(values, json_pack("[s, o, s]", "coverage", share_json(s, 0), "%"));
     json_array_append_new(values, json_pack("[s, o, s]", "steps", json_number(s->ends.steps), "a ray"));
     json_array_append_new(values, json_pack("[s, o, s]", "fetches", json_number(s->ends.fetches), "a ray"));
     json_array_append_new(values, json_pack("[s, o, s]", "when a cube map changes", time_json(&s->cubemaps), "ms"));
@@ -118,7 +118,7 @@ static void add_surfaces(const struct contest_table *t, size_t capture, json_t *
 static void add_table(const struct contest_table *t, size_t capture, json_t *blocks) {
     json_t *table = page_table(blocks);
     page_column(table, "preset", "");
-    page_column(table, "pixels given", "%");
+    page_column(table, "coverage", "%");
     for (int k = 1; k <= GLINT_SURFACE_COUNT; k++)
         page_column(table, glint_surface_name((enum glint_surface)(k % GLINT_SURFACE_COUNT)), "error");
     page_column(table, "steps", "a ray");
@@ -159,9 +159,9 @@ static void add_ends(const struct contest_table *t, size_t capture, json_t *bloc
     json_object_foreach(reasons, name, points) json_array_append_new(
         series, json_pack("{s:s, s:s, s:s, s:O}", "kind", "bar", "stack", "ends", "name", name, "points", points));
     if (json_array_size(series))
-        page_chart(blocks, json_pack("{s:s, s:{s:s, s:s, s:i, s:i}, s:{s:s, s:O}, s:I, s:O}", "title", "Why rays ended",
-                                     "x", "name", "share of all rays", "unit", "%", "min", 0, "max", 100, "y", "scale",
-                                     "category", "categories", presets, "height",
+        page_chart(blocks, json_pack("{s:s, s:{s:s, s:s, s:i, s:i}, s:{s:s, s:O}, s:I, s:O}", "title",
+                                     "End reasons of rays", "x", "name", "share of all rays", "unit", "%", "min", 0,
+                                     "max", 100, "y", "scale", "category", "categories", presets, "height",
                                      (json_int_t)(190 + 30 * t->contest->count), "series", series));
     json_decref(reasons);
     json_decref(presets);
@@ -186,13 +186,14 @@ bool contest_write_page(const char *folder, const struct contest_table *t, const
     char path[4096], text[400];
     if (snprintf(path, sizeof path, "%s/index.html", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    json_t *document = page_create("Presets beside each other");
-    snprintf(text, sizeof text, "median of %u rounds in turns%s", t->contest->rounds,
-             device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");
+    json_t *document = page_create("Comparison of presets");
+    snprintf(text, sizeof text, "median of %u alternating rounds%s", t->contest->rounds,
+             device->is_cpu ? "; a CPU device: times do not represent a GPU" : "");
     page_fact(document, "device", device->name);
     page_fact(document, "times", text);
     page_fact(document, "errors",
-              "mean of |found \u2212 truth| over their sum, 0 to 1, where a preset gives a reflection");
+              "mean of |found \u2212 truth| / (found + truth), 0 to 1, over the pixels for which the preset finds a "
+              "reflection");
     bool ok = document || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t c = 0; ok && c < t->capture_count; c++) add_capture(document, t, &pictures[c], c);
     ok = ok && page_store(folder, document, err) && page_write(path, document, folder, err);

@@ -1,4 +1,4 @@
-/* What presets give, as tables: for people, as JSON, as CSV. */
+/* The results of glint compare as printed tables, JSON and CSV. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,16 +11,16 @@ static const char *base_name(const char *path) {
     return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
 }
 
-static double share(const struct showing *s, int k) {
+static double coverage_of(const struct showing *s, int k) {
     return s->reflecting[k] ? (double)s->given[k] / (double)s->reflecting[k] : 0;
 }
 
 /* "0.093 of 97.2 %" */
 static void error_cell(struct table *table, const struct showing *s, int k) {
     if (!s->ran || s->reflecting[k] == 0) table_cell(table, "–");
-    else if (!s->compared) table_cell(table, "%.1f %%", 100 * share(s, k));
+    else if (!s->compared) table_cell(table, "%.1f %%", 100 * coverage_of(s, k));
     else if (s->own.of[k].pixels == 0) table_cell(table, "none");
-    else table_cell(table, "%.3f of %.1f %%", s->own.of[k].symmetric, 100 * share(s, k));
+    else table_cell(table, "%.3f of %.1f %%", s->own.of[k].symmetric, 100 * coverage_of(s, k));
 }
 
 static void time_cell(struct table *table, const struct contest_time *time) {
@@ -56,11 +56,11 @@ static void print_errors(const struct contest_table *t) {
             table_cell(table, "%s", t->contest->contestants[p].label);
             print_showing(table, showing_of(t, c, p));
         }
-    puts("error of the reflection where the preset gives one, against the truth (mean of |found - truth| over their "
-         "sum,\n"
-         "0 to 1), of the share of reflecting pixels for which it does; shared: error over the pixels that every "
-         "preset\n"
-         "gives; steps and fetches of a ray:\n");
+    puts("Error of the reflection against the truth (mean of |found - truth| / (found + truth), 0 to 1) over the "
+         "covered pixels,\n"
+         "with the coverage: the share of reflecting pixels for which the preset finds a reflection. shared: error "
+         "over the\n"
+         "pixels that all presets cover; steps and fetches per ray:\n");
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -72,7 +72,7 @@ static const struct glint_end_row *same_end(const struct showing *s, const struc
     return NULL;
 }
 
-/* One tracer's reason, over all presets. */
+/* A row of an end reason of one tracer, over all presets. */
 static void print_end(struct table *table, const struct contest_table *t, size_t capture,
                       const struct glint_end_row *row) {
     table_cell(table, "%s", base_name(t->captures[capture]));
@@ -86,16 +86,16 @@ static void print_end(struct table *table, const struct contest_table *t, size_t
     }
 }
 
-/* Each reason once a capture, in the order in which the presets have them, tracer by tracer. */
+/* Each end reason once per capture and tracer, in the order in which presets list them. */
 static void fill_ends(struct table *table, const struct contest_table *t, size_t capture, const char *tracer) {
     for (size_t p = 0; p < t->contest->count; p++) {
         const struct showing *s = showing_of(t, capture, p);
         for (size_t i = 0; s->ran && i < s->ends.count; i++) {
             const struct glint_end_row *row = &s->ends.rows[i];
-            bool told = strcmp(row->tracer, tracer) != 0;
-            for (size_t before = 0; before < p && !told; before++)
-                told = same_end(showing_of(t, capture, before), row) != NULL;
-            if (!told) print_end(table, t, capture, row);
+            bool listed = strcmp(row->tracer, tracer) != 0;
+            for (size_t before = 0; before < p && !listed; before++)
+                listed = same_end(showing_of(t, capture, before), row) != NULL;
+            if (!listed) print_end(table, t, capture, row);
         }
     }
 }
@@ -106,9 +106,9 @@ static size_t list_tracers(const struct contest_table *t, const char *tracers[],
     for (size_t k = 0; k < t->capture_count * t->contest->count; k++)
         for (size_t i = 0; t->showings[k].ran && i < t->showings[k].ends.count && count < capacity; i++) {
             const char *name = t->showings[k].ends.rows[i].tracer;
-            bool told = false;
-            for (size_t n = 0; n < count; n++) told = told || !strcmp(tracers[n], name);
-            if (!told) tracers[count++] = name;
+            bool listed = false;
+            for (size_t n = 0; n < count; n++) listed = listed || !strcmp(tracers[n], name);
+            if (!listed) tracers[count++] = name;
         }
     return count;
 }
@@ -119,7 +119,7 @@ static void print_ends(const struct contest_table *t) {
     const char **titles = calloc(presets + 4, sizeof *titles);
     char(*names)[65] = calloc(presets + 1, sizeof *names);
     if (count && titles && names) {
-        static const char *const first[] = {"<capture", "<tracer", "<the ray"};
+        static const char *const first[] = {"<capture", "<tracer", "<end reason"};
         memcpy(titles, first, sizeof first);
         for (size_t p = 0; p < presets; p++) {
             snprintf(names[p], sizeof names[p], ">%.63s", t->contest->contestants[p].label);
@@ -128,8 +128,7 @@ static void print_ends(const struct contest_table *t) {
         struct table *table = table_create(titles);
         for (size_t c = 0; c < t->capture_count; c++)
             for (size_t n = 0; n < count; n++) fill_ends(table, t, c, tracers[n]);
-        puts("\nwhy rays ended: share of all rays, and the error of the pixels whose ray it is, of those that are "
-             "given:\n");
+        puts("\nEnd reasons: share of all rays, and the error of the covered pixels whose rays ended so:\n");
         table_print(table, stdout);
         table_destroy(&table);
     }
@@ -137,7 +136,7 @@ static void print_ends(const struct contest_table *t) {
     free(titles);
 }
 
-/* Water and glass lie over what the other table compares. */
+/* The other table compares opaque surfaces only; this one compares water and glass in the final image. */
 static void print_over(const struct contest_table *t) {
     static const char *const titles[] = {"<capture", "<preset", "<part", ">pixels", ">error", "<", NULL};
     struct table *table = table_create(titles);
@@ -153,7 +152,7 @@ static void print_over(const struct contest_table *t) {
             table_cell(table, "%s", t->showings[i].over[k].drawn ? "" : "not drawn");
         }
     if (!table_is_empty(table)) {
-        puts("\nthe finished picture against the capture's scene, where water or glass covers the opaque surfaces:\n");
+        puts("\nFinal image against the capture's scene, where water or glass covers opaque surfaces:\n");
         table_print(table, stdout);
     }
     table_destroy(&table);
@@ -177,8 +176,8 @@ static void print_notes(const struct contest_table *t) {
 void contest_print(const struct contest_table *t) {
     const struct glint_device_info *device = glint_device_get_info(t->contest->device);
     print_errors(t);
-    printf("\ntimes: median of %u rounds in turns on %s%s\n", t->contest->rounds, device->name,
-           device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
+    printf("\ntimes: median of %u alternating rounds on %s%s\n", t->contest->rounds, device->name,
+           device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
     print_over(t);
     print_ends(t);
     print_notes(t);
@@ -191,7 +190,7 @@ static json_t *surfaces_json(const struct showing *s) {
         if (s->reflecting[k] == 0) continue;
         json_t *row = json_pack("{s:s, s:I, s:I, s:o}", "surfaces", glint_surface_name((enum glint_surface)k), "pixels",
                                 (json_int_t)s->reflecting[k], "given", (json_int_t)s->given[k], "coverage",
-                                json_number(share(s, k)));
+                                json_number(coverage_of(s, k)));
         if (s->compared && own->pixels)
             json_object_update_new(row, json_pack("{s:o, s:o, s:o, s:o, s:I}", "symmetric", json_number(own->symmetric),
                                                   "rmse", json_number(own->rmse), "relative_mse",
@@ -269,7 +268,7 @@ static void put_showing(FILE *out, const struct showing *s) {
     for (int k = 1; k <= GLINT_SURFACE_COUNT; k++) {
         int of = k % GLINT_SURFACE_COUNT; /* all surfaces last */
         bool any = s->ran && s->reflecting[of] > 0, compared = any && s->compared && s->own.of[of].pixels > 0;
-        put_number(out, any, share(s, of));
+        put_number(out, any, coverage_of(s, of));
         put_number(out, compared, s->own.of[of].symmetric);
         put_number(out, compared, s->own.of[of].rmse);
     }

@@ -1,4 +1,4 @@
-/* What presets give, as pictures beside each other. */
+/* Pictures of the presets side by side. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,9 +10,9 @@
 enum { REFLECTION, ERROR, PICTURE };
 static const char *const row_names[CONTEST_ROWS] = {"reflection", "error", "picture"};
 
-/* Kept at its own size, and as what a stage shows. */
-static bool keep(struct contest_pictures *p, size_t row, size_t column, const struct glint_pixels *pixels,
-                 const char *label, struct glint_error *err) {
+/* Writes the picture at its own size, and describes it for the page. */
+static bool keep_picture(struct contest_pictures *p, size_t row, size_t column, const struct glint_pixels *pixels,
+                         const char *label, struct glint_error *err) {
     const struct render_options options = pixels_options();
     const struct source source = pixels_source(pixels, "");
     struct picture picture = {0};
@@ -31,14 +31,14 @@ static bool keep(struct contest_pictures *p, size_t row, size_t column, const st
     return ok;
 }
 
-/* On the sheet, with its title below, and on the page, which calls it `name`. */
-static bool draw(struct contest_pictures *p, size_t row, size_t column, const struct glint_pixels *pixels,
-                 const char *title, const char *label, const char *name, struct glint_error *err) {
+/* Draws onto the sheet, with its title below, and adds the picture to the page under `name`. */
+static bool draw_picture(struct contest_pictures *p, size_t row, size_t column, const struct glint_pixels *pixels,
+                         const char *title, const char *label, const char *name, struct glint_error *err) {
     return pixels_draw(&p->cells[row * p->columns + column], pixels, title, label, err) &&
-           keep(p, row, column, pixels, name, err);
+           keep_picture(p, row, column, pixels, name, err);
 }
 
-/* The symmetric error of each pixel that the preset gives and the truth knows; neutral elsewhere. */
+/* The symmetric error of each covered pixel for which the truth is known; neutral elsewhere. */
 static bool draw_error(struct contest_pictures *p, size_t column, const struct answer *a, const uint8_t *surfaces,
                        const char *label, struct glint_error *err) {
     const size_t count = (size_t)a->truth->width * a->truth->height;
@@ -47,13 +47,13 @@ static bool draw_error(struct contest_pictures *p, size_t column, const struct a
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE;
     ok = ok && pixels_difference(&a->verdict.reflection, a->truth, a->truth_error, mask, &error, err) &&
-         draw(p, ERROR, column, &error, "error where it gives a reflection", label, label, err);
+         draw_picture(p, ERROR, column, &error, "error of covered pixels", label, label, err);
     glint_pixels_finish(&error);
     free(mask);
     return ok;
 }
 
-/* The reflection where it is given. */
+/* The reflection of covered pixels. */
 static bool draw_given(struct contest_pictures *p, size_t column, const struct answer *a, const char *label,
                        struct glint_error *err) {
     size_t count = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
@@ -65,7 +65,7 @@ static bool draw_given(struct contest_pictures *p, size_t column, const struct a
         if (a->verdict.given[i])
             memcpy(given.values + i * given.components, a->verdict.reflection.values + i * given.components,
                    given.components * sizeof *given.values);
-    bool ok = draw(p, REFLECTION, column, &given, "reflection", label, label, err);
+    bool ok = draw_picture(p, REFLECTION, column, &given, "reflection", label, label, err);
     glint_pixels_finish(&given);
     return ok;
 }
@@ -76,7 +76,7 @@ bool contest_draw(struct contest_pictures *p, size_t column, const struct contes
     return draw_given(p, column, answer, label, err) &&
            (!answer->truth || draw_error(p, column, answer, surfaces, label, err)) &&
            (!answer->picture.values ||
-            draw(p, PICTURE, column, &answer->picture, answer->picture_name, label, label, err));
+            draw_picture(p, PICTURE, column, &answer->picture, answer->picture_name, label, label, err));
 }
 
 bool contest_draw_truth(struct contest_pictures *p, const struct glint_pixels *truth, struct glint_capture *capture,
@@ -85,14 +85,15 @@ bool contest_draw_truth(struct contest_pictures *p, const struct glint_pixels *t
     const char *path = glint_capture_path(capture), *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     const struct glint_part_info *scene = glint_capture_find(capture, "scene");
     const struct glint_part_info *lit = scene ? scene : glint_capture_find(capture, "lit");
-    if (truth && !draw(p, REFLECTION, 0, truth, "the true reflection", name, "truth", err)) return false;
+    if (truth && !draw_picture(p, REFLECTION, 0, truth, "true reflection", name, "truth", err)) return false;
     if (!lit) return true;
     struct glint_pixels pixels = {lit->width, lit->height, 3, NULL};
     pixels.values = malloc((size_t)lit->width * lit->height * 3 * sizeof *pixels.values);
-    bool ok = pixels.values ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
-                                  draw(p, PICTURE, 0, &pixels, scene ? "the true picture" : "lit, without reflections",
-                                       name, scene ? "truth" : "without reflections", err)
-                            : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    bool ok = pixels.values
+                  ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
+                        draw_picture(p, PICTURE, 0, &pixels, scene ? "true image" : "lit, without reflections", name,
+                                     scene ? "truth" : "without reflections", err)
+                  : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     glint_pixels_finish(&pixels);
     return ok;
 }

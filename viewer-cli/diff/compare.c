@@ -21,7 +21,7 @@ static size_t common_channels(struct diff_pair *pair, bool integers, const char 
             }
             pair->status = DIFF_FAIL;
             snprintf(pair->note, sizeof pair->note, "channel %.100s: %s has %s", own->channels[i],
-                     side ? "the first" : "the second", k < other->channel_count ? "another kind of numbers" : "none");
+                     side ? "the first" : "the second", k < other->channel_count ? "another type" : "none");
         }
     }
     return count;
@@ -79,7 +79,7 @@ static bool compare_pair(struct diff *diff, struct diff_pair *pair, struct glint
         pair->left_out = diff_is_planned_out(diff, pair);
         diff->left_out += pair->left_out;
         pair->status = pair->left_out ? DIFF_SAME : DIFF_FAIL;
-        snprintf(pair->note, sizeof pair->note, "%s has no such image", pair->a ? "the second" : "the first");
+        snprintf(pair->note, sizeof pair->note, "%s does not contain this image", pair->a ? "the second" : "the first");
         return true;
     }
     if (pair->a->width != pair->b->width || pair->a->height != pair->b->height) {

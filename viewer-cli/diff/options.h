@@ -32,23 +32,23 @@ enum {
 /* clang-format off */
 #define DIFF_OPTIONS \
     {"fail",          KEY_FAIL,          "X", 0, "A pixel fails when a value differs by more than X (default 1e-6)", 0}, \
-    {"failrelative",  KEY_FAIL_RELATIVE, "X", 0, "… and by more than X of the mean of both magnitudes (default 0)", 0}, \
-    {"failpercent",   KEY_FAIL_PERCENT,  "P", 0, "So many per cent of the pixels may fail (default 0)", 0}, \
-    {"hardfail",      KEY_HARD_FAIL,     "X", 0, "One value that differs by more than X is enough (default: infinite)", 0}, \
-    {"allowfailures", KEY_ALLOW,         "N", 0, "Up to N pixels of an image may fail by any amount, and it is the same (default 0)", 0}, \
-    {"warn",          KEY_WARN,          "X", 0, "As --fail, for warnings (default 1e-6)", 0}, \
-    {"warnrelative",  KEY_WARN_RELATIVE, "X", 0, "As --failrelative (default 0)", 0}, \
-    {"warnpercent",   KEY_WARN_PERCENT,  "P", 0, "As --failpercent (default 0)", 0}, \
-    {"hardwarn",      KEY_HARD_WARN,     "X", 0, "As --hardfail (default: infinite)", 0}, \
-    {"output",        'o',               "FILE.png", 0, "Heat map of the differences; of several images a sheet of those that differ", 0}, \
-    {"side-by-side",  KEY_BESIDE,        "FILE.png", 0, "Both images and the heat map beside each other; of several images, a row for each that differs", 0}, \
-    {"flicker",       KEY_FLICKER,       "FILE.png", 0, "Both images in turns, as an animated PNG; of several images, the first that differs", 0}, \
-    {"html",          KEY_HTML,          "FILE.html", 0, "One page of it all: tables, histograms, and each image that differs under a slider, with values", 0}, \
-    {"od",            KEY_ONLY_DIFFERENT, NULL, 0, "Write these only when something differs", 0}, \
+    {"failrelative",  KEY_FAIL_RELATIVE, "X", 0, "... and also by more than X times the mean magnitude of both values (default 0)", 0}, \
+    {"failpercent",   KEY_FAIL_PERCENT,  "P", 0, "Allow this percentage of the pixels to fail (default 0)", 0}, \
+    {"hardfail",      KEY_HARD_FAIL,     "X", 0, "Fail if any value differs by more than X (default: no limit)", 0}, \
+    {"allowfailures", KEY_ALLOW,         "N", 0, "Allow N pixels of an image to fail by any amount (default 0)", 0}, \
+    {"warn",          KEY_WARN,          "X", 0, "Like --fail, for warnings (default 1e-6)", 0}, \
+    {"warnrelative",  KEY_WARN_RELATIVE, "X", 0, "Like --failrelative, for warnings (default 0)", 0}, \
+    {"warnpercent",   KEY_WARN_PERCENT,  "P", 0, "Like --failpercent, for warnings (default 0)", 0}, \
+    {"hardwarn",      KEY_HARD_WARN,     "X", 0, "Like --hardfail, for warnings (default: no limit)", 0}, \
+    {"output",        'o',               "FILE.png", 0, "Write a heat map of the differences; for several images, a sheet of those that differ", 0}, \
+    {"side-by-side",  KEY_BESIDE,        "FILE.png", 0, "Write both images and the heat map side by side; for several images, one row for each that differs", 0}, \
+    {"flicker",       KEY_FLICKER,       "FILE.png", 0, "Write an animated PNG that alternates between both images; of several images, the first that differs", 0}, \
+    {"html",          KEY_HTML,          "FILE.html", 0, "Write an HTML page with tables, histograms, and each image that differs under a slider with pixel values", 0}, \
+    {"od",            KEY_ONLY_DIFFERENT, NULL, 0, "Write these files only if something differs", 0}, \
     METRIC_OPTIONS, \
-    {"all",           'a',               NULL, 0, "As idiff's -a, which is what this command does anyway", 0}, \
-    {"verbose",       'v',               NULL, 0, "List images that are the same, too", 0}, \
-    {"quiet",         'q',               NULL, 0, "Print nothing: the exit status says it", 0}, \
+    {"all",           'a',               NULL, 0, "Accepted for compatibility with idiff -a; all parts are always compared", 0}, \
+    {"verbose",       'v',               NULL, 0, "Also list images that are equal", 0}, \
+    {"quiet",         'q',               NULL, 0, "Print nothing; only set the exit status", 0}, \
     {"json",          'j',               NULL, 0, "Print JSON", 0}
 /* clang-format on */
 

@@ -10,7 +10,7 @@
 /* So many images that differ are shown, in the order of the passes, and the last one; the table has all. */
 enum { STAGES = 8 };
 
-static const char *const verdicts[] = {"the same, within the limits", "a warning", "they differ", "not the same size"};
+static const char *const verdicts[] = {"equal within the limits", "warning", "different", "different sizes"};
 
 static bool compared(const struct diff_pair *pair) {
     return pair->difference.marks != NULL;
@@ -58,8 +58,8 @@ static void add_facts(json_t *document, const struct diff *diff, char labels[2][
     char text[512];
     for (int k = 0; k < 2; k++) add_side(document, &diff->sides[k], labels[k]);
     page_fact(document, "verdict", verdicts[diff->status]);
-    snprintf(text, sizeof text, "a pixel fails by more than %g%s; %g %% of the pixels may", fail->absolute,
-             fail->relative > 0 ? ", and more than its share of the magnitude" : "", fail->percent);
+    snprintf(text, sizeof text, "a pixel fails if it differs by more than %g%s; %g %% of the pixels may fail",
+             fail->absolute, fail->relative > 0 ? " and by more than the relative limit" : "", fail->percent);
     page_fact(document, "limits", text);
     if (first == diff->count) return;
     const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
@@ -80,7 +80,7 @@ static void add_settings(json_t *document, const struct diff *diff, char labels[
     size_t i;
     json_t *row;
     if (!json_array_size(diff->settings)) return;
-    json_t *table = page_table(page_section(document, "What the runs say differently of themselves"));
+    json_t *table = page_table(page_section(document, "Settings that differ"));
     page_column(table, "setting", "");
     for (int k = 0; k < 2; k++) page_column(table, labels[k], "");
     json_array_foreach(diff->settings, i, row)
@@ -118,10 +118,10 @@ static void add_table(json_t *document, const struct diff *diff) {
         {"rms", ""},     {"largest", ""},  {"there", "x,y channel: first, second"}};
     size_t equal = 0;
     char text[128];
-    json_t *blocks = page_section(document, "What differs, in the order of the passes");
+    json_t *blocks = page_section(document, "Images that differ, in the order of the passes");
     for (size_t i = 0; i < diff->count; i++) equal += !differs(&diff->pairs[i]) && !diff->pairs[i].left_out;
     snprintf(text, sizeof text, "%zu of %zu images%s are equal in every value.", equal, diff->count - diff->left_out,
-             diff->planned < 0 ? "" : " that both have, where both trace rays,");
+             diff->planned < 0 ? "" : " that both contain, where both trace rays,");
     page_text(blocks, "text", text);
     if (equal == diff->count - diff->left_out) return;
     json_t *table = page_table(blocks);
@@ -147,12 +147,12 @@ static void add_histogram(json_t *blocks, const struct glint_difference *d) {
             json_array_append_new(points,
                                   json_pack("[I, f]", (json_int_t)i - 1, 100 * (double)d->histogram[i] / differing));
     }
-    snprintf(title, sizeof title, "By how much: the %.3g %% of values that differ",
+    snprintf(title, sizeof title, "Size of differences: %.3g %% of the values differ",
              100 * differing / (double)d->values);
     page_chart(blocks, json_pack("{s:s, s:{s:s, s:s, s:o}, s:{s:s, s:s, s:i}, s:i, s:[{s:s, s:s, s:o}]}", "title",
                                  title, "x", "name", "difference", "scale", "category", "categories", names, "y",
-                                 "name", "share of them", "unit", "%", "min", 0, "height", 260, "series", "kind", "bar",
-                                 "name", "values", "points", points));
+                                 "name", "share of these", "unit", "%", "min", 0, "height", 260, "series", "kind",
+                                 "bar", "name", "values", "points", points));
 }
 
 /* What false colours stand for. */

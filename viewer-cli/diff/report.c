@@ -10,7 +10,7 @@
 
 enum { PLACES = 16 };
 
-const char *const diff_words[] = {"same", "warning", "FAILS", "other size"};
+const char *const diff_words[] = {"same", "warning", "FAILS", "different size"};
 
 /* Channels of floats are counted first, then those of whole numbers. */
 const char *diff_channel(const struct diff_pair *pair) {
@@ -171,10 +171,10 @@ static void print_alone(const struct diff_pair *pair) {
     if (pair->metrics.count) metrics_print(&pair->metrics);
 }
 
-/* What one of the runs alone made, in a line for each run. */
+/* Images that only one of the runs contains, one line for each run. */
 static void print_left_out(const struct diff *diff) {
     for (int k = 0; k < 2 && diff->planned >= 0; k++) {
-        const char *mark = k == diff->planned ? "not made by the plan of" : "not made without a plan, in";
+        const char *mark = k == diff->planned ? "not computed by the plan of" : "computed only with a plan, not in";
         size_t named = 0;
         for (size_t i = 0; i < diff->count; i++) {
             const struct diff_pair *pair = &diff->pairs[i];
@@ -185,12 +185,12 @@ static void print_left_out(const struct diff *diff) {
         if (named) putchar('\n');
     }
     if (diff->rayless_count)
-        printf("%s traces no ray at %zu of %zu texels; there images of rays were not compared\n",
+        printf("%s traces no ray at %zu of %zu texels, where images of rays were not compared\n",
                diff->sides[diff->planned].text, diff->rayless_count, (size_t)diff->rays_width * diff->rays_height);
 }
 
 void diff_print(const struct diff *diff, bool verbose) {
-    static const char *const verdicts[] = {"PASS", "WARNING", "FAILURE", "FAILURE: other sizes"};
+    static const char *const verdicts[] = {"PASS", "WARNING", "FAILURE", "FAILURE: different sizes"};
     const size_t first = diff_first(diff);
     size_t same = 0;
     if (diff->settings) print_settings(diff->settings);
@@ -200,10 +200,10 @@ void diff_print(const struct diff *diff, bool verbose) {
     if (diff->count == 1) print_alone(&diff->pairs[0]);
     else {
         printf("%zu of %zu images%s are the same within the limits", same, diff->count - diff->left_out,
-               diff->planned >= 0 ? " that both have" : "");
+               diff->planned >= 0 ? " that both contain" : "");
         if (first < diff->count) {
             const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
-            printf("; %s%s%s is the first that differs", image->slot, image->slot[0] ? ": " : "", image->name);
+            printf("; the first that differs is %s%s%s", image->slot, image->slot[0] ? ": " : "", image->name);
         }
         putchar('\n');
     }

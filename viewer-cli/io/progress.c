@@ -46,7 +46,7 @@ static const char *time_left(const struct progress *progress, double done, doubl
     return text;
 }
 
-static void draw(struct progress *progress, const char *what, double done, double elapsed) {
+static void draw_progress(struct progress *progress, const char *what, double done, double elapsed) {
     enum { WIDTH = 30 };
     int full = (int)(done * WIDTH + 0.5);
     char left[32];
@@ -78,7 +78,7 @@ bool progress_report(void *user, const char *what, double done) {
     const bool line = asked || (progress->lines && !progress->terminal && (first || since > PROGRESS_LINES_SECONDS));
     asked = 0;
     if (line) print_line(progress, what, done, elapsed);
-    if (progress->terminal && (first || line || since > 0.1)) draw(progress, what, done, elapsed);
+    if (progress->terminal && (first || line || since > 0.1)) draw_progress(progress, what, done, elapsed);
     if (line || (progress->terminal && (first || since > 0.1))) progress->shown = now;
     return !interrupted;
 }

@@ -17,8 +17,9 @@ struct progress {
 #define PROGRESS_OPTION                                                                                                \
     {                                                                                                                  \
         "progress", KEY_PROGRESS, NULL, 0,                                                                             \
-            "Say on stderr every ten seconds how far it is and how long it will take, though that is no terminal; "    \
-            "signal USR1 asks any command of long work once",                                                          \
+            "Print progress and the remaining time to stderr every ten seconds even if it is not a terminal. The "     \
+            "signal "                                                                                                  \
+            "USR1 makes any long-running command print them once",                                                     \
             0                                                                                                          \
     }
 

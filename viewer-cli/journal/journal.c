@@ -29,7 +29,7 @@ static bool same_definition(const struct journal *journal, const json_t *theirs,
         char *found = other ? json_dumps(other, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
         char *expected = json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT);
         glint_fail(err, GLINT_ERROR_USAGE,
-                   "%s: holds a %s of other %s: there %.300s, here %.300s; repeat its arguments, or choose "
+                   "%s: contains a %s with other %s: %.300s instead of %.300s; use the same arguments, or choose "
                    "another folder",
                    journal->folder, journal->kind, key, found ? found : "none", expected ? expected : "?");
         free(found);
@@ -91,7 +91,7 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
     journal->log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (journal->log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     if (lockf(journal->log, F_TLOCK, 0) != 0)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: another %s is at work in this folder", journal->folder,
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: another %s is running in this folder", journal->folder,
                           journal->kind);
     return read_log(journal, path, err);
 }

@@ -1,11 +1,11 @@
-/* This frame's surfaces in the frame before: where both cameras put them, and as far away. It asks for no motion vectors, and it
-   alone tells readings apart that leave every direction as it is, such as another scale of depth. */
+/* Reprojects this frame's surfaces into the previous frame and compares depth or colour there. This needs no motion vectors, and it is
+   the only measure that notices errors which leave all directions unchanged, such as a wrong scale of depth. */
 #include <math.h>
 
 #include "lint.h"
 
-/* Over a plane 1/depth is linear, and so the four texels around a place give its depth exactly. They and those around them must lie
-   on one: second differences of 5e-4 leave at most 1.3e-4 between them. */
+/* 1/depth is linear on a plane, so bilinear interpolation of four texels is exact there. The 4×4 texels around the position must lie on
+   one plane: second differences of 5e-4 leave an interpolation error of at most 1.3e-4. */
 static bool plane_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                         const double place[2], double *depth) {
     const double fx = floor(place[0] - 0.5), fy = floor(place[1] - 0.5);
@@ -32,9 +32,9 @@ static double largest_of(const double v[3]) {
     return fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
 }
 
-static struct lint_tally depths(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally compare_depths(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    /* an engine's floats have the places of both eyes to 2^-24 of them */
+    /* engines store camera positions as floats, which are exact to 2^-24 of their size */
     const double misplaced = ldexp(largest_of(eyes.now.position) + largest_of(eyes.before.position), -23);
     struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
@@ -56,8 +56,8 @@ static bool alike(const float *a, const float *b, double share) {
     return true;
 }
 
-/* Only where the picture moved, and where that shows. */
-static struct lint_tally colors(const struct lint_data *data, const struct lint_reading *reading) {
+/* Compares only samples that moved and whose colour changed at the same pixel: others match under any camera. */
+static struct lint_tally compare_previous_colors(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
@@ -84,7 +84,7 @@ static struct lint_tally colors(const struct lint_data *data, const struct lint_
 
 struct lint_tally lint_before(const struct lint_data *data, const struct lint_reading *reading) {
     if (!data->frame.has_previous || data->frame.cut) return (struct lint_tally){0, 0};
-    if (data->before_depth) return depths(data, reading);
-    if (data->before_lit) return colors(data, reading);
+    if (data->before_depth) return compare_depths(data, reading);
+    if (data->before_lit) return compare_previous_colors(data, reading);
     return (struct lint_tally){0, 0};
 }

@@ -1,4 +1,4 @@
-/* Where a cube map was rendered from: the centre under which its distances agree with depth. */
+/* Searches the position that a cube map was rendered from: the centre for which its distances match the depth buffer. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "capture/cube_face.h"
 #include "lint.h"
 
-/* Of fewer texels the lookup lets more than a tenth of the distance pass: they fit from anywhere. */
+/* Smaller cube maps tolerate more than a tenth of the distance in lint_shows: they match from anywhere. */
 enum { PLACES = 1024, ACROSS = 7, LEAST_SIZE = 32 };
 
 struct search {
@@ -15,13 +15,14 @@ struct search {
     const struct lint_reading *reading;
     double (*places)[3];
     size_t count;
-    float *nearest, *farthest; /* of the cube map that is searched: of each texel and its neighbours on the face */
+    float *nearest,
+        *farthest; /* for each texel of the current cube map: the range of distances of the texel and its neighbours on the face */
     struct lint_reading tried;
 };
 
-/* A texel of a surface that is seen edge-on spans distances as wide as its neighbours are apart: wherever between them a place lies, the
-   cube map shows it. */
-static void span(struct search *s, size_t c) {
+/* A texel of a surface at a grazing angle covers a range of distances, about that of its neighbours: a position anywhere in this range
+   matches. */
+static void fill_distance_ranges(struct search *s, size_t c) {
     const struct lint_cube *cube = &s->data->cubes[c];
     const size_t n = cube->size;
     for (size_t i = 0; i < 6 * n * n; i++) {
@@ -35,10 +36,10 @@ static void span(struct search *s, size_t c) {
     }
 }
 
-/* How well a cube map's distances agree: the mean over all places of 1 where both are the same, falling to 0 where they are
-   different. The best centre is the one in the middle of all that agree; what stands before a place
-   counts as 0: a centre from which less is seen explains less. */
-static double score(struct search *s, size_t c, const double offset[3]) {
+/* How well a cube map's distances match from a centre: the mean over all positions of a value that falls from 1 for equal distances to
+   0 at the tolerance, so that the best centre is in the middle of all acceptable ones. Occluded positions count as 0: a centre that
+   sees fewer of them explains less. */
+static double match_score(struct search *s, size_t c, const double offset[3]) {
     const struct lint_cube *cube = &s->data->cubes[c];
     double sum = 0;
     memcpy(s->tried.center_offset[c], offset, sizeof s->tried.center_offset[c]);
@@ -61,14 +62,14 @@ static double score(struct search *s, size_t c, const double offset[3]) {
     return sum / (double)s->count;
 }
 
-/* The best of a lattice around an offset. */
-static double around(struct search *s, size_t c, double step, int reach, double best, double offset[3]) {
+/* Searches a lattice around an offset and moves the offset to the best point. */
+static double search_lattice(struct search *s, size_t c, double step, int reach, double best, double offset[3]) {
     const double from[3] = {offset[0], offset[1], offset[2]};
     for (int x = -reach; x <= reach; x++)
         for (int y = -reach; y <= reach; y++)
             for (int z = -reach; z <= reach; z++) {
                 const double o[3] = {from[0] + x * step, from[1] + y * step, from[2] + z * step};
-                const double found = score(s, c, o);
+                const double found = match_score(s, c, o);
                 if (found <= best) continue;
                 best = found;
                 memcpy(offset, o, sizeof o);
@@ -76,7 +77,7 @@ static double around(struct search *s, size_t c, double step, int reach, double 
     return best;
 }
 
-/* The geometric mean of the places' distances, and the harmonic one: over this a shift is seen as so large an angle. */
+/* The geometric mean of the distances to all positions, and the harmonic mean, by which a shift converts to a mean angle. */
 static void typical_distances(const struct search *s, size_t c, double *typical, double *near) {
     double logs = 0, inverses = 0;
     for (size_t i = 0; i < s->count; i++) {
@@ -90,39 +91,39 @@ static void typical_distances(const struct search *s, size_t c, double *typical,
     *near = (double)s->count / inverses;
 }
 
-/* What moves along a street, or a wall, changes nothing: of offsets that show nearly the same the shortest. */
-static void shorten(struct search *s, size_t c, double *best, double offset[3]) {
+/* Moving a centre along a street or a wall changes almost nothing: drops the components of the offset that do not improve the match. */
+static void shorten_offset(struct search *s, size_t c, double *best, double offset[3]) {
     for (int k = 0; k < 3; k++) {
         double o[3] = {offset[0], offset[1], offset[2]};
         o[k] = 0;
-        const double found = score(s, c, o);
+        const double found = match_score(s, c, o);
         if (found < *best - 0.01) continue;
         *best = found;
         offset[k] = 0;
     }
 }
 
-/* Offsets up to three eighths of the typical distance, then finer and finer. A cube map that sees few of the picture's surfaces, as
-   one in another room, can be fitted to them from somewhere: one is told of where it shows almost all, and did not before. Of
-   right ones that see the same surfaces no offset shows much more. */
-static void search_one(struct search *s, size_t c) {
+/* Tries offsets up to three eighths of the typical distance, then refines. A cube map that sees few of the visible surfaces, such as
+   one in another room, matches them from some wrong centre too: an offset is reported only if almost all positions match with it and
+   far fewer did without. */
+static void search_cube_center(struct search *s, size_t c) {
     const double none[3] = {0, 0, 0}, most = 0.85;
     double offset[3] = {0, 0, 0}, typical, near;
     typical_distances(s, c, &typical, &near);
     double step = typical / (ACROSS + 1);
-    span(s, c);
-    const double before = score(s, c, none);
+    fill_distance_ranges(s, c);
+    const double before = match_score(s, c, none);
     double best = before;
     if (before < most) {
-        best = around(s, c, step, ACROSS / 2, best, offset);
-        for (; step > typical / 256; step /= 2) best = around(s, c, step / 2, 1, best, offset);
-        shorten(s, c, &best, offset);
+        best = search_lattice(s, c, step, ACROSS / 2, best, offset);
+        for (; step > typical / 256; step /= 2) best = search_lattice(s, c, step / 2, 1, best, offset);
+        shorten_offset(s, c, &best, offset);
     }
-    /* less than what the lookup lets pass is below what it tells apart */
+    /* offsets below the tolerance of the lookup cannot be distinguished from none */
     const double length = sqrt(offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]);
-    const bool told =
+    const bool clear =
         length > near * (0.02 + 1.0 / s->data->cubes[c].size) && best >= most && 1 - best < 0.5 * (1 - before);
-    memcpy(s->tried.center_offset[c], told ? offset : none, sizeof offset);
+    memcpy(s->tried.center_offset[c], clear ? offset : none, sizeof offset);
 }
 
 bool lint_search_centers(const struct lint_data *data, const struct lint_reading *reading, struct lint_reading *other) {
@@ -141,7 +142,7 @@ bool lint_search_centers(const struct lint_data *data, const struct lint_reading
         s.count += lint_place(data, reading, &eyes.now, data->samples[i], s.places[s.count]);
     for (size_t c = 0; c < data->cube_count && s.count >= LINT_ENOUGH; c++) {
         if (!data->cubes[c].has_distance || data->cubes[c].size < LEAST_SIZE) continue;
-        search_one(&s, c);
+        search_cube_center(&s, c);
         moved = moved || memcmp(s.tried.center_offset[c], reading->center_offset[c], sizeof s.tried.center_offset[c]);
     }
     free(s.places);
@@ -151,7 +152,7 @@ bool lint_search_centers(const struct lint_data *data, const struct lint_reading
     return moved;
 }
 
-void lint_tell_centers(const struct lint_data *data, const struct lint_reading *reading, struct lint_finding *f) {
+void lint_describe_centers(const struct lint_data *data, const struct lint_reading *reading, struct lint_finding *f) {
     double mean[3] = {0, 0, 0}, largest = 0;
     size_t count = 0, length = 0;
     char names[160] = "";
@@ -172,10 +173,11 @@ void lint_tell_centers(const struct lint_data *data, const struct lint_reading *
         largest = fmax(largest, sqrt(pow(o[0] - mean[0], 2) + pow(o[1] - mean[1], 2) + pow(o[2] - mean[2], 2)));
     }
     const double by = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
-    /* one offset for all is one mistake */
+    /* the same offset for all is one mistake */
     if (count > 1 && largest < 0.5 * by)
-        snprintf(f->what, sizeof f->what, "centres of %zu cube maps are off by about (%.3g, %.3g, %.3g) units", count,
-                 mean[0], mean[1], mean[2]);
-    else snprintf(f->what, sizeof f->what, "centres of cube maps are off: %s", names);
-    snprintf(f->mend, sizeof f->mend, "add that to glint.center: it is where the cube map was rendered from");
+        snprintf(f->what, sizeof f->what, "the centres of %zu cube maps are wrong by about (%.3g, %.3g, %.3g) units",
+                 count, mean[0], mean[1], mean[2]);
+    else snprintf(f->what, sizeof f->what, "cube-map centres are wrong: %s", names);
+    snprintf(f->remedy, sizeof f->remedy,
+             "add this offset to glint.center, which should be the position that the cube map was rendered from");
 }

@@ -1,4 +1,4 @@
-/* What a cube map must hold by itself: what stands under sky, and nothing within its inner volume. */
+/* Checks cube maps by themselves: sky texels follow the format, and the inner volume is empty. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,11 +7,11 @@
 
 struct sky {
     size_t texels;                              /* of cube maps with distances */
-    size_t clear, solid, infinite;              /* A is 0; A is 1; the distance is infinite */
-    size_t colored, solid_infinite, clear_near; /* A is 0 and not black; A is 1 at infinity; A is 0 and a distance */
-    size_t against;                             /* alpha on one side, the texel's other values on the other */
-    size_t clear_at_0;                          /* of clear_near: the distance is 0 */
-    bool elsewhere;                             /* some pixels stand in a sibling, which no copy of this file mends */
+    size_t clear, solid, infinite;              /* texels with A = 0; with A = 1; at infinite distance */
+    size_t colored, solid_infinite, clear_near; /* A = 0 but not black; A = 1 at infinity; A = 0 at a finite distance */
+    size_t against;                             /* alpha contradicts distance (or colour) about sky */
+    size_t clear_at_0;                          /* of clear_near: at distance 0 */
+    bool elsewhere;                             /* some pixels are in a sibling file, which --fix does not copy */
 };
 
 static struct sky sky_of(const struct lint_data *data) {
@@ -38,50 +38,52 @@ static struct sky sky_of(const struct lint_data *data) {
     return s;
 }
 
-static const char *mends(struct lint_finding *f, const struct sky *s, enum lint_pixels pixels, const char *what) {
+static const char *set_sky_remedy(struct lint_finding *f, const struct sky *s, enum lint_pixels pixels,
+                                  const char *what) {
     if (!s->elsewhere) f->pixels = pixels;
-    snprintf(f->mend, sizeof f->mend, "%s%s", what,
-             s->elsewhere ? "; the pixels stand in a sibling, and --fix leaves that as it is" : "; --fix does");
-    return f->mend;
+    snprintf(f->remedy, sizeof f->remedy, "%s%s", what,
+             s->elsewhere ? "; the pixels are in a sibling file, which --fix does not change" : "; --fix does this");
+    return f->remedy;
 }
 
-/* A rounding of a filter leaves single texels; what an engine forgot is everywhere: more than one in a hundred. */
-static bool many(size_t found, size_t of) {
+/* Filtering leaves single wrong texels; a mistake of the engine affects more than one in a hundred. */
+static bool is_common(size_t found, size_t of) {
     return found > 0 && 100 * found > of;
 }
 
-static void under_sky(const struct lint_data *data, struct lint_findings *findings) {
+static void check_sky_texels(const struct lint_data *data, struct lint_findings *findings) {
     const struct sky s = sky_of(data);
     struct lint_finding *f;
     if (s.texels >= LINT_ENOUGH && 10 * s.against >= 9 * s.texels) {
         f = lint_add(findings, "cubemap.sky_inverted", "certain");
-        snprintf(f->evidence, sizeof f->evidence,
-                 "alpha and what the texels hold disagree about sky at %zu of %zu texels", s.against, s.texels);
-        snprintf(f->mend, sizeof f->mend, "no declaration says so: write 1 - alpha");
+        snprintf(f->evidence, sizeof f->evidence, "alpha contradicts the other channels about sky at %zu of %zu texels",
+                 s.against, s.texels);
+        snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: write 1 - alpha");
         return;
     }
-    if (many(s.solid_infinite, s.infinite)) {
+    if (is_common(s.solid_infinite, s.infinite)) {
         f = lint_add(findings, "cubemap.sky_alpha", "certain");
         snprintf(f->evidence, sizeof f->evidence, "%zu of %zu texels at infinite distance have alpha 1%s",
-                 s.solid_infinite, s.infinite, s.solid == s.texels ? "; so have all texels" : "");
-        mends(f, &s, LINT_CLEAR_INFINITE, "write alpha 0 and black where the distance is infinite");
+                 s.solid_infinite, s.infinite, s.solid == s.texels ? ", as have all texels" : "");
+        set_sky_remedy(f, &s, LINT_CLEAR_INFINITE, "write alpha 0 and black where the distance is infinite");
     }
-    if (many(s.clear_near, s.clear)) {
+    if (is_common(s.clear_near, s.clear)) {
         f = lint_add(findings, "cubemap.sky_distance", "certain");
-        snprintf(f->evidence, sizeof f->evidence, "%zu of %zu texels with alpha 0 have a distance, %zu of them 0",
-                 s.clear_near, s.clear, s.clear_at_0);
-        mends(f, &s, LINT_FAR_SKY, "write a distance of +inf where alpha is 0");
+        snprintf(f->evidence, sizeof f->evidence,
+                 "%zu of %zu texels with alpha 0 have a finite distance, which is 0 for %zu of them", s.clear_near,
+                 s.clear, s.clear_at_0);
+        set_sky_remedy(f, &s, LINT_FAR_SKY, "write a distance of +inf where alpha is 0");
     }
-    if (many(s.colored, s.clear)) {
+    if (is_common(s.colored, s.clear)) {
         f = lint_add(findings, "cubemap.sky_color", "certain");
         snprintf(f->evidence, sizeof f->evidence, "%zu of %zu texels with alpha 0 are not black", s.colored, s.clear);
-        mends(f, &s, LINT_BLACK_SKY, "write black where alpha is 0: the sky has a cube map of its own");
+        set_sky_remedy(f, &s, LINT_BLACK_SKY, "write black where alpha is 0: the sky has its own cube map");
     }
 }
 
 /* ---- Inner volumes ---- */
 
-/* How far a place, relative to the centre, lies within the volume; not positive outside. */
+/* How deep a position, relative to the centre, is inside the volume; negative or 0 outside. */
 static double depth_within(const struct glint_cubemap *map, const double p[3]) {
     double within = INFINITY, square = 0;
     for (int k = 0; k < 3; k++) {
@@ -104,8 +106,8 @@ static void texel_place(const struct lint_cube *cube, size_t i, double p[3]) {
     for (int k = 0; k < 3; k++) p[k] = d[face][k] * scale;
 }
 
-/* By the cube map's own distances: what moves through the volume is not in it when the cube map is rendered. */
-static void inner_volumes(const struct lint_data *data, struct lint_findings *findings) {
+/* Uses the cube map's own distances: objects that move through the volume are not in it when the cube map is rendered. */
+static void check_inner_volumes(const struct lint_data *data, struct lint_findings *findings) {
     char names[200] = "";
     size_t length = 0, maps = 0;
     double worst = 0;
@@ -118,10 +120,10 @@ static void inner_volumes(const struct lint_data *data, struct lint_findings *fi
             if (!isfinite(cube->texels[5 * i + 4]) || cube->texels[5 * i + 3] == 0) continue;
             texel_place(cube, i, p);
             all++;
-            /* a wall on the volume's rim may be rounded, or filtered, into it: by what lint_shows lets pass */
+            /* rounding or filtering may move a wall at the border into the volume: the tolerance is that of lint_shows */
             inside += depth_within(&cube->map, p) > (double)cube->texels[5 * i + 4] * (0.02 + 3.0 / cube->size);
         }
-        /* one texel in a hundred is a thing of a fifth of a metre at a metre's distance */
+        /* one texel in a hundred is an object of 0.2 m at a distance of 1 m */
         if (all < LINT_ENOUGH || 100 * inside <= all) continue;
         const int n = snprintf(names + length, sizeof names - length, "%s%s %.0f %%", length ? ", " : "", cube->name,
                                100 * (double)inside / (double)all);
@@ -132,12 +134,13 @@ static void inner_volumes(const struct lint_data *data, struct lint_findings *fi
     }
     if (!maps) return;
     struct lint_finding *f = lint_add(findings, "cubemap.inner_full", worst > 0.05 ? "certain" : "likely");
-    snprintf(f->evidence, sizeof f->evidence, "of what these cube maps show lies within their own volumes: %s", names);
-    snprintf(f->mend, sizeof f->mend,
-             "glint.inner is not the room's box: make it so small that nothing is in it, or \"none\"");
+    snprintf(f->evidence, sizeof f->evidence, "share of texels inside the cube map's own inner volume: %s", names);
+    snprintf(f->remedy, sizeof f->remedy,
+             "glint.inner is not the bounding box of the room: make it so small that it contains no surface, or set "
+             "\"none\"");
 }
 
 void lint_find_cubes(const struct lint_data *data, struct lint_findings *findings) {
-    under_sky(data, findings);
-    inner_volumes(data, findings);
+    check_sky_texels(data, findings);
+    check_inner_volumes(data, findings);
 }

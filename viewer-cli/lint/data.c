@@ -1,4 +1,4 @@
-/* What lint looks at, read as it is stored. */
+/* Reads what lint compares, as stored. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static bool is_whole(const struct glint_part_info *part, const char *channel) {
     return false;
 }
 
-/* Channels as floats; those that the part lacks, and NULL, are 0. */
+/* Reads channels as floats; channels that the part does not have, and NULL, become 0. */
 static float *read_floats(struct glint_capture *capture, const struct glint_part_info *part, const char *const *names,
                           size_t count, struct glint_error *err) {
     const char *there[8];
@@ -57,7 +57,7 @@ static bool read_cube(struct lint_data *data, struct glint_capture *capture, con
     return cube->texels != NULL;
 }
 
-/* The cube maps nearest to the camera see most of what it sees. */
+/* Takes the cube maps nearest to the camera: they see most of what it sees. */
 static bool read_cubes(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
     const struct lint_reading reading = lint_declared(data);
     const struct lint_eyes eyes = lint_eyes_of(data, &reading);
@@ -90,7 +90,7 @@ static bool choose_samples(struct lint_data *data, struct glint_error *err) {
     data->samples = malloc(LINT_SAMPLES * sizeof *data->samples);
     if (!data->samples) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (data->width < 3 || data->height < 3) return true;
-    /* a lattice of points that no pattern of rows and columns is in step with */
+    /* a lattice of sample points that does not align with patterns of rows and columns */
     for (uint32_t i = 0; i < LINT_SAMPLES; i++) {
         const double u = fmod(0.5 + i * 0.7548776662466927, 1), v = fmod(0.5 + i * 0.5698402909980532, 1);
         const uint32_t x = 1 + (uint32_t)(u * (data->width - 2)), y = 1 + (uint32_t)(v * (data->height - 2));
@@ -99,7 +99,7 @@ static bool choose_samples(struct lint_data *data, struct glint_error *err) {
     return true;
 }
 
-/* The frame before, of the same size; what is missing stays NULL. */
+/* Reads the previous frame if it has the same size; what is missing stays NULL. */
 static bool read_before(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
     static const char *const depth[] = {"depth.Z"}, *const color[] = {"R", "G", "B"};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "previous.gbuffer"),
@@ -109,7 +109,7 @@ static bool read_before(struct lint_data *data, struct glint_capture *capture, s
            (!lit || (data->before_lit = read_floats(capture, lit, color, 3, err)));
 }
 
-/* How finely what is compared was held, as declared and as it is found. */
+/* Sets the rounding steps of depth and normals: the declared ones, or those found in the data if they are coarser. */
 static bool read_rounding(struct lint_data *data, const struct glint_part_info *gbuffer, struct glint_error *err) {
     static const int steps[5][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     data->depth_half_step = calloc((size_t)data->width * data->height + 1, sizeof *data->depth_half_step);

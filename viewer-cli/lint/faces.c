@@ -1,4 +1,4 @@
-/* Which stored face of a cube map is which, and how it is turned: by the surfaces on screen that it should show. */
+/* Finds swapped, mirrored and rotated cube-map faces by comparing them with the surfaces on screen. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,11 +10,12 @@ enum { TURNS = 8 };
 static const char *const names[6] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
 struct votes {
-    size_t agree[6][6][TURNS], beyond[6][6][TURNS]; /* of a face of the format: each stored face, each turn */
+    size_t agree[6][6][TURNS],
+        beyond[6][6][TURNS]; /* for each face of the format: each stored face in each orientation */
 };
 
-static void vote(struct votes *votes, const struct lint_data *data, const struct lint_reading *reading, size_t c,
-                 const double world[3]) {
+static void count_votes(struct votes *votes, const struct lint_data *data, const struct lint_reading *reading, size_t c,
+                        const double world[3]) {
     const struct lint_cube *cube = &data->cubes[c];
     double d[3], u, v;
     lint_from_center(data, reading, c, world, d);
@@ -31,16 +32,16 @@ static void vote(struct votes *votes, const struct lint_data *data, const struct
         }
 }
 
-static double share(const struct votes *votes, int face, int stored, int turn) {
+static double share_of(const struct votes *votes, int face, int stored, int turn) {
     const size_t agree = votes->agree[face][stored][turn], all = agree + votes->beyond[face][stored][turn];
     return all ? (double)agree / (double)all : 0;
 }
 
-/* What is better than as stored for one face; false when nothing clearly is. */
-static bool better(const struct votes *votes, int face, int *stored, int *turn) {
+/* Finds a stored face and orientation that matches one face better than as stored; false when none is clearly better. */
+static bool find_better_face(const struct votes *votes, int face, int *stored, int *turn) {
     const size_t all = votes->agree[face][face][0] + votes->beyond[face][face][0];
     size_t most = votes->agree[face][face][0];
-    double best = share(votes, face, face, 0);
+    double best = share_of(votes, face, face, 0);
     const size_t least = most;
     const double before = best;
     *stored = face;
@@ -48,13 +49,13 @@ static bool better(const struct votes *votes, int face, int *stored, int *turn) 
     for (int s = 0; s < 6; s++)
         for (int t = 0; t < TURNS; t++) {
             const size_t agree = votes->agree[face][s][t];
-            if (agree < LINT_ENOUGH / 2 || agree <= most || share(votes, face, s, t) <= best) continue;
+            if (agree < LINT_ENOUGH / 2 || agree <= most || share_of(votes, face, s, t) <= best) continue;
             most = agree;
-            best = share(votes, face, s, t);
+            best = share_of(votes, face, s, t);
             *stored = s;
             *turn = t;
         }
-    return all >= LINT_ENOUGH / 2 && best >= LINT_TELLS && 1 - best < 0.5 * (1 - before) && best > before + 0.05 &&
+    return all >= LINT_ENOUGH / 2 && best >= LINT_MIN_SHARE && 1 - best < 0.5 * (1 - before) && best > before + 0.05 &&
            5 * most > 6 * least;
 }
 
@@ -62,11 +63,11 @@ static const char *turn_name(int turn) {
     static const char *const words[TURNS] = {"",
                                              ", mirrored left to right",
                                              ", upside down",
-                                             ", turned by a half",
-                                             ", mirrored across its diagonal",
-                                             ", turned by a quarter",
-                                             ", turned by a quarter the other way",
-                                             ", mirrored across its other diagonal"};
+                                             ", rotated by 180°",
+                                             ", mirrored across the diagonal",
+                                             ", rotated by 90°",
+                                             ", rotated by -90°",
+                                             ", mirrored across the other diagonal"};
     return words[turn];
 }
 
@@ -82,16 +83,16 @@ void lint_find_faces(const struct lint_data *data, struct lint_reading *reading,
         double world[3];
         if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
         for (size_t c = 0; c < data->cube_count; c++)
-            if (data->cubes[c].has_distance) vote(&votes, data, reading, c, world);
+            if (data->cubes[c].has_distance) count_votes(&votes, data, reading, c, world);
     }
     for (int f = 0; f < 6; f++) {
-        if (!better(&votes, f, &other.face[f], &other.turn[f])) {
+        if (!find_better_face(&votes, f, &other.face[f], &other.turn[f])) {
             other.face[f] = f;
             other.turn[f] = 0;
             continue;
         }
-        const int n = snprintf(text + length, sizeof text - length, "%s%s lies at %s%s", length ? "; " : "", names[f],
-                               names[other.face[f]], turn_name(other.turn[f]));
+        const int n = snprintf(text + length, sizeof text - length, "%s%s is stored as %s%s", length ? "; " : "",
+                               names[f], names[other.face[f]], turn_name(other.turn[f]));
         length += n > 0 && (size_t)n < sizeof text - length ? (size_t)n : 0;
         same_turn = changed && other.turn[f] != same_turn ? -2 : other.turn[f];
         moved += other.face[f] != f;
@@ -101,11 +102,11 @@ void lint_find_faces(const struct lint_data *data, struct lint_reading *reading,
     const struct lint_agreement now = lint_agree(data, &other, NULL, 0);
     const char *id = !moved && same_turn >= 0 ? "cubemap.faces_turned" : "cubemap.faces_exchanged";
     struct lint_finding *f = lint_add(findings, id, now.share[LINT_CUBEMAPS] > 0.6 ? "certain" : "likely");
-    snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s agree, as declared %.0f %%", text,
-             100 * now.share[LINT_CUBEMAPS], now.count[LINT_CUBEMAPS], lint_measure_names[LINT_CUBEMAPS],
+    snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s match then, %.0f %% as stored",
+             text, 100 * now.share[LINT_CUBEMAPS], now.count[LINT_CUBEMAPS], lint_measure_names[LINT_CUBEMAPS],
              100 * agreement->share[LINT_CUBEMAPS]);
-    snprintf(f->mend, sizeof f->mend,
-             "no declaration says so: write faces as +X -X +Y -Y +Z -Z, each as Vulkan orients it");
+    snprintf(f->remedy, sizeof f->remedy,
+             "no attribute can declare this: write the faces in the order +X -X +Y -Y +Z -Z, oriented as in Vulkan");
     *reading = other;
     *agreement = now;
 }

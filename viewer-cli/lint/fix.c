@@ -1,5 +1,5 @@
-/* A copy of a capture with other declarations, and with what FORMAT.md has under sky. All other pixels keep their bits, parts and
-   attributes that are not glint's their place. What would make anything agree less is left out. */
+/* Writes a copy of a capture with corrected declarations, and with sky texels as FORMAT.md requires. All other pixels keep their bits;
+   unknown parts and attributes stay. A fix that would make any comparison worse is left out. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,18 +20,18 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-/* Whether a finding's attribute stands on this part: "ROLE:NAME", or NAME on the G-buffer. */
+/* The name of the finding's attribute if it belongs on this part ("ROLE:NAME", or NAME for the G-buffer), else NULL. */
 static const char *attribute_on(const struct lint_finding *f, const char *part) {
     const char *colon = f->attribute ? strchr(f->attribute, ':') : NULL;
     if (!f->attribute) return NULL;
     const bool camera = !strcmp(f->attribute, "glint.worldToView");
-    if (!strncmp(part, "previous.", 9) && !camera) part += 9; /* dumped the same way */
+    if (!strncmp(part, "previous.", 9) && !camera) part += 9; /* the previous frame follows the same conventions */
     if (!colon) return strcmp(part, "gbuffer") ? NULL : f->attribute;
     const size_t length = (size_t)(colon - f->attribute);
     return !strncmp(part, f->attribute, length) && (part[length] == '\0' || part[length] == '.') ? colon + 1 : NULL;
 }
 
-/* Its place among the part's attributes, a new one at their end. */
+/* Finds the attribute of the part, or appends a new one. */
 static struct glint_exr_attribute *attribute_named(struct copy *copy, const char *name) {
     size_t i = 0;
     while (i < copy->part.attribute_count && strcmp(copy->attributes[i].name, name)) i++;
@@ -52,7 +52,7 @@ static void set_attribute(struct copy *copy, const char *name, const struct lint
             .name = name, .type = GLINT_EXR_STRING, .type_name = "string", .string = f->value};
 }
 
-/* ---- What stands under sky ---- */
+/* ---- Sky texels ---- */
 
 static bool has_value(const struct copy *copy, size_t channel, size_t at, float value) {
     uint16_t half;
@@ -65,7 +65,7 @@ static bool has_value(const struct copy *copy, size_t channel, size_t at, float 
     return number == value;
 }
 
-/* 0 or +inf, which both types hold. */
+/* Writes 0 or +inf, which both types can represent. */
 static void set_value(struct copy *copy, size_t channel, size_t at, float value) {
     const uint16_t half = value == 0 ? 0 : 0x7c00;
     if (copy->channels[channel].stored == GLINT_STORED_HALF)
@@ -79,7 +79,7 @@ static size_t channel_of(const struct copy *copy, const char *name) {
     return c;
 }
 
-static void mend_sky(struct copy *copy, enum lint_pixels pixels) {
+static void fix_sky(struct copy *copy, enum lint_pixels pixels) {
     const size_t alpha = channel_of(copy, "A"), distance = channel_of(copy, "distance.Z"),
                  count = copy->part.channel_count, texels = (size_t)copy->part.width * copy->part.height;
     const bool by_distance = pixels == LINT_CLEAR_INFINITE;
@@ -92,7 +92,7 @@ static void mend_sky(struct copy *copy, enum lint_pixels pixels) {
     }
 }
 
-/* ---- A copy ---- */
+/* ---- The copy ---- */
 
 static bool copy_part(struct copy *copy, struct glint_exr *exr, size_t i, const struct lint_findings *findings,
                       struct glint_error *err) {
@@ -124,7 +124,7 @@ static bool copy_part(struct copy *copy, struct glint_exr *exr, size_t i, const 
         const char *name = attribute_on(f, from->name);
         if (f->left_out) continue;
         if (name) set_attribute(copy, name, f);
-        if (f->pixels != LINT_NO_PIXELS && !strncmp(from->name, "cubemap.", 8)) mend_sky(copy, f->pixels);
+        if (f->pixels != LINT_NO_PIXELS && !strncmp(from->name, "cubemap.", 8)) fix_sky(copy, f->pixels);
     }
     return true;
 }
@@ -155,9 +155,9 @@ static bool write_copy(const char *from, const char *to, const struct lint_findi
     return ok;
 }
 
-/* ---- Whether it is better ---- */
+/* ---- Does the copy match better? ---- */
 
-static bool measure(const char *path, struct lint_agreement *agreement, struct glint_error *err) {
+static bool measure_file(const char *path, struct lint_agreement *agreement, struct glint_error *err) {
     struct lint_data data = {.cube_count = 0};
     struct glint_capture *capture = glint_capture_open(path, NULL, err);
     const bool ok = capture && lint_data_read(&data, capture, err);
@@ -170,16 +170,16 @@ static bool measure(const char *path, struct lint_agreement *agreement, struct g
     return ok;
 }
 
-static bool mends_pixels(const struct lint_findings *findings) {
+static bool changes_pixels(const struct lint_findings *findings) {
     bool any = false;
     for (size_t i = 0; i < findings->count; i++)
         any = any || (!findings->items[i].left_out && findings->items[i].pixels != LINT_NO_PIXELS);
     return any;
 }
 
-/* By more than a few places, which lie on the edge of what agrees. Where sky is given its distance more places can be compared: then
-   no fewer may agree. */
-static bool falls(const struct lint_agreement *from, const struct lint_agreement *to, bool sky) {
+/* Whether a measure got worse, by more than a few borderline samples. When sky gets its distance, more samples can be compared: then the
+   number of matches must not fall. */
+static bool is_any_measure_worse(const struct lint_agreement *from, const struct lint_agreement *to, bool sky) {
     for (int m = 0; m < LINT_MEASURES; m++) {
         const bool by_count = sky && (m == LINT_CUBEMAPS || m == LINT_COLORS);
         const double before = by_count ? 1 : lint_worth(from, to, m),
@@ -191,51 +191,52 @@ static bool falls(const struct lint_agreement *from, const struct lint_agreement
     return false;
 }
 
-/* Only what is certain is mended; which axis is up, nothing that is measured depends on. */
-bool lint_may_mend(const struct lint_finding *f) {
+/* Only certain findings are fixed, and the up axis, on which no measure depends. */
+bool lint_is_fixable(const struct lint_finding *f) {
     return (f->attribute || f->pixels != LINT_NO_PIXELS) &&
            (!strcmp(f->likelihood, "certain") || !strcmp(f->id, "camera.up"));
 }
 
-static size_t applied(const struct lint_findings *findings) {
+static size_t count_applied(const struct lint_findings *findings) {
     size_t count = 0;
     for (size_t i = 0; i < findings->count; i++)
-        count += lint_may_mend(&findings->items[i]) && !findings->items[i].left_out;
+        count += lint_is_fixable(&findings->items[i]) && !findings->items[i].left_out;
     return count;
 }
 
-static void ignore(void *user, const char *rule, const char *message) {
+static void ignore_violation(void *user, const char *rule, const char *message) {
     (void)user, (void)rule, (void)message;
 }
 
-/* A trial copy beside the one that is wanted, where siblings are. */
-static bool is_worse(const char *from, const char *trial, const struct lint_findings *findings,
-                     struct lint_agreement *agreement, bool *worse, struct glint_error *err) {
+/* Writes a trial copy next to the wanted one, so that relative paths of sibling files resolve, and measures it. */
+static bool copy_is_worse(const char *from, const char *trial, const struct lint_findings *findings,
+                          struct lint_agreement *agreement, bool *worse, struct glint_error *err) {
     struct lint_agreement after;
-    size_t rules, broken; /* of FORMAT.md, before and after */
-    if (!write_copy(from, trial, findings, err) || !measure(trial, &after, err) ||
-        !glint_capture_validate(from, NULL, ignore, NULL, &rules, err) ||
-        !glint_capture_validate(trial, NULL, ignore, NULL, &broken, err))
+    size_t rules, broken; /* violated rules of FORMAT.md, before and after */
+    if (!write_copy(from, trial, findings, err) || !measure_file(trial, &after, err) ||
+        !glint_capture_validate(from, NULL, ignore_violation, NULL, &rules, err) ||
+        !glint_capture_validate(trial, NULL, ignore_violation, NULL, &broken, err))
         return false;
-    *worse = broken > rules || falls(agreement, &after, mends_pixels(findings));
+    *worse = broken > rules || is_any_measure_worse(agreement, &after, changes_pixels(findings));
     if (!*worse) *agreement = after;
     return true;
 }
 
-/* All together, as two may mend only together what neither does alone; where that is worse, one after the other. */
-static bool choose(const char *from, const char *trial, struct lint_findings *findings, struct glint_error *err) {
+/* Tries all fixes together, because two may only help together; if that is worse, one after the other. */
+static bool choose_fixes(const char *from, const char *trial, struct lint_findings *findings, struct glint_error *err) {
     struct lint_agreement agreement;
     bool worse = false;
-    for (size_t i = 0; i < findings->count; i++) findings->items[i].left_out = !lint_may_mend(&findings->items[i]);
-    if (!applied(findings)) return write_copy(from, trial, findings, err);
-    if (!measure(from, &agreement, err) || !is_worse(from, trial, findings, &agreement, &worse, err)) return false;
+    for (size_t i = 0; i < findings->count; i++) findings->items[i].left_out = !lint_is_fixable(&findings->items[i]);
+    if (!count_applied(findings)) return write_copy(from, trial, findings, err);
+    if (!measure_file(from, &agreement, err) || !copy_is_worse(from, trial, findings, &agreement, &worse, err))
+        return false;
     if (!worse) return true;
     for (size_t i = 0; i < findings->count; i++) findings->items[i].left_out = true;
     for (size_t i = 0; i < findings->count; i++) {
         struct lint_finding *f = &findings->items[i];
-        if (!lint_may_mend(f)) continue;
+        if (!lint_is_fixable(f)) continue;
         f->left_out = false;
-        if (!is_worse(from, trial, findings, &agreement, &f->left_out, err)) return false;
+        if (!copy_is_worse(from, trial, findings, &agreement, &f->left_out, err)) return false;
     }
     return write_copy(from, trial, findings, err);
 }
@@ -246,10 +247,10 @@ bool lint_fix(const char *from, const char *to, struct lint_findings *findings, 
     char *trial = malloc(length);
     if (!trial) return no_memory(err);
     snprintf(trial, length, "%s.trial-%ld", to, (long)getpid());
-    bool ok = choose(from, trial, findings, err);
+    bool ok = choose_fixes(from, trial, findings, err);
     if (ok && rename(trial, to) != 0) ok = glint_fail(err, GLINT_ERROR_IO, "%s: cannot be written", to);
     if (!ok) unlink(trial);
-    *fixed = applied(findings);
+    *fixed = count_applied(findings);
     free(trial);
     return ok;
 }

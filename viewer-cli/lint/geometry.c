@@ -1,4 +1,4 @@
-/* Where things are, by a reading. The formulas are those of FORMAT.md. */
+/* Decodes positions, normals and motion under a reading. The formulas are those of FORMAT.md. */
 #include <math.h>
 #include <string.h>
 
@@ -24,7 +24,7 @@ struct lint_reading lint_declared(const struct lint_data *data) {
     return r;
 }
 
-/* A rotation as an engine's floats have it is orthonormal to 1e-7: far from the origin its transpose would misplace the eye. */
+/* A rotation stored in floats is orthonormal only to 1e-7: far from the origin its transpose would misplace the eye, so it is inverted. */
 static void invert(const double m[9], double out[9]) {
     double det = 0;
     for (int i = 0; i < 3; i++)
@@ -45,7 +45,7 @@ static struct lint_view view_of(const struct glint_camera *camera, const struct 
         for (int k = 0; k < 3; k++)
             stored[3 * i + k] = (reading->inverse_camera ? 1 : reading->view_sign[i]) * m[4 * i + k];
     invert(stored, reading->inverse_camera ? v.rotation : v.inverse);
-    /* the eye: where the view is 0. The inverse of what is stored has it as its translation. */
+    /* The eye is the origin of view space; a stored inverse has it as its translation. */
     if (reading->inverse_camera) memcpy(v.position, translation, sizeof translation);
     else glint_camera_position(camera, v.position);
     return v;
@@ -60,9 +60,9 @@ struct lint_eyes lint_eyes_of(const struct lint_data *data, const struct lint_re
                               view_of(reading->swapped_cameras ? now : before, reading)};
 }
 
-/* The direction through a place whose view z is s. */
-static void ray(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-                double x, double y, double out[3]) {
+/* The view-space direction through a pixel position, scaled so that its z is s. */
+static void view_ray(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                     double x, double y, double out[3]) {
     const double up = reading->clip_y == GLINT_CLIP_Y_UP ? 1 : -1;
     const double ndc_x = 2 * x / data->width - 1, ndc_y = up * (1 - 2 * y / data->height);
     out[0] = (ndc_x - view->c * view->s) / view->a;
@@ -70,16 +70,16 @@ static void ray(const struct lint_data *data, const struct lint_reading *reading
     out[2] = view->s;
 }
 
-/* What a depth buffer holds where NDC z is z. */
+/* Converts NDC z to the value in the depth buffer. */
 static double stored_of(const struct lint_reading *reading, double z) {
     return reading->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? (z + 1) / 2 : z;
 }
 
-static bool along_axis(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-                       double v, double *depth) {
+static bool decode_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                         double v, double *depth) {
     const bool reversed = reading->depth == GLINT_DEPTH_REVERSED || reading->depth == GLINT_DEPTH_REVERSED_INFINITE ||
                           reading->depth == GLINT_DEPTH_LOGARITHMIC_REVERSED;
-    /* a depth buffer is reversed when its projection is, and has no far plane when that has none */
+    /* the depth encoding must fit the projection: reversed or not, with or without a far plane */
     const bool projected = reading->depth == GLINT_DEPTH_DEVICE || reading->depth == GLINT_DEPTH_REVERSED ||
                            reading->depth == GLINT_DEPTH_REVERSED_INFINITE;
     if (projected && (view->B > 0) != reversed) return false;
@@ -101,10 +101,10 @@ static bool along_axis(const struct lint_data *data, const struct lint_reading *
 static bool depth_in(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                      const float *image, uint32_t x, uint32_t y, double *depth) {
     const double v = (double)image[(size_t)y * data->width + x];
-    if (!along_axis(data, reading, view, v, depth)) return false;
+    if (!decode_depth(data, reading, view, v, depth)) return false;
     if (reading->radial) {
         double r[3];
-        ray(data, reading, view, x + 0.5, y + 0.5, r);
+        view_ray(data, reading, view, x + 0.5, y + 0.5, r);
         *depth /= sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
     }
     return true;
@@ -138,7 +138,7 @@ double lint_depth_error(const struct lint_data *data, const struct lint_reading 
 
 void lint_view_position(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                         double x, double y, double depth, double out[3]) {
-    ray(data, reading, view, x, y, out);
+    view_ray(data, reading, view, x, y, out);
     for (int i = 0; i < 3; i++) out[i] *= depth;
 }
 
@@ -197,7 +197,7 @@ static void decode_normal(const struct lint_reading *reading, const double *v, c
     }
 }
 
-/* From stored values to world axes. */
+/* Decodes stored values to a unit normal in world space. */
 static bool normal_of(const struct lint_reading *reading, const struct lint_view *view, const double v[3],
                       double out[3]) {
     double stored[3] = {0, 0, 0}, n[3];
@@ -248,7 +248,7 @@ void lint_motion(const struct lint_data *data, const struct lint_reading *readin
         else if (reading->motion == GLINT_MOTION_PACKED16) v = (v - 32768) / 32767 * data->frame.motion_range * size[i];
         out[i] = v * reading->motion_sign[i];
     }
-    if (!reading->motion_unjittered || (out[0] == 0 && out[1] == 0)) return; /* 0 may as well be no motion at all */
+    if (!reading->motion_unjittered || (out[0] == 0 && out[1] == 0)) return; /* 0 may mean that no motion was written */
     const double *now = data->frame.camera.view_to_clip, *before = data->frame.previous.view_to_clip;
     const double down = reading->clip_y == GLINT_CLIP_Y_UP ? -1 : 1;
     out[0] += (before[2] * before[14] - now[2] * now[14]) / 2 * size[0];

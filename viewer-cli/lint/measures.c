@@ -1,15 +1,16 @@
-/* How far independent images agree on the same surfaces. */
+/* How well independent images match on the same surfaces. */
 #include <math.h>
 #include <string.h>
 
 #include "capture/cube_face.h"
 #include "lint.h"
 
-const char *const lint_measure_names[] = {"normals with the depths around them", "depth with the cube maps' distances",
-                                          "motion with depth and both cameras", "lit with the cube maps' colours",
-                                          "the frame before with depth and both cameras"};
+const char *const lint_measure_names[] = {"normals with the depth buffer", "depth with cube-map distances",
+                                          "motion with the reprojection", "lit with cube-map colours",
+                                          "the previous frame with the reprojection"};
 
-static const double SAME_DIRECTION = 0.9986; /* cosine of 3 degrees: cameras are often turned by little more */
+static const double SAME_DIRECTION =
+    0.9986; /* cosine of 3 degrees: many cameras are rotated by little more against the world */
 
 void lint_count(struct lint_tally *tally, bool agrees) {
     tally->count++;
@@ -24,8 +25,9 @@ bool lint_same_direction(const double a[3], const double b[3]) {
     return dot(a, b) > SAME_DIRECTION;
 }
 
-/* Across the two ways between opposite neighbours, towards the eye; the cosine of the angle to it, 0 when there is none. */
-static double across(const double e[2][3], const double to_eye[3], double out[3]) {
+/* The normal of the two vectors between opposite neighbours, towards the eye. Returns the cosine to the eye, 0 when there is no
+   normal. */
+static double facet_normal(const double e[2][3], const double to_eye[3], double out[3]) {
     out[0] = e[0][1] * e[1][2] - e[0][2] * e[1][1];
     out[1] = e[0][2] * e[1][0] - e[0][0] * e[1][2];
     out[2] = e[0][0] * e[1][1] - e[0][1] * e[1][0];
@@ -36,8 +38,8 @@ static double across(const double e[2][3], const double to_eye[3], double out[3]
     return dot(out, to_eye) / sqrt(dot(to_eye, to_eye));
 }
 
-/* The cosine of how far rounding may have turned a facet: its neighbours moved by as much along their rays, the opposite ones
-   against each other. */
+/* The cosine of the angle by which rounding may have rotated a facet: the neighbours are moved along their view rays by their
+   rounding errors, opposite neighbours in opposite directions. */
 static double facet_rounding(double p[5][3], const double error[5], const double to_eye[3], const double eye[3],
                              const double depth[5], const double normal[3]) {
     double least = 1;
@@ -50,7 +52,7 @@ static double facet_rounding(double p[5][3], const double error[5], const double
                              way * ((p[i][k] - eye[k]) * error[i] / depth[i] +
                                     (p[i + 1][k] - eye[k]) * error[i + 1] / depth[i + 1]);
             }
-        if (!(across((const double(*)[3])e, to_eye, n) > 0)) return -1;
+        if (!(facet_normal((const double(*)[3])e, to_eye, n) > 0)) return -1;
         least = fmin(least, dot(n, normal));
     }
     return least;
@@ -69,7 +71,7 @@ enum lint_facet lint_facet_of(const struct lint_data *data, const struct lint_re
         lint_view_position(data, reading, view, px + 0.5, py + 0.5, depth[i], in);
         lint_to_world(view, in, p[i]);
     }
-    /* 1/depth is linear over a plane, but for what rounding does */
+    /* 1/depth is linear on a plane, apart from rounding */
     for (int i = 1; i < 5; i += 2) {
         const double rounding = 2 * error[0] / depth[0] + error[i] / depth[i] + error[i + 1] / depth[i + 1];
         if (fabs(depth[0] / depth[i] + depth[0] / depth[i + 1] - 2) > 2e-3 + rounding) return LINT_NO_FACET;
@@ -79,16 +81,16 @@ enum lint_facet lint_facet_of(const struct lint_data *data, const struct lint_re
         e[1][k] = p[4][k] - p[3][k];
         to_eye[k] = view->position[k] - p[0][k];
     }
-    /* nearly edge-on, a pixel's own extent is too coarse to tell */
-    if (!(across((const double(*)[3])e, to_eye, out) > 0.05)) return LINT_NO_FACET;
+    /* at grazing angles, a pixel covers too much of the surface for a usable normal */
+    if (!(facet_normal((const double(*)[3])e, to_eye, out) > 0.05)) return LINT_NO_FACET;
     return facet_rounding(p, error, to_eye, view->position, depth, out) > SAME_DIRECTION ? LINT_FACET
                                                                                          : LINT_UNSURE_FACET;
 }
 
-/* Where rounding of depth alone may turn the facet by as much as would be told, nothing is compared. A normal may be off by what its
-   own rounding turned it, as 8 bits of X and Y do where a surface is seen edge-on (FORMAT.md, Precision); beyond 15 degrees an
-   agreement would say nothing. */
-static struct lint_tally facets(const struct lint_data *data, const struct lint_reading *reading) {
+/* Samples whose facet may be rotated beyond the tolerance by rounding of depth alone are not compared. The tolerance of a normal grows
+   by the angle that its own rounding may cause, which is large for 8-bit X and Y at grazing angles (FORMAT.md, Precision); beyond 15
+   degrees a match would prove nothing. */
+static struct lint_tally compare_facets(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
@@ -131,7 +133,7 @@ bool lint_moved(const struct lint_data *data, const struct lint_reading *reading
 int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
                const double direction[3]) {
     const double away = sqrt(dot(direction, direction)), slack = away * (0.02 + 3.0 / cube->size);
-    if (slack >= away) return 0; /* texels so wide that whatever is nearer agrees: nothing is told by them */
+    if (slack >= away) return 0; /* texels so large that everything nearer would match */
     const double distance = lint_cube_distance(reading, texel, direction);
     if (fabs(distance - away) <= slack) return 1;
     return distance > away + 3 * slack ? -1 : 0;
@@ -150,7 +152,7 @@ int lint_sees(const struct lint_data *data, const struct lint_reading *reading, 
     return lint_shows(reading, cube, *texel, d);
 }
 
-static struct lint_tally cubemaps(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally compare_cubemaps(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
@@ -165,7 +167,7 @@ static struct lint_tally cubemaps(const struct lint_data *data, const struct lin
     return tally;
 }
 
-static struct lint_tally motion(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally compare_motion(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     struct lint_tally tally = {0, 0};
     if (!data->has_motion || !data->frame.has_previous) return tally;
@@ -187,7 +189,7 @@ static double linear(enum glint_color_encoding encoding, double pre_exposure, do
     return v;
 }
 
-static struct lint_tally colors(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally compare_colors(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     const double exposure = data->frame.pre_exposure > 0 ? data->frame.pre_exposure : 1;
     struct lint_tally tally = {0, 0};
@@ -219,7 +221,7 @@ static struct lint_tally colors(const struct lint_data *data, const struct lint_
 struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
                                  const struct lint_agreement *known, unsigned which) {
     static struct lint_tally (*const take[])(const struct lint_data *, const struct lint_reading *) = {
-        facets, cubemaps, motion, colors, lint_before};
+        compare_facets, compare_cubemaps, compare_motion, compare_colors, lint_before};
     struct lint_agreement a = known ? *known : (struct lint_agreement){{0}, {0}};
     for (int m = 0; m < LINT_MEASURES; m++) {
         if (known && !(which & (1u << m))) continue;

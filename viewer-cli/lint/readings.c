@@ -1,4 +1,4 @@
-/* Other readings: the one under which independent images agree best, and again from there. */
+/* Searches the conventions under which independent images match best: the best single change first, then further changes from there. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ void lint_undecided(struct lint_findings *findings, const char *format, ...) {
     va_end(arguments);
 }
 
-static void flip(double sign[3], unsigned axes) {
+static void negate_axes(double sign[3], unsigned axes) {
     for (int i = 0; i < 3; i++)
         if (axes & (1u << i)) sign[i] = -sign[i];
 }
@@ -26,7 +26,7 @@ static void exchange(int axis[3], int i, int k) {
     axis[k] = t;
 }
 
-/* Depth at the far plane, units; 1 where there is none. */
+/* Distance of the far plane in engine units; 1 where the projection has none. */
 static double far_of(const struct lint_data *data) {
     const double far = camera_facts(&data->frame).far;
     return isfinite(far) ? far : 1;
@@ -71,7 +71,7 @@ struct lint_finding *lint_add(struct lint_findings *findings, const char *id, co
     return f;
 }
 
-static void apply(const struct lint_data *data, struct lint_reading *r, size_t row) {
+static void apply_reading(const struct lint_data *data, struct lint_reading *r, size_t row) {
     size_t at = 0;
 #define READING(id, statement, what, attribute, value)                                                                 \
     if (at++ == row) (void)(statement);
@@ -80,7 +80,7 @@ static void apply(const struct lint_data *data, struct lint_reading *r, size_t r
     (void)data;
 }
 
-/* The measures that a reading has to do with, by what it is of. */
+/* The measures that a convention can influence, as bits. */
 static unsigned measures_of(const char *id) {
     static const struct {
         const char *of;
@@ -99,8 +99,8 @@ double lint_worth(const struct lint_agreement *a, const struct lint_agreement *o
     return a->share[m] * fmin(1, 2 * (double)a->count[m] / reference);
 }
 
-/* By how much the second agrees better: the gains of all measures. -1 when any of them loses, 0 when none gains much: it must take
-   away half of what does not agree or make it agree more than twice as often, and in more than a few places. */
+/* By how much the second agreement is better: the sum over all measures. -1 when any measure gets worse. 0 when no measure gains
+   much: at least one must halve its mismatches or more than double its matches, by more than a few samples. */
 static double gain(const struct lint_agreement *from, const struct lint_agreement *to, int *most) {
     double sum = 0, largest = 0;
     for (int m = 0; m < LINT_MEASURES; m++) {
@@ -116,7 +116,7 @@ static double gain(const struct lint_agreement *from, const struct lint_agreemen
     return largest > 0 ? sum : 0;
 }
 
-static void mended_matrix(bool inverse, const double *m, double out[16]) {
+static void corrected_matrix(bool inverse, const double *m, double out[16]) {
     memcpy(out, m, 16 * sizeof *out);
     for (int i = 0; !inverse && i < 4; i++) out[i] = -m[i];
     for (int i = 0; inverse && i < 3; i++) {
@@ -138,35 +138,35 @@ static void declare(struct lint_finding *f, const struct row *row, const struct 
     const bool inverse = !strcmp(row->value, INVERSE);
     f->has_matrix = inverse || !strcmp(row->value, MIRRORED);
     f->has_previous = f->has_matrix && data->frame.has_previous && !reading->inverse_current;
-    if (f->has_matrix) mended_matrix(inverse, data->frame.camera.world_to_view, f->matrix);
-    if (f->has_previous) mended_matrix(inverse, data->frame.previous.world_to_view, f->previous);
-    if (!f->attribute) snprintf(f->mend, sizeof f->mend, "no declaration says so: change the dump");
+    if (f->has_matrix) corrected_matrix(inverse, data->frame.camera.world_to_view, f->matrix);
+    if (f->has_previous) corrected_matrix(inverse, data->frame.previous.world_to_view, f->previous);
+    if (!f->attribute) snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: change the dump");
     else if (f->has_matrix)
-        snprintf(f->mend, sizeof f->mend, "%s%s: %s", f->attribute,
+        snprintf(f->remedy, sizeof f->remedy, "%s%s: %s", f->attribute,
                  f->has_previous ? " and glint.previousWorldToView" : "",
                  !strcmp(row->value, INVERSE) ? "its inverse" : "its first row negated");
-    else snprintf(f->mend, sizeof f->mend, "%s = \"%s\"", f->attribute, f->value);
+    else snprintf(f->remedy, sizeof f->remedy, "%s = \"%s\"", f->attribute, f->value);
 }
 
-/* ---- The best other reading ---- */
+/* ---- The best other convention ---- */
 
-/* A reading that was tried: which rows, or which centres, and how it agrees. */
+/* A reading that was tried: which row (or CENTERS), and how well the images match under it. */
 enum { CENTERS = ROWS, NONE };
 struct candidate {
     size_t row, also; /* `also`: a second row, for two mistakes of which neither shows alone */
     struct lint_reading reading;
     struct lint_agreement agreement;
     double gain;
-    int measure; /* that says most */
+    int measure; /* the one that gains most */
 };
 struct contest {
     struct candidate best, second;
 };
 
-static void enter(struct contest *contest, const struct lint_agreement *from, struct candidate *c) {
+static void consider(struct contest *contest, const struct lint_agreement *from, struct candidate *c) {
     c->gain = gain(from, &c->agreement, &c->measure);
-    if (!(c->gain > 0) || c->agreement.share[c->measure] < LINT_TELLS) return;
-    /* the same by another name */
+    if (!(c->gain > 0) || c->agreement.share[c->measure] < LINT_MIN_SHARE) return;
+    /* another row led to the same reading */
     if (!memcmp(&c->reading, &contest->best.reading, sizeof c->reading)) return;
     if (c->gain > contest->best.gain + 1e-3) {
         contest->second = contest->best;
@@ -175,12 +175,12 @@ static void enter(struct contest *contest, const struct lint_agreement *from, st
 }
 
 static const char *what_of(const struct candidate *c) {
-    const char *what = "centres of cube maps are off";
+    const char *what = "cube-map centres are wrong";
     if (c->row < ROWS) lint_id(c->row, &what);
     return what;
 }
 
-/* Rows that stand bottom first are read rightly with NDC turned around, but then the picture's top points down. */
+/* Images stored bottom first match when NDC y is flipped, but then the top of the image points down in the world. */
 static bool bottom_first(const struct lint_data *data, const struct lint_reading *reading) {
     static const int axis_of[6] = {1, 2, 0, 1, 2, 0};
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
@@ -198,12 +198,13 @@ static void add_finding(struct lint_findings *findings, const struct contest *co
     const char *id = row == CENTERS ? "cubemap.center" : turned ? "picture.bottom_first" : rows[row].id;
     struct lint_finding *f = lint_add(findings, id, clear ? "certain" : alone ? "likely" : "possible");
     snprintf(f->evidence, sizeof f->evidence,
-             "as declared %.0f %% of %zu comparisons of %s agree, so read %.0f %% of %zu", 100 * from->share[m],
-             from->count[m], lint_measure_names[m], 100 * c->agreement.share[m], c->agreement.count[m]);
+             "%.0f %% of %zu comparisons of %s match as declared, %.0f %% of %zu under this convention",
+             100 * from->share[m], from->count[m], lint_measure_names[m], 100 * c->agreement.share[m],
+             c->agreement.count[m]);
     if (!alone) snprintf(f->either, sizeof f->either, "%s", what_of(&contest->second));
-    if (row == CENTERS) lint_tell_centers(data, &c->reading, f);
+    if (row == CENTERS) lint_describe_centers(data, &c->reading, f);
     else if (turned)
-        snprintf(f->mend, sizeof f->mend, "no declaration says so: write row 0 at the top, of every image");
+        snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: write every image with row 0 at the top");
     else declare(f, &rows[row], data, &c->reading);
 }
 
@@ -211,15 +212,15 @@ static void try_rows(const struct lint_data *data, const struct lint_reading *re
                      const struct lint_agreement *agreement, struct contest *contest) {
     for (size_t i = 0; i < ROWS; i++) {
         struct candidate c = {.row = i, .also = NONE, .reading = *reading};
-        apply(data, &c.reading, i);
+        apply_reading(data, &c.reading, i);
         if (!memcmp(&c.reading, reading, sizeof c.reading)) continue;
         c.agreement = lint_agree(data, &c.reading, agreement, measures_of(rows[i].id));
-        enter(contest, agreement, &c);
+        consider(contest, agreement, &c);
     }
 }
 
-/* Normals may be stored in two ways at once that nothing declares, such as (n + 1) / 2 in view axes: of these neither agrees alone, or
-   one by chance a little better. */
+/* Normals may deviate from the declaration in two ways at once, such as (n + 1) / 2 in view space: then neither change alone improves
+   the match, except a little by chance. */
 static void try_pairs_of_normals(const struct lint_data *data, const struct lint_reading *reading,
                                  const struct lint_agreement *agreement, struct contest *contest) {
     const double alone = fmax(agreement->share[LINT_FACETS], contest->best.agreement.share[LINT_FACETS]);
@@ -230,12 +231,12 @@ static void try_pairs_of_normals(const struct lint_data *data, const struct lint
             struct candidate c = {.row = i, .also = k, .reading = *reading};
             struct lint_reading first;
             if (strncmp(rows[k].id, "normal.", 7) != 0) continue;
-            apply(data, &c.reading, i);
+            apply_reading(data, &c.reading, i);
             first = c.reading;
-            apply(data, &c.reading, k);
+            apply_reading(data, &c.reading, k);
             if (!memcmp(&c.reading, &first, sizeof first) || !memcmp(&first, reading, sizeof first)) continue;
             c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_FACETS);
-            enter(&pairs, agreement, &c);
+            consider(&pairs, agreement, &c);
         }
     const double together = pairs.best.agreement.share[LINT_FACETS];
     if (pairs.best.gain > contest->best.gain && together > 0.6 && together > alone + 0.15) *contest = pairs;
@@ -245,8 +246,8 @@ static double agreeing(const struct lint_agreement *a, int measure) {
     return a->share[measure] * (double)a->count[measure];
 }
 
-/* Each centre was judged by itself. Of all comparisons one cube map of many changes few, and from a wrong centre things seem to stand
-   before many places, which then are not compared: it is enough that more agree than before. */
+/* lint_search_centers judges each centre separately. One cube map of many changes few of all comparisons, and from a wrong centre many
+   samples seem occluded and are not compared, so it suffices that more samples match than before. */
 static void try_centers(const struct lint_data *data, const struct lint_reading *reading,
                         const struct lint_agreement *agreement, struct contest *contest) {
     static const double nowhere[LINT_CUBES][3];
@@ -255,7 +256,7 @@ static void try_centers(const struct lint_data *data, const struct lint_reading 
         !lint_search_centers(data, reading, &c.reading))
         return;
     c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_CUBEMAPS | 1u << LINT_COLORS);
-    enter(contest, agreement, &c);
+    consider(contest, agreement, &c);
     if (contest->best.row != NONE || agreeing(&c.agreement, LINT_CUBEMAPS) <= agreeing(agreement, LINT_CUBEMAPS) ||
         agreeing(&c.agreement, LINT_COLORS) < agreeing(agreement, LINT_COLORS))
         return;
@@ -264,9 +265,9 @@ static void try_centers(const struct lint_data *data, const struct lint_reading 
     contest->best = c;
 }
 
-/* The best other reading from here; false when none is clearly better. */
-static bool read_depth_step(const struct lint_data *data, struct lint_reading *reading,
-                            struct lint_agreement *agreement, struct lint_findings *findings) {
+/* Takes the best other reading from here; false when none is clearly better. */
+static bool apply_best_reading(const struct lint_data *data, struct lint_reading *reading,
+                               struct lint_agreement *agreement, struct lint_findings *findings) {
     struct contest contest = {.best = {.row = NONE}, .second = {.row = NONE}};
     try_rows(data, reading, agreement, &contest);
     try_pairs_of_normals(data, reading, agreement, &contest);
@@ -282,5 +283,5 @@ static bool read_depth_step(const struct lint_data *data, struct lint_reading *r
 void lint_find_readings(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
                         struct lint_findings *findings) {
     enum { MISTAKES = 4 };
-    for (int i = 0; i < MISTAKES && read_depth_step(data, reading, agreement, findings); i++) continue;
+    for (int i = 0; i < MISTAKES && apply_best_reading(data, reading, agreement, findings); i++) continue;
 }

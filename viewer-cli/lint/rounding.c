@@ -1,12 +1,12 @@
-/* How finely depth was held before it was captured: values that all lie on the steps of a coarser format than any that is declared,
-   and surfaces that such steps hide. */
+/* Finds depth that was quantized before it was captured: values that all are multiples of the step of a coarser format than the
+   declared one, and surfaces whose orientation such steps hide. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "lint.h"
 
-/* Distance of a value to the nearest step of a format, and that step. */
+/* The step of a format at a value, and the distance of the value to the nearest multiple of it. */
 static double off_step(const struct lint_rounding *r, double v, double *step) {
     int exponent;
     frexp(v, &exponent);
@@ -14,14 +14,14 @@ static double off_step(const struct lint_rounding *r, double v, double *step) {
     return fabs(v - *step * nearbyint(v / *step));
 }
 
-/* A distance as a depth buffer has it by the camera. */
+/* Converts a distance to the device depth of this camera. */
 static double to_device(const struct lint_data *data, enum glint_clip_z clip_z, double distance) {
     const double *p = data->frame.camera.view_to_clip, z = p[10] * p[14] + p[11] / distance;
     return clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? (z + 1) / 2 : z;
 }
 
-/* Whether all values lie on a format's steps. A value whose own rounding to float is no finer than a tenth of a step is on one by
-   chance, and is not asked; too few different values, as of a wall that is looked at straight, prove nothing either. */
+/* Whether all values are multiples of a format's step. Values whose own float rounding is coarser than a tenth of the step would pass
+   by chance and are skipped; too few different values, as of a wall that faces the camera, prove nothing either. */
 static bool all_lie_on(const struct lint_data *data, const struct lint_rounding *r) {
     enum { DIFFERENT = 16 };
     double seen[DIFFERENT];
@@ -31,7 +31,7 @@ static bool all_lie_on(const struct lint_data *data, const struct lint_rounding 
         if (!isfinite(stored) || stored <= 0 || (data->encodings.depth != GLINT_DEPTH_VIEW_LINEAR && stored >= 1))
             continue;
         const double v = r->of_device ? to_device(data, r->clip_z, stored) : stored;
-        /* of a float, and of a distance that is one */
+        /* rounding of a float distance, converted to device depth where needed */
         const double own =
             r->of_device ? ldexp(fabs(data->frame.camera.view_to_clip[11]) / stored, -22) + 1e-15 : ldexp(stored, -24);
         double step;
@@ -46,7 +46,7 @@ static bool all_lie_on(const struct lint_data *data, const struct lint_rounding 
     return asked >= LINT_ENOUGH && different == DIFFERENT && off * 500 <= asked;
 }
 
-/* Of the formats that depth is held in, and of fewer bits, from the coarsest. */
+/* Tries common depth formats from the coarsest to the finest. */
 void lint_find_rounding(struct lint_data *data) {
     enum { LEAST_BITS = 8, MOST_BITS = 18 };
     const bool distances = data->encodings.depth == GLINT_DEPTH_VIEW_LINEAR;
@@ -57,8 +57,8 @@ void lint_find_rounding(struct lint_data *data) {
                                       .of_device = of > 0,
                                       .clip_z = of == 2 ? GLINT_CLIP_Z_MINUS_ONE_TO_ONE : GLINT_CLIP_Z_ZERO_TO_ONE};
             if ((distances && !r.of_device && r.fixed) || !all_lie_on(data, &r)) continue;
-            if (r.fixed) snprintf(r.format, sizeof r.format, "%d bits of fixed point", bits);
-            else snprintf(r.format, sizeof r.format, "a half float");
+            if (r.fixed) snprintf(r.format, sizeof r.format, "%d-bit fixed point", bits);
+            else snprintf(r.format, sizeof r.format, "half float");
             data->rounding = r;
             return;
         }
@@ -70,12 +70,12 @@ double lint_rounding_step(const struct lint_data *data, double stored) {
     if (!r->format[0] || !(stored > 0)) return 0;
     off_step(r, r->of_device ? to_device(data, r->clip_z, stored) : stored, &step);
     if (!r->of_device) return step;
-    /* device depth's slope over distance */
+    /* the derivative of device depth by distance */
     return step * stored * stored / fabs(data->frame.camera.view_to_clip[11]) *
            (r->clip_z == GLINT_CLIP_Z_MINUS_ONE_TO_ONE ? 2 : 1);
 }
 
-/* ---- Surfaces that rounding hides ---- */
+/* ---- Surfaces whose orientation is lost ---- */
 
 void lint_find_coarse_depth(const struct lint_data *data, const struct lint_reading *reading, const char *depth_text,
                             struct lint_findings *findings) {
@@ -90,15 +90,16 @@ void lint_find_coarse_depth(const struct lint_data *data, const struct lint_read
         unsure += facet == LINT_UNSURE_FACET;
         hidden += facet == LINT_UNSURE_FACET && !lint_same_direction(f, n);
     }
-    /* a fifth of all surfaces: less lies far away, where every format is coarse */
+    /* Fewer than a fifth of the surfaces may simply be far away, where every format is coarse. */
     if (all < LINT_ENOUGH || 5 * hidden < all) return;
     struct lint_finding *f = lint_add(findings, "depth.coarse", "certain");
     if (data->rounding.format[0])
-        snprintf(f->what, sizeof f->what, "depth is too coarse: %sits values lie on the steps of %s",
+        snprintf(f->what, sizeof f->what, "depth is too coarse: its values %sare quantized to %s",
                  data->rounding.of_device ? "as device depth " : "", data->rounding.format);
-    snprintf(f->evidence, sizeof f->evidence,
-             "rounding alone may turn %zu of %zu surfaces by over 3 degrees, and %zu of them lie so beside their "
-             "normals; %s",
-             unsure, all, hidden, depth_text);
-    snprintf(f->mend, sizeof f->mend, "dump depth as the depth buffer has it: D24, or better D32F reversed");
+    snprintf(
+        f->evidence, sizeof f->evidence,
+        "rounding alone may rotate %zu of %zu surfaces by more than 3 degrees, and %zu of these do not match their "
+        "normals; %s",
+        unsure, all, hidden, depth_text);
+    snprintf(f->remedy, sizeof f->remedy, "dump the depth buffer without conversion: D24, or better reversed D32F");
 }

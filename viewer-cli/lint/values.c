@@ -1,4 +1,4 @@
-/* What values must be by themselves, whatever they mean together. */
+/* Checks of single images: normals have unit length, sky has no depth, lit has no specular light, motion fits the cameras. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,8 +20,8 @@ static bool is_surface(const struct lint_data *data, const struct lint_reading *
 
 /* ---- Normals ---- */
 
-static void normal_lengths(const struct lint_data *data, const struct lint_reading *reading,
-                           const struct lint_view *view, struct lint_findings *findings) {
+static void check_normal_lengths(const struct lint_data *data, const struct lint_reading *reading,
+                                 const struct lint_view *view, struct lint_findings *findings) {
     static double lengths[LINT_SAMPLES];
     size_t count = 0, off = 0;
     const bool unorm = reading->normal == GLINT_NORMAL_UNORM;
@@ -36,14 +36,16 @@ static void normal_lengths(const struct lint_data *data, const struct lint_readi
     }
     if (count < LINT_ENOUGH || off < count / 2) return;
     struct lint_finding *f = lint_add(findings, "normal.length", "certain");
-    snprintf(f->evidence, sizeof f->evidence, "%zu of %zu are off by more than 0.05, the median length is %.4g", off,
-             count, median(lengths, count));
-    snprintf(f->mend, sizeof f->mend, "normalise in the dump; the reader does, but precision is lost");
+    snprintf(f->evidence, sizeof f->evidence,
+             "the length of %zu of %zu normals differs from 1 by more than 0.05; the median length is %.4g", off, count,
+             median(lengths, count));
+    snprintf(f->remedy, sizeof f->remedy,
+             "normalize the normals before dumping them: the reader does it too, but precision is lost");
 }
 
 /* ---- Sky ---- */
 
-static void depth_sky(const struct lint_data *data, struct lint_findings *findings) {
+static void check_sky_depth(const struct lint_data *data, struct lint_findings *findings) {
     const size_t pixels = (size_t)data->width * data->height;
     double largest = 0, next = 0;
     size_t infinite = 0, at_largest = 0;
@@ -61,15 +63,15 @@ static void depth_sky(const struct lint_data *data, struct lint_findings *findin
     if (infinite || at_largest < pixels / 500 + 16 || !(largest > 1.2 * next)) return;
     struct lint_finding *f = lint_add(findings, "depth.sky_value", "likely");
     snprintf(f->evidence, sizeof f->evidence,
-             "%zu pixels have exactly the depth %.9g, the next largest is %.9g, none is infinite", at_largest, largest,
-             next);
-    snprintf(f->mend, sizeof f->mend, "no declaration says so: write +inf under sky");
+             "%zu pixels have exactly the depth %.9g, the next largest depth is %.9g, and no pixel is infinite",
+             at_largest, largest, next);
+    snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: write +inf for sky pixels");
 }
 
 /* ---- Light ---- */
 
-static void specular(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-                     struct lint_findings *findings) {
+static void check_specular(const struct lint_data *data, const struct lint_reading *reading,
+                           const struct lint_view *view, struct lint_findings *findings) {
     static double others[LINT_SAMPLES];
     size_t metals = 0, lit = 0, count = 0;
     for (size_t i = 0; i < data->sample_count; i++) {
@@ -85,24 +87,23 @@ static void specular(const struct lint_data *data, const struct lint_reading *re
         lit += lint_luminance(data->lit + 3 * pixel) > 0.02 * typical;
     }
     if (metals < 50) {
-        lint_undecided(
-            findings,
-            "whether lit holds specular light: too little metal is in the picture to tell (%zu of %zu samples)", metals,
-            data->sample_count);
+        lint_undecided(findings, "whether lit contains specular light: too few samples are metal (%zu of %zu)", metals,
+                       data->sample_count);
         return;
     }
     if (lit < metals / 2) return;
     struct lint_finding *f = lint_add(findings, "lit.specular", "likely");
-    snprintf(f->evidence, sizeof f->evidence, "%zu of %zu samples of metal, which has no diffuse light, are lit", lit,
-             metals);
-    snprintf(f->mend, sizeof f->mend,
-             "no declaration says so: dump lit without specular (and the finished picture as scene)");
+    snprintf(f->evidence, sizeof f->evidence,
+             "%zu of %zu metal samples are lit, although metal has no diffuse reflection", lit, metals);
+    snprintf(f->remedy, sizeof f->remedy,
+             "no attribute can declare this: dump lit without specular light (and the final image as scene)");
 }
 
 /* ---- Motion and the previous camera ---- */
 
 struct movement {
-    size_t compared, stored, expected, zero; /* samples whose motion is stored, expected to move; stored as exactly 0 */
+    size_t compared, stored, expected,
+        zero; /* samples that move as stored; that move by both cameras; whose motion is exactly 0 */
 };
 
 static struct movement movement_of(const struct lint_data *data, const struct lint_reading *reading) {
@@ -127,7 +128,7 @@ static bool same_camera(const struct glint_frame *frame) {
     return largest == 0;
 }
 
-/* Samples whose depth is another one in the frame before. */
+/* Number of samples whose depth differs between the two frames. */
 static size_t depth_changed(const struct lint_data *data) {
     size_t changed = 0;
     for (size_t i = 0; i < data->sample_count; i++) {
@@ -137,56 +138,58 @@ static size_t depth_changed(const struct lint_data *data) {
     return changed;
 }
 
-/* Without motion vectors, the frame before tells whether the previous camera is its own. */
-static void before(const struct lint_data *data, const struct lint_agreement *agreement,
-                   struct lint_findings *findings) {
+/* Without motion vectors, the depth of the previous frame shows whether the previous camera is right. */
+static void check_previous_depth(const struct lint_data *data, const struct lint_agreement *agreement,
+                                 struct lint_findings *findings) {
     const double share = agreement->share[LINT_BEFORE];
     if (agreement->count[LINT_BEFORE] < LINT_ENOUGH || !data->before_depth) return;
     const bool same = same_camera(&data->frame) && 2 * depth_changed(data) > agreement->count[LINT_BEFORE];
-    if (share >= (same ? 0.5 : LINT_TELLS)) return;
+    if (share >= (same ? 0.5 : LINT_MIN_SHARE)) return;
     struct lint_finding *f =
         lint_add(findings, same ? "previous.same" : "previous.unexplained", same ? "certain" : "possible");
     snprintf(f->evidence, sizeof f->evidence, "%.0f %% of %zu comparisons of %s agree%s", 100 * share,
              agreement->count[LINT_BEFORE], lint_measure_names[LINT_BEFORE],
-             same ? "; both cameras are the same, both depths are not" : "");
-    snprintf(f->mend, sizeof f->mend,
-             same ? "no declaration says so: dump the camera of the frame before"
-                  : "dump the camera and the depth of one and the same frame before");
+             same ? "; both cameras are equal, but the two depth buffers differ" : "");
+    snprintf(f->remedy, sizeof f->remedy,
+             same ? "no attribute can declare this: dump the camera of the previous frame"
+                  : "dump camera and depth of the same previous frame");
 }
 
-static void previous(const struct lint_data *data, const struct lint_reading *reading,
-                     const struct lint_agreement *agreement, struct lint_findings *findings) {
+static void check_motion(const struct lint_data *data, const struct lint_reading *reading,
+                         const struct lint_agreement *agreement, struct lint_findings *findings) {
     const size_t known = findings->count;
     if (data->frame.cut) return;
     const struct movement m = data->has_motion ? movement_of(data, reading) : (struct movement){0, 0, 0, 0};
-    const char *id = NULL, *mend = "no declaration says so: dump the camera of the frame before";
-    if (!data->has_motion) lint_undecided(findings, "motion: the capture holds none");
+    const char *id = NULL, *remedy = "no attribute can declare this: dump the camera of the previous frame";
+    if (!data->has_motion) lint_undecided(findings, "motion: the capture contains no motion vectors");
     if (m.compared >= LINT_ENOUGH && m.stored > m.compared / 2 && !data->frame.has_previous) id = "previous.missing";
     else if (m.compared >= LINT_ENOUGH && m.stored > m.compared / 2 && m.expected < m.compared / 20)
         id = "previous.same";
     else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 && m.zero > m.compared * 19 / 20) {
         id = "motion.zero";
-        mend = "no declaration says so: dump motion, the camera's included";
-    } else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 && agreement->share[LINT_MOTION] < LINT_TELLS) {
+        remedy = "no attribute can declare this: dump motion that includes the motion of the camera";
+    } else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 &&
+               agreement->share[LINT_MOTION] < LINT_MIN_SHARE) {
         id = "motion.unexplained";
-        mend = "compare motion with the reprojection of a still object";
+        remedy = "compare the motion of a static object with its reprojection by both cameras";
     }
     if (m.compared >= LINT_ENOUGH && m.expected < m.compared / 20 && !id)
-        lint_undecided(findings, "which way motion points and in which unit: the camera did not move");
+        lint_undecided(findings, "the sign and unit of motion: the camera did not move");
     if (id) {
         struct lint_finding *f = lint_add(findings, id, strcmp(id, "motion.unexplained") ? "certain" : "possible");
         snprintf(f->evidence, sizeof f->evidence,
-                 "of %zu samples %zu move by more than %.2f pixels as stored, %zu by both cameras; %zu are stored as 0",
+                 "of %zu samples, %zu move by more than %.2f pixels as stored and %zu by reprojection; the stored "
+                 "motion of %zu is 0",
                  m.compared, m.stored, LINT_MOVES_PX, m.expected, m.zero);
-        snprintf(f->mend, sizeof f->mend, "%s", mend);
+        snprintf(f->remedy, sizeof f->remedy, "%s", remedy);
     }
-    if (findings->count == known) before(data, agreement, findings);
+    if (findings->count == known) check_previous_depth(data, agreement, findings);
 }
 
 /* ---- Up ---- */
 
-static void up(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
-               struct lint_findings *findings) {
+static void check_up_axis(const struct lint_data *data, const struct lint_reading *reading,
+                          const struct lint_view *view, struct lint_findings *findings) {
     static const int axis_of[6] = {1, 2, 0, 1, 2, 0};
     static const char *const values[6] = {"+y", "+z", "+x", "-y", "-z", "-x"};
     const double y_up = reading->clip_y == GLINT_CLIP_Y_UP ? 1 : -1, turn = (view->b < 0 ? -1 : 1) * y_up;
@@ -211,23 +214,24 @@ static void up(const struct lint_data *data, const struct lint_reading *reading,
         floors[best] < surfaces / 50)
         return;
     struct lint_finding *f = lint_add(findings, "camera.up", "likely");
-    snprintf(f->what, sizeof f->what, "%s is up, not %s", values[best], values[declared]);
-    snprintf(f->evidence, sizeof f->evidence,
-             "the picture's upward direction has %.2f of %s and %.2f of %s, its horizon lies level in that, and %.0f "
-             "%% of the surfaces face it",
-             upward[best], values[best], upward[declared], values[declared],
-             100 * (double)floors[best] / (double)surfaces);
+    snprintf(f->what, sizeof f->what, "the up axis is %s, not %s", values[best], values[declared]);
+    snprintf(
+        f->evidence, sizeof f->evidence,
+        "the up direction of the image is %.2f along %s and %.2f along %s, the horizon is level for %s, and %.0f %% of "
+        "the surfaces face it",
+        upward[best], values[best], upward[declared], values[declared], values[best],
+        100 * (double)floors[best] / (double)surfaces);
     f->attribute = "glint.up";
     f->value = values[best];
-    snprintf(f->mend, sizeof f->mend, "glint.up = \"%s\"", values[best]);
+    snprintf(f->remedy, sizeof f->remedy, "glint.up = \"%s\"", values[best]);
 }
 
-/* ---- What no reading explains ---- */
+/* ---- Images that match under no convention ---- */
 
-static void unexplained(const struct lint_agreement *a, struct lint_findings *findings) {
+static void check_unexplained(const struct lint_agreement *a, struct lint_findings *findings) {
     static const struct {
         int measure;
-        double share; /* normal maps leave little that is as flat as the depth around it */
+        double share; /* with normal maps, few normals equal those of the depth buffer */
         const char *id;
     } rows[] = {{LINT_FACETS, 0.08, "normal.unexplained"}, {LINT_CUBEMAPS, 0.3, "cubemap.unexplained"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -236,34 +240,35 @@ static void unexplained(const struct lint_agreement *a, struct lint_findings *fi
         struct lint_finding *f = lint_add(findings, rows[i].id, "possible");
         snprintf(f->evidence, sizeof f->evidence, "%.0f %% of %zu comparisons of %s agree", 100 * a->share[m],
                  a->count[m], lint_measure_names[m]);
-        snprintf(f->mend, sizeof f->mend, "look at both: glint view");
+        snprintf(f->remedy, sizeof f->remedy, "compare both images with glint view");
     }
     for (int m = 0; m < LINT_MEASURES; m++)
         if (a->count[m] < LINT_ENOUGH && m != LINT_MOTION && m != LINT_BEFORE)
-            lint_undecided(findings, "%s: too little to compare (%zu places)", lint_measure_names[m], a->count[m]);
+            lint_undecided(findings, "%s: too few samples can be compared (%zu)", lint_measure_names[m], a->count[m]);
 }
 
-/* What is lit by another light, at another time of day, is no mistake of the dump. */
-static void unlike_light(const struct lint_agreement *a, struct lint_findings *findings) {
-    if (a->count[LINT_COLORS] < LINT_ENOUGH || a->share[LINT_COLORS] >= LINT_TELLS) return;
-    lint_undecided(findings,
-                   "why lit and the cube maps' colours agree at %.0f %% of the places, in no reading that is known: "
-                   "another light, another exposure, or one of them is none of what it should be",
-                   100 * a->share[LINT_COLORS]);
+/* Cube maps that were rendered under other lighting, such as another time of day, are not a mistake of the dump. */
+static void check_lighting(const struct lint_agreement *a, struct lint_findings *findings) {
+    if (a->count[LINT_COLORS] < LINT_ENOUGH || a->share[LINT_COLORS] >= LINT_MIN_SHARE) return;
+    lint_undecided(
+        findings,
+        "why lit and the cube-map colours match at only %.0f %% of the samples under every known convention: the "
+        "lighting or the exposure may differ, or one of the two images may be wrong",
+        100 * a->share[LINT_COLORS]);
 }
 
 void lint_find_values(const struct lint_data *data, const struct lint_reading *reading,
                       const struct lint_agreement *agreement, struct lint_findings *findings) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    normal_lengths(data, reading, &eyes.now, findings);
-    depth_sky(data, findings);
+    check_normal_lengths(data, reading, &eyes.now, findings);
+    check_sky_depth(data, findings);
     lint_find_cubes(data, findings);
-    specular(data, reading, &eyes.now, findings);
-    previous(data, reading, agreement, findings);
-    up(data, reading, &eyes.now, findings);
-    unexplained(agreement, findings);
-    unlike_light(agreement, findings);
+    check_specular(data, reading, &eyes.now, findings);
+    check_motion(data, reading, agreement, findings);
+    check_up_axis(data, reading, &eyes.now, findings);
+    check_unexplained(agreement, findings);
+    check_lighting(agreement, findings);
     lint_undecided(findings,
-                   "whether roughness is squared or inverted: nothing else in a capture says how rough a surface is");
-    lint_undecided(findings, "how long a unit is (metresPerUnit): all lengths are in the same one");
+                   "whether roughness is squared or inverted: no other image of a capture depends on roughness");
+    lint_undecided(findings, "the length of a unit (metresPerUnit): all lengths are in the same unit");
 }

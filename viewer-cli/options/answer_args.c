@@ -17,7 +17,7 @@ error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct a
 }
 
 void answer_args_check(const struct answer_args *args, size_t captures, struct argp_state *state) {
-    if (args->truth && args->references.count) argp_error(state, "--reference: expected runs or the truth, found both");
+    if (args->truth && args->references.count) argp_error(state, "--reference: expected either runs or truth");
     if (args->references.count && args->references.count != captures)
         argp_error(state, "--reference: expected one run for each of %zu captures, found %zu", captures,
                    args->references.count);

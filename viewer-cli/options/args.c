@@ -22,7 +22,7 @@ void list_add(struct list *list, const char *item, struct argp_state *state) {
 
 void list_split(struct list *list, char *text, struct argp_state *state) {
     for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;) {
-        if (!*piece) argp_error(state, "an empty name in a list");
+        if (!*piece) argp_error(state, "a list contains an empty name");
         list_add(list, piece, state);
     }
 }
@@ -53,7 +53,7 @@ void arg_numbers(const char *option, const char *text, double *out, size_t count
         bool last = i + 1 == count;
         if (end == p || !isfinite(out[i]) || *end != (last ? '\0' : ','))
             argp_error(state, "--%s=%s: expected %zu number%s%s", option, text, count, count > 1 ? "s" : "",
-                       count > 1 ? " with commas between them" : "");
+                       count > 1 ? " separated by commas" : "");
         p = end + 1;
     }
 }

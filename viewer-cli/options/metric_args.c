@@ -83,8 +83,9 @@ static void print_assumed(const struct glint_metric_table *t) {
     if (t->exposures)
         printf(", HDR-ꟻLIP over %u exposures from %.2f to %.2f f-stops", t->exposures, t->start_exposure,
                t->stop_exposure);
-    if (t->rows[0].truth_noise > 0) printf(", noise of what it is compared with %.5f", t->rows[0].truth_noise);
-    if (t->resamples) printf("; intervals from %u resamplings of tiles of %u pixels", t->resamples, t->tile_px);
+    if (t->rows[0].truth_noise > 0) printf(", noise of the reference image %.5f", t->rows[0].truth_noise);
+    if (t->resamples)
+        printf("; intervals from %u resamplings of tiles of %u × %u pixels", t->resamples, t->tile_px, t->tile_px);
     putchar('\n');
 }
 

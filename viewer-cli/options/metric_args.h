@@ -11,10 +11,9 @@ enum { KEY_METRICS = 640, KEY_PPD, KEY_PEAK };
 
 /* clang-format off */
 #define METRIC_OPTIONS \
-    {"metrics", KEY_METRICS, "NAME,...", 0, "What to compare images by, or all (default: all but hdr_flip): ", 0}, \
-    {"ppd",     KEY_PPD,     "N",        0, "Pixels per degree that the eye sees, for flip and hdr_flip (default 67: 3840 pixels, " \
-        "as wide as they are far)", 0}, \
-    {"peak",    KEY_PEAK,    "N",        0, "Peak of psnr (default: the highest value of what is compared with)", 0}
+    {"metrics", KEY_METRICS, "NAME,...", 0, "Image metrics to print, or all (default: all but hdr_flip): ", 0}, \
+    {"ppd",     KEY_PPD,     "N",        0, "Pixels per degree of visual angle, for flip and hdr_flip (default 67: a screen 3840 pixels wide, seen from a distance equal to its width)", 0}, \
+    {"peak",    KEY_PEAK,    "N",        0, "Peak value for psnr (default: the highest value of the reference image)", 0}
 /* clang-format on */
 
 /* Reads one of METRIC_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */

@@ -66,7 +66,8 @@ const char *value_text(const struct glint_row *row, double value) {
     if (row->type == GLINT_VALUE_BOOL && row_is_parameter(row)) return value != 0 ? "on" : "off";
     char *text = buffers[turn++ % 8];
     if (isinf(value)) snprintf(text, 32, value > 0 ? "∞" : "−∞");
-    else snprintf(text, 32, "%.7g", value);
+    else if (value == trunc(value) && fabs(value) < 1e15) snprintf(text, 32, "%.0f", value); /* never 4.294967e+09 */
+    else snprintf(text, 32, "%.7g", value); /* the digits of a float, without its rounding */
     return text;
 }
 
@@ -106,7 +107,8 @@ bool check_slot(const char *slot, size_t length, struct glint_error *err) {
                       nearest_text(&near));
 }
 
-static bool split(const char *assignment, char at, const char *example, size_t *length, struct glint_error *err) {
+static bool split_assignment(const char *assignment, char at, const char *example, size_t *length,
+                             struct glint_error *err) {
     const char *cut = strchr(assignment, at);
     if (!cut || cut == assignment || !cut[1])
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", assignment, example);
@@ -116,7 +118,7 @@ static bool split(const char *assignment, char at, const char *example, size_t *
 
 bool check_use(const char *assignment, struct glint_error *err) {
     size_t length = 0, count = 0;
-    if (!split(assignment, '=', "SLOT=VARIANT, such as screen_trace=linear", &length, err)) return false;
+    if (!split_assignment(assignment, '=', "SLOT=VARIANT, such as screen_trace=linear", &length, err)) return false;
     if (!check_slot(assignment, length, err)) return false;
     const char *variant = assignment + length + 1;
     const struct glint_pass *passes = glint_passes(&count);
@@ -134,7 +136,9 @@ bool check_use(const char *assignment, struct glint_error *err) {
 bool check_set(const char *assignment, struct glint_error *err) {
     size_t slot = 0, all = 0, count = 0;
     static const char example[] = "SLOT.PARAMETER=VALUE, such as screen_trace.cells=64";
-    if (!split(assignment, '=', example, &all, err) || !split(assignment, '.', example, &slot, err)) return false;
+    if (!split_assignment(assignment, '=', example, &all, err) ||
+        !split_assignment(assignment, '.', example, &slot, err))
+        return false;
     if (slot >= all) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", assignment, example);
     /* The pipeline itself is not a pass; the library knows its parameters. */
     if (name_is("pipeline", assignment, slot)) return true;
@@ -157,7 +161,7 @@ bool check_set(const char *assignment, struct glint_error *err) {
 
 bool check_shader(const char *assignment, struct glint_error *err) {
     size_t length = 0;
-    return split(assignment, '=', "SLOT=FILE, such as resolve=my.comp", &length, err) &&
+    return split_assignment(assignment, '=', "SLOT=FILE, such as resolve=my.comp", &length, err) &&
            check_slot(assignment, length, err);
 }
 

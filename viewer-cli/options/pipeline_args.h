@@ -28,29 +28,29 @@ enum {
 
 /* clang-format off */
 #define DEVICE_OPTION \
-    {"device",  'd',         "INDEX|NAME",     0, "The Vulkan device; glint devices lists them (default: $GLINT_DEVICE, else the best)", 0}
+    {"device",  'd',         "INDEX|NAME",     0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0}
 #define USE_OPTION \
-    {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; none leaves the slot out", 0}
+    {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; the variant none removes the slot", 0}
 #define ALL_OPTION \
-    {"all",     KEY_ALL,     NULL,             0, "Run every pass over every pixel: no survey, no list, nothing left out. The picture is the same, bit for bit", 0}
+    {"all",     KEY_ALL,     NULL,             0, "Run every pass on every pixel, without the survey, the plan and pixel lists. The image is the same, bit for bit", 0}
 /* A pipeline, and what it is for the command. */
 #define WHOLE_PIPELINE_OPTIONS(what) \
     {"preset",  'p',         "NAME|FILE",      0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
     USE_OPTION, \
-    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter, which glint passes SLOT lists; pipeline.PARAM: in every pass that has it", 0}, \
-    {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead", 0}, \
+    {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter (glint passes SLOT lists them); pipeline.PARAM sets it in all passes that have it", 0}, \
+    {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead of the built-in one", 0}, \
     ALL_OPTION, DEVICE_OPTION
 #define SKIP_OPTION \
-    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these; what reads them finds nothing there, and the picture changes", 0}
+    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these passes; passes that read their images get the declared default values instead, so the image changes", 0}
 /* And which part of it. */
 #define PIPELINE_OPTIONS \
     WHOLE_PIPELINE_OPTIONS("The pipeline"), \
-    {"passes",  KEY_PASSES,  "SLOT,...",       0, "Only these slots; what they need comes from --inputs", 0}, \
-    {"inputs",  KEY_INPUTS,  "RUN",            0, "A run to read missing images from", 0}, \
-    {"history", KEY_HISTORY, "RUN",            0, "The run of the frame before, for passes that remember it", 0}, \
-    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Only these images, from the passes that they need; those of --diagnostics come with them (default: all)", 0}, \
+    {"passes",  KEY_PASSES,  "SLOT,...",       0, "Run only these passes; images that they read from other passes come from --inputs", 0}, \
+    {"inputs",  KEY_INPUTS,  "RUN",            0, "Run folder from which images of passes that are not run are read", 0}, \
+    {"history", KEY_HISTORY, "RUN",            0, "Run folder of the previous frame, for passes with temporal history", 0}, \
+    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Write only these images, and run only the passes that they need; --diagnostics adds its own images (default: all)", 0}, \
     SKIP_OPTION, \
-    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these even when the plan finds nothing for them to do", 0}
+    {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these passes even if the plan finds that they are not needed", 0}
 /* clang-format on */
 
 /* Reads one of these; ARGP_ERR_UNKNOWN for any other key. */

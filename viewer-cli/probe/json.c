@@ -1,4 +1,4 @@
-/* A pixel's story as JSON. */
+/* The recorded steps of a pixel as JSON. */
 #include <string.h>
 
 #include "options/args.h"
@@ -10,7 +10,7 @@ static json_t *numbers(const double *values, size_t count) {
     return list;
 }
 
-/* Where the ray is, by the last record that says where it starts and goes. */
+/* The position along the ray, by the last record of its origin and direction. */
 static json_t *position(const struct glint_probe_record *ray, const struct glint_probe_record *step) {
     static const char *const from[] = {"x", "y", "z"}, *const along[] = {"direction_x", "direction_y", "direction_z"};
     double at[3];

@@ -1,4 +1,4 @@
-/* One pixel's story through a pipeline: read from a replay, told as text, as JSON, and as a drawing. */
+/* Records of one pixel through a pipeline: read from a replay, and written as text, JSON and a drawing. */
 #ifndef GLINT_VIEWER_PROBE_H
 #define GLINT_VIEWER_PROBE_H
 
@@ -6,9 +6,9 @@
 
 #include "glint/probe.h"
 
-/* What an image holds at the pixel, or at its texel where the image has the pipeline's resolution. */
+/* The value of an image at the pixel, or at its texel if the image has the pipeline's resolution. */
 struct probe_value {
-    const struct glint_pass *pass; /* NULL: the capture's */
+    const struct glint_pass *pass; /* NULL: an image of the capture */
     const struct glint_row *row;
     uint32_t count;
     double values[4];
@@ -19,7 +19,7 @@ struct probe_image {
     uint32_t width, height, components;
 };
 
-/* The story in one pipeline. */
+/* Records and values of one pipeline. */
 struct probe_side {
     struct glint_pass_result *passes;
     size_t pass_count;
@@ -44,19 +44,19 @@ bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay
                const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
                struct glint_error *err);
 void probe_side_finish(struct probe_side *side);
-/* The last record of this kind that a pass of the slot told; NULL: none. */
+/* The last record of this kind by a pass of the slot; NULL: none. */
 const struct glint_probe_record *probe_last(const struct probe_side *side, const char *slot, const char *kind);
 /* "cubemap.003"; "none" where there is none. Static storage for a few calls. */
 const char *probe_cubemap(const struct probe_side *side, double place);
 
-/* Values of a record that are one thing: a number, or NAME_x, NAME_y and NAME_z. */
+/* Values of a record that belong together: a number, or NAME_x, NAME_y and NAME_z. */
 struct probe_group {
     const char *unit;
     char name[32];
     size_t first, count;
 };
 size_t probe_groups(const struct glint_probe_row *kind, struct probe_group groups[GLINT_PROBE_VALUES]);
-/* The same as text, words for what stands for words. */
+/* The same as text; enumerated values become words. */
 void probe_group_text(const struct probe_side *side, const struct glint_probe_record *record,
                       const struct probe_group *group, char *text, size_t size);
 

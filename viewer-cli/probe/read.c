@@ -1,4 +1,4 @@
-/* The story of a pixel out of a replay, and its values one by one. */
+/* Reads the records and image values of a pixel from a replay. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@ static bool is_uint(const struct glint_image *image) {
     return image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;
 }
 
-/* All of an image; uint ones become floats, which hold what they are asked for here. */
+/* Reads an image; uint values become floats, which represent the values needed here exactly. */
 static bool read_image(struct probe_image *out, struct glint_replay *replay, const char *name,
                        struct glint_error *err) {
     const struct glint_image *image = glint_replay_find_image(replay, name);
@@ -31,7 +31,7 @@ static bool read_image(struct probe_image *out, struct glint_replay *replay, con
     return true;
 }
 
-/* Of images of the picture's size, or of the pipeline's. */
+/* For images of full size or of the pipeline's resolution. */
 static bool read_values(const struct probe *probe, struct probe_side *side, struct glint_replay *replay,
                         const struct glint_pass *pass, struct glint_error *err) {
     for (size_t i = 0; i < glint_replay_image_count(replay); i++) {
@@ -39,7 +39,7 @@ static bool read_values(const struct probe *probe, struct probe_side *side, stru
         const bool full = image->row->size == GLINT_SIZE_FULL, half = image->row->size == GLINT_SIZE_HALF;
         if (image->pass != pass || image->level > 0 || !(full || half) || image->components > 4) continue;
         const uint32_t *at = full ? probe->pixel : probe->texel;
-        if (at[0] >= image->width || at[1] >= image->height) continue; /* a stand-in */
+        if (at[0] >= image->width || at[1] >= image->height) continue; /* a placeholder image */
         struct probe_image whole;
         if (!read_image(&whole, replay, image->name, err)) {
             free(whole.texels);

@@ -1,4 +1,4 @@
-/* A pixel's story for a terminal: pass by pass what was done for it and what came of it. */
+/* Prints the records of a pixel, pass by pass. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 enum { TEXT = 160 };
 
-/* Steps come in tables, one kind after the other; what comes once, in a line. */
+/* Steps are printed as tables, one for each kind; single records as a line. */
 static bool is_step(const struct glint_probe_row *kind) {
     const size_t count = glint_probe_count(kind);
     for (size_t i = 0; i < count; i++)
@@ -16,7 +16,7 @@ static bool is_step(const struct glint_probe_row *kind) {
     return false;
 }
 
-/* How far the ray is behind the surface that it was compared with, which no row says. */
+/* Whether the records have ray and surface depths, whose difference is printed as a column of its own. */
 static bool has_gap(const struct glint_probe_row *kind) {
     bool ray = false, surface = false;
     for (size_t i = 0; i < glint_probe_count(kind); i++) {
@@ -26,7 +26,7 @@ static bool has_gap(const struct glint_probe_row *kind) {
     return ray && surface;
 }
 
-/* `first`: how many steps of the pass came before. */
+/* `first`: number of preceding steps of the pass. */
 static void print_steps(const struct probe_side *side, const struct glint_probe_record *records, size_t count,
                         size_t first) {
     struct probe_group groups[GLINT_PROBE_VALUES];
@@ -62,9 +62,8 @@ static void print_steps(const struct probe_side *side, const struct glint_probe_
     table_destroy(&table);
 }
 
-/* The cube maps have nothing to do where the picture has ended the ray. PREFIXcubemap_trace goes on where
-   PREFIXscreen_trace stopped. */
-static bool is_not_asked(const struct probe_side *side, const struct glint_probe_record *record) {
+/* Cube maps are not traced if the ray already ended on screen: PREFIXcubemap_trace continues the rays of PREFIXscreen_trace. */
+static bool ended_on_screen(const struct probe_side *side, const struct glint_probe_record *record) {
     if (!glint_probe_is(record, "cubemap_end")) return false;
     const char *slot = record->pass->slot, *name = strstr(slot, "cubemap_trace");
     const size_t prefix = name ? (size_t)(name - slot) : 0;
@@ -77,7 +76,7 @@ static bool is_not_asked(const struct probe_side *side, const struct glint_probe
     return false;
 }
 
-/* An image of cube maps has no place in the picture, and the others no cube map. */
+/* Records of cube maps have no screen position, and records of the screen no cube map: empty fields are not printed. */
 static bool is_void(const struct glint_probe_record *record, const struct probe_group *group, const char *text) {
     if (!glint_probe_is(record, "color")) return false;
     return strcmp(group->unit, "px") == 0 ? strcmp(text, "0.0,0.0") == 0
@@ -112,7 +111,7 @@ static void print_records(const struct probe_side *side, const struct glint_pass
                records[end].ray == records[i].ray)
             end++;
         printf("  %s%s\n", records[i].kind->text, step ? ":" : "");
-        if (is_not_asked(side, &records[i])) printf("    nothing to do: the ray ended on screen\n");
+        if (ended_on_screen(side, &records[i])) printf("    not traced: the ray ended on screen\n");
         else if (step) print_steps(side, &records[i], end - i, steps);
         else print_once(side, &records[i]);
         steps = step ? steps + end - i : 0;
@@ -136,7 +135,7 @@ static void print_value(const struct probe_value *value) {
     printf("%s%s\n", unit ? " " : "", unit ? value->row->unit : "");
 }
 
-static bool tells(const struct probe_side *side, const struct glint_pass *pass) {
+static bool has_records(const struct probe_side *side, const struct glint_pass *pass) {
     for (size_t i = 0; i < side->story.count; i++)
         if (side->story.records[i].pass == pass) return true;
     for (size_t i = 0; i < side->value_count; i++)
@@ -145,12 +144,12 @@ static bool tells(const struct probe_side *side, const struct glint_pass *pass) 
 }
 
 static void print_side(const struct probe_side *side) {
-    printf("\ncapture  what the G-buffer holds at the pixel\n");
+    printf("\ncapture  G-buffer at the pixel\n");
     for (size_t i = 0; i < side->value_count; i++)
         if (!side->values[i].pass) print_value(&side->values[i]);
     for (size_t p = 0; p < side->pass_count; p++) {
         const struct glint_pass *pass = side->passes[p].pass;
-        if (!side->passes[p].shown || !tells(side, pass)) continue;
+        if (!side->passes[p].shown || !has_records(side, pass)) continue;
         printf("\n%s/%s  %s\n", pass->slot, pass->variant, pass->title);
         print_records(side, pass);
         for (size_t i = 0; i < side->value_count; i++)
@@ -158,11 +157,12 @@ static void print_side(const struct probe_side *side) {
     }
 }
 
-/* ---- Beside the reference ---- */
+/* ---- Comparison with the reference ---- */
 
-static const char *ending(const struct probe_side *side, const char *slot, const char *kind, char *text, size_t size) {
+static const char *ending_text(const struct probe_side *side, const char *slot, const char *kind, char *text,
+                               size_t size) {
     const struct glint_probe_record *end = probe_last(side, slot, kind);
-    if (!end || is_not_asked(side, end)) return "–";
+    if (!end || ended_on_screen(side, end)) return "–";
     const struct glint_probe_word why = glint_probe_word("end reason", glint_probe_value(end, "end"));
     const double place = (double)glint_probe_value(end, "place");
     const bool mapped = place >= 0 && place < side->cubemap_count;
@@ -171,7 +171,7 @@ static const char *ending(const struct probe_side *side, const char *slot, const
     return text;
 }
 
-static const char *color(const struct probe_side *side, const char *name, char *text, size_t size) {
+static const char *color_text(const struct probe_side *side, const char *name, char *text, size_t size) {
     const struct probe_value *value = NULL;
     for (size_t i = 0; i < side->value_count; i++)
         if (side->values[i].pass && strcmp(side->values[i].row->name, name) == 0) value = &side->values[i];
@@ -181,7 +181,7 @@ static const char *color(const struct probe_side *side, const char *name, char *
     return text;
 }
 
-static void print_beside(const struct probe *probe) {
+static void print_reference(const struct probe *probe) {
     static const char *const titles[] = {"<", "<this pipeline", "<reference: screen_trace/dda, cubemap_trace/exact",
                                          NULL};
     static const char *const colors[] = {"reflection_half", "reflection", "composed", NULL};
@@ -192,12 +192,12 @@ static void print_beside(const struct probe *probe) {
         table_cell(table, row ? "in the cube maps" : "on screen");
         for (int s = 0; s < 2; s++)
             table_cell(table, "%s",
-                       ending(sides[s], row ? "cubemap_trace" : "screen_trace", row ? "cubemap_end" : "screen_end",
-                              text, sizeof text));
+                       ending_text(sides[s], row ? "cubemap_trace" : "screen_trace", row ? "cubemap_end" : "screen_end",
+                                   text, sizeof text));
     }
     for (size_t i = 0; colors[i]; i++) {
         table_cell(table, "%s", colors[i]);
-        for (int s = 0; s < 2; s++) table_cell(table, "%s", color(sides[s], colors[i], text, sizeof text));
+        for (int s = 0; s < 2; s++) table_cell(table, "%s", color_text(sides[s], colors[i], text, sizeof text));
     }
     putchar('\n');
     table_print(table, stdout);
@@ -213,10 +213,10 @@ void probe_print(const struct probe *probe) {
         const double x = floor((double)glint_probe_value(ray, "start_x")),
                      y = floor((double)glint_probe_value(ray, "start_y"));
         if (x != probe->pixel[0] || y != probe->pixel[1])
-            printf("The texel's ray is that of pixel %.0f,%.0f, which stands for its block.\n", x, y);
+            printf("The texel's ray was sampled for pixel %.0f,%.0f of the block.\n", x, y);
     } else if (!probe_last(&probe->own, "cubemap_trace", "cubemap_ray"))
-        printf("The texel has no ray: it shows the sky, or a surface that reflects nothing.\n");
+        printf("The texel has no ray: it is sky, or a surface without reflection.\n");
     print_side(&probe->own);
-    if (probe->own.story.lost) printf("\n%zu more steps had no room.\n", probe->own.story.lost);
-    if (probe->has_reference) print_beside(probe);
+    if (probe->own.story.lost) printf("\n%zu further steps exceeded the recording buffer.\n", probe->own.story.lost);
+    if (probe->has_reference) print_reference(probe);
 }

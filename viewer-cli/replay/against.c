@@ -1,4 +1,4 @@
-/* --against: how far a run is from a better answer, the truth in the capture, the preset `reference`, or both. */
+/* --against: compares a run with the truth in the capture, the preset `reference`, or both. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +14,8 @@ void against_parse(struct against *against, char *text, struct argp_state *state
     against->truth = which != 1;
     against->reference = which != 0;
     against->run = run;
-    if (run && !against->reference) argp_error(state, "--against=truth: the truth is in the capture, it takes no run");
-    if (run && !*run) argp_error(state, "--against=%s=RUN: an empty name", text);
+    if (run && !against->reference) argp_error(state, "--against=truth takes no run: the truth is in the capture");
+    if (run && !*run) argp_error(state, "--against=%s=RUN: the name of the run is empty", text);
 }
 
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
@@ -29,12 +29,12 @@ void against_finish(struct against *against) {
     glint_pipeline_destroy(&against->pipeline);
 }
 
-static bool load(struct against *against, struct glint_capture *capture, struct glint_error *err) {
+static bool load_reference(struct against *against, struct glint_capture *capture, struct glint_error *err) {
     if (!against->replay && !(against->replay = glint_replay_create(against->device, err))) return false;
     return glint_replay_load(against->replay, capture, err);
 }
 
-/* An answer, and the standard error of one that is a mean of samples. */
+/* A reference image, and the standard error of its samples, if it is a mean of samples. */
 struct answer {
     struct glint_pixels pixels;
     float *error;
@@ -69,8 +69,9 @@ static bool reference_answer(struct against *against, struct glint_capture *capt
     const struct glint_reference_options options = {.all = against->all};
     if (against->run) return run_answer(against->run, capture, answer, other, err);
     struct glint_reference *reference =
-        load(against, capture, err) ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
-                                    : NULL;
+        load_reference(against, capture, err)
+            ? glint_reference_create(against->replay, capture, against->pipeline, &options, err)
+            : NULL;
     bool ok = reference &&
               glint_reference_trace(reference, glint_pipeline_rays(against->pipeline), 0, against->progress,
                                     against->user, err) &&
@@ -88,7 +89,8 @@ static bool cross_sources(struct against *against, struct glint_capture *capture
     const size_t pixels = (size_t)gbuffer->width * gbuffer->height;
     if (!c->found_source.labels) return true;
     struct glint_pipeline *reference = glint_study_reference(against->pipeline, err);
-    bool ok = reference && glint_pipeline_set(reference, "pipeline.rays=1", err) && load(against, capture, err) &&
+    bool ok = reference && glint_pipeline_set(reference, "pipeline.rays=1", err) &&
+              load_reference(against, capture, err) &&
               glint_replay_run(against->replay, reference, &options, against->progress, against->user, err) &&
               glint_study_source(against->replay, gbuffer->width, gbuffer->height, &c->reference_source, err) &&
               glint_replay_load(against->replay, NULL, err);
@@ -103,10 +105,10 @@ static bool cross_sources(struct against *against, struct glint_capture *capture
     return ok;
 }
 
-/* Every class that is known of the pixels. */
+/* All known classes of pixels. */
 struct sets {
     struct glint_classes of[GLINT_CAPTURE_CLASSES + 1];
-    size_t own, count; /* own: those that are released with this */
+    size_t own, count; /* own: number of classes that this owns */
 };
 
 static bool compare(const struct against *against, struct glint_capture *capture, const struct sets *sets,
@@ -188,7 +190,7 @@ bool against_compare(struct against *against, struct glint_replay *replay, struc
     c->has_rays = against->truth;
     c->has_image = compare_images(against, replay, capture, pipeline, c, &image);
     if (c->has_image) return true;
-    /* Rays can be compared without a picture, as of --passes screen_trace. */
+    /* Rays can be compared without a reflection image, such as with --passes screen_trace. */
     if (against->reference || (image.code != GLINT_ERROR_USAGE && image.code != GLINT_ERROR_FORMAT)) {
         if (err) *err = image;
         return false;

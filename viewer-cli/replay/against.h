@@ -1,4 +1,4 @@
-/* --against: how far a run is from a better answer, the truth in the capture, the preset `reference`, or both. */
+/* --against: compares a run with the truth in the capture, the preset `reference`, or both. */
 #ifndef GLINT_VIEWER_AGAINST_H
 #define GLINT_VIEWER_AGAINST_H
 
@@ -11,9 +11,9 @@
 struct against {
     bool truth, reference;
     bool all;                /* the reference runs every pass too */
-    glint_progress progress; /* of the reference's replay */
+    glint_progress progress; /* for the replay of the reference */
     void *user;
-    const char *run;                     /* the reference's run folder; NULL: it is replayed */
+    const char *run;                     /* run folder of the reference; NULL: the reference is replayed */
     struct glint_metric_options metrics; /* those of METRIC_OPTIONS */
     struct glint_device *device;
     struct glint_pipeline *pipeline;
@@ -31,7 +31,7 @@ void against_finish(struct against *against);
 /* With a reference as well as a truth their images say what an error comes from: what a run is off the reference is its
    algorithms' error, and what the reference is off the truth is information that the capture's data lack. */
 struct comparison {
-    bool truth, reference; /* what it is compared with */
+    bool truth, reference; /* what the run is compared with */
     bool has_rays, has_image, jittered;
     struct glint_trace_table rays;
     struct glint_metric_table to_truth, to_reference;
@@ -42,13 +42,13 @@ struct comparison {
     struct glint_classes found_source, reference_source;
     uint64_t *sources;
 };
-/* After a run. Release it by comparison_finish, whether this succeeded or not. */
+/* Call after a run. Release with comparison_finish even after a failure. */
 bool against_compare(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
                      const struct glint_pipeline *pipeline, struct comparison *comparison, struct glint_error *err);
 void against_print(const struct comparison *comparison);
 /* Adds "against_truth", "against_reference", "missing_information" to what is said of a run. */
 void against_json(const struct comparison *comparison, json_t *run);
-/* False when one of the images is NaN or infinite somewhere: how many pixels, and which is the first. */
+/* False when one of the images contains NaN or infinite pixels: reports how many, and the first. */
 bool against_valid(const struct comparison *comparison, const char *capture, struct glint_error *err);
 void comparison_finish(struct comparison *comparison);
 

@@ -1,4 +1,4 @@
-/* What --against says: tables for people, JSON. */
+/* The results of --against as tables and JSON. */
 #include <math.h>
 
 #include "replay/against.h"
@@ -11,18 +11,9 @@ static void percent(struct table *table, double part) {
 }
 
 static void print_rays(const struct comparison *c) {
-    static const char *const titles[] = {"<tracer",
-                                         "<ended by",
-                                         ">rays",
-                                         ">share %",
-                                         ">truth: on screen",
-                                         ">elsewhere",
-                                         ">sky",
-                                         ">within 5 % of truth",
-                                         ">median error %",
-                                         ">95th error %",
-                                         ">radiance error",
-                                         NULL};
+    static const char *const titles[] = {
+        "<tracer", "<end reason",          ">rays",           ">share %",      ">truth: on screen", ">off screen",
+        ">sky",    ">within 5 % of truth", ">median error %", ">95th error %", ">radiance error",   NULL};
     struct table *table = table_create(titles);
     for (size_t i = 0; i < c->rays.count; i++) {
         const struct glint_trace_row *r = &c->rays.rows[i];
@@ -37,7 +28,7 @@ static void print_rays(const struct comparison *c) {
         if (isfinite(r->radiance_error)) table_cell(table, "%.4f", r->radiance_error);
         else table_cell(table, "-");
     }
-    printf("\nrays of surfaces up to roughness %g, travelled distance against the truth's mirror ray:\n",
+    printf("\nrays of surfaces up to roughness %g, travelled distance against that of the true mirror ray:\n",
            GLINT_MIRROR_ROUGHNESS);
     table_print(table, stdout);
     table_destroy(&table);
@@ -45,7 +36,7 @@ static void print_rays(const struct comparison *c) {
 
 static void print_distances(const struct glint_trace_table *rays) {
     static const char *const titles[] = {"<surfaces",     ">rays",    ">within 5 % of truth", ">median error %",
-                                         ">95th error %", ">invalid", ">fetches a ray",       NULL};
+                                         ">95th error %", ">invalid", ">fetches per ray",     NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
         const struct glint_distance_error *e = &rays->surfaces.of[k];
@@ -64,9 +55,9 @@ static void print_distances(const struct glint_trace_table *rays) {
 }
 
 static void print_missing(const struct glint_image_errors *image) {
-    static const char *const titles[] = {"<surfaces",     ">pixels",       ">mean",      ">mean error",
-                                         ">RMSE",         ">relative MSE", ">symmetric", ">its noise",
-                                         ">RMSE without", ">invalid",      NULL};
+    static const char *const titles[] = {"<surfaces",       ">pixels",       ">mean",      ">mean error",
+                                         ">RMSE",           ">relative MSE", ">symmetric", ">noise of it",
+                                         ">RMSE w/o noise", ">invalid",      NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
         const struct glint_image_error *e = &image->of[k];
@@ -82,7 +73,7 @@ static void print_missing(const struct glint_image_errors *image) {
         table_cell(table, "%.5f", e->clean_rmse);
         table_cell(table, "%llu", (unsigned long long)e->invalid);
     }
-    puts("\nthe reference against the truth, what the capture's data lack:");
+    puts("\nreference against the truth (information that the capture does not contain):");
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -94,7 +85,7 @@ static double clean_rmse(const struct glint_metric_table *t, size_t surface) {
 /* What the error comes from. The parts need not add up to it: they may cancel out. Rows of all pixels and of the surfaces are the
    first ones of every table. */
 static void print_parts(const struct comparison *c) {
-    static const char *const titles[] = {"<surfaces", ">algorithms", ">missing information", ">together", NULL};
+    static const char *const titles[] = {"<surfaces", ">algorithms", ">missing information", ">total", NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
         if (isnan(clean_rmse(&c->to_truth, (size_t)k))) continue;
@@ -111,7 +102,7 @@ static void print_parts(const struct comparison *c) {
 }
 
 static void print_image(const struct glint_metric_table *image, const char *name) {
-    printf("\nreflection before it is composed, against the %s:\n", name);
+    printf("\nreflection before compose, against the %s:\n", name);
     metrics_print(image);
 }
 
@@ -119,17 +110,17 @@ void against_print(const struct comparison *c) {
     if (c->has_rays) {
         print_rays(c);
         print_distances(&c->rays);
-        if (c->jittered) puts("normals are jittered; --set downsample.jitter=false compares mirror rays");
+        if (c->jittered) puts("normals are jittered; use --set downsample.jitter=false to compare mirror rays");
     }
     if (!c->has_image) {
-        printf("\nno picture compared: %s\n", c->no_image);
+        printf("\nimage not compared: %s\n", c->no_image);
         return;
     }
     if (c->truth) print_image(&c->to_truth, "truth");
     if (c->reference) print_image(&c->to_reference, "reference");
     if (c->other_capture) puts("the reference was made from another capture");
     if (c->sources) {
-        puts("\nmirror-like reflections, where they are from here (rows) and in the reference:");
+        puts("\nsource of mirror-like reflections, in this run (rows) and in the reference (columns):");
         cross_print(&c->found_source, &c->reference_source, c->sources);
     }
     if (!c->truth || !c->reference) return;

@@ -1,4 +1,4 @@
-/* Several captures replayed into one folder: what an interrupted replay left complete is kept. */
+/* Replays several captures into one folder and keeps frames that an interrupted replay completed. */
 #include "replay/shot.h"
 
 #include <errno.h>
@@ -28,7 +28,7 @@ static json_t *passes_json(const struct glint_pipeline *pipeline) {
     return passes;
 }
 
-/* The texts of the user's shaders. */
+/* Texts of the user's shader files. */
 static json_t *shaders_json(const struct list *shaders) {
     json_t *texts = json_object();
     for (size_t i = 0; i < shaders->count; i++) {

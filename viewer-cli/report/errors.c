@@ -1,4 +1,4 @@
-/* How far runs are from a better answer, kept beside them and told in a report. */
+/* The errors of runs against truth and reference, stored in their folders and shown in reports. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,15 +28,16 @@ bool report_keep_errors(const char *folder, const struct comparison *compared, s
     return ok;
 }
 
-/* ---- Told ---- */
+/* ---- Tables and charts ---- */
 
 static const struct part {
     const char *key, *title, *series;
 } parts[] = {
-    {"against_truth", "The reflection, before it is composed, against the truth of the capture.", "truth"},
-    {"against_reference", "The same against the reference, which has the same data: the error of the algorithms.",
+    {"against_truth", "Reflection before compose, against the truth in the capture.", "truth"},
+    {"against_reference", "The same against the reference, which uses the same data: the error of the algorithms.",
      "reference"},
-    {"missing_information", "The reference against the truth: what the capture's data lack.", "missing information"},
+    {"missing_information", "Reference against the truth: error due to information that the capture does not contain.",
+     "missing information"},
 };
 
 static const struct report_column error_columns[] = {
@@ -68,7 +69,7 @@ static const struct report_column ray_columns[] = {
     {"ended by", "reason", "", 1, false},
     {"rays", "rays", "", 1, false},
     {"share", "share", "|%", 100, false},
-    {"truly on screen", "truth.screen", "rays", 1, false},
+    {"truth on screen", "truth.screen", "rays", 1, false},
     {"off screen", "truth.elsewhere", "rays", 1, false},
     {"sky", "truth.sky", "rays", 1, false},
     {"within 5 %", "right", "%", 100, false},
@@ -144,9 +145,9 @@ static void name_classes(const json_t *rows, json_t *categories) {
     size_t i, n;
     json_array_foreach(rows, i, row) {
         json_t *name = json_sprintf("%s: %s", report_text(row, "set"), report_text(row, "class"));
-        bool told = false;
-        json_array_foreach(categories, n, known) told = told || json_equal(known, name);
-        if (!told) json_array_append(categories, name);
+        bool listed = false;
+        json_array_foreach(categories, n, known) listed = listed || json_equal(known, name);
+        if (!listed) json_array_append(categories, name);
         json_object_set_new(row, "category", name);
     }
 }
@@ -164,13 +165,13 @@ static void add_classes(const struct report *r, json_t *const *errors, json_t *b
         name_classes(rows, categories);
         add_series(r, k, "", error_points(rows, "category", "symmetric", categories), series);
     }
-    page_text(blocks, "text", "Where the error is, by what pixels show.");
+    page_text(blocks, "text", "Error by classes of pixels.");
     add_chart(blocks, "Symmetric error of classes of pixels", "mean of |found \u2212 true| / (|found| + |true|)", "",
               categories, series);
-    add_table(r, errors, part, "classes", class_columns, blocks, "The same, and other errors:");
+    add_table(r, errors, part, "classes", class_columns, blocks, "The same as a table, with other metrics:");
 }
 
-/* How the figures were found. */
+/* Notes on how the figures were computed. */
 static void add_terms(const struct report *r, json_t *const *errors, json_t *blocks) {
     for (size_t k = 0; k < r->count; k++)
         for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) {
@@ -208,7 +209,7 @@ void report_errors(const struct report *r) {
             add_table(r, errors, parts[p].key, "surfaces", error_columns, blocks, parts[p].title);
         add_classes(r, errors, blocks);
         add_table(r, errors, "against_truth", "rays", ray_columns, blocks,
-                  "Why rays of mirror-like surfaces ended, and how far they are from the truth's.");
+                  "End reasons of rays of mirror-like surfaces, and their distance from the true hit points.");
     }
     for (size_t k = 0; errors && k < r->count; k++) json_decref(errors[k]);
     free(errors);

@@ -1,4 +1,4 @@
-/* What the parts of a report find in a run.json. */
+/* Looks up values in run.json for the parts of a report. */
 #include <stdio.h>
 #include <string.h>
 

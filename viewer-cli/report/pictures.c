@@ -7,7 +7,7 @@
 #include "report/report.h"
 #include "draw/view/sheet.h"
 
-/* What an image means, as the run says. */
+/* The meaning of an image, from run.json. */
 static const char *meaning_of(const json_t *run, const char *image) {
     size_t i, k;
     json_t *pass, *entry;
@@ -71,7 +71,7 @@ static bool add_finished(const struct report *r, size_t share, struct glint_erro
     return ok;
 }
 
-/* Every image, those of one name beside each other with one range. */
+/* All images; images with the same name are side by side and share a range. */
 static bool add_images(const struct report *r, const char *const *images, size_t share, struct glint_error *err) {
     const struct render_options options = {0};
     struct sheet sheet;

@@ -1,4 +1,4 @@
-/* What reference runs say of their noise and of what they had to assume. */
+/* The noise and the assumptions of reference runs. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -18,11 +18,11 @@ static const struct report_column change_columns[] = {
     {"RMSE", "all.rmse", "radiance", 1, false},
     {"its noise", "all.noise", "radiance", 1, false},
     {"relative", "all.relative", "|%", 100, false},
-    {"not tried", "reason", "", 1, false},
+    {"not traced", "reason", "", 1, false},
     {0},
 };
 
-/* What a parameter changes on all surfaces, as the member "all" of its row. */
+/* The change that a parameter causes on all surfaces, as the member "all" of its row. */
 static void lift_changes(const json_t *rows) {
     size_t i;
     json_t *row;
@@ -38,8 +38,8 @@ static void add_rays(const struct report *r, json_t *blocks) {
         char text[300];
         if (!reference) continue;
         snprintf(text, sizeof text,
-                 "%s%s%lld rays a pixel, traced in %.0f s. Half of them share no random number with the "
-                 "other half; what the halves differ by is the noise.",
+                 "%s%s%lld rays per pixel, traced in %.0f s. The noise is the difference between the two halves "
+                 "of the rays, which use independent random numbers.",
                  r->count > 1 ? r->labels[k] : "", r->count > 1 ? ": " : "",
                  (long long)json_integer_value(json_object_get(reference, "rays")),
                  json_number_value(json_object_get(reference, "seconds")));
@@ -60,9 +60,8 @@ void report_reference(const struct report *r) {
     if (any) {
         json_t *blocks = page_section(r->document, "Reference");
         add_rays(r, blocks);
-        report_table(r, noise, noise_columns, blocks, "Noise that is left:");
-        report_table(r, changes, change_columns, blocks,
-                     "What it had to assume, halved and doubled, and how far that moves it:");
+        report_table(r, noise, noise_columns, blocks, "Remaining noise:");
+        report_table(r, changes, change_columns, blocks, "Influence of the assumptions, halved and doubled:");
     }
     free(noise);
     free(changes);

@@ -51,7 +51,7 @@ static bool read_runs(struct report *r, struct glint_error *err) {
 
 /* ---- Facts ---- */
 
-/* What a run says of itself: "a.b" is b of a. */
+/* Facts from run.json: "a.b" is the member b of a. */
 static const struct fact {
     const char *name, *key, *unit;
 } facts[] = {
@@ -114,7 +114,7 @@ static void add_facts(const struct report *r) {
 
 static json_t *plan_cell(const json_t *pass) {
     if (!pass) return json_null();
-    if (!report_ran(pass)) return json_sprintf("left out: %s", report_text(pass, "reason"));
+    if (!report_ran(pass)) return json_sprintf("not run: %s", report_text(pass, "reason"));
     bool cached = json_is_true(json_object_get(pass, "cached"));
     return json_sprintf("%s%s: %s", report_text(pass, "variant"), cached ? " (unchanged, not run again)" : "",
                         report_text(pass, "reason"));
@@ -167,7 +167,7 @@ static void add_slot(const struct report *r, json_t *table, const char *slot, js
 }
 
 static void add_parameters(const struct report *r, bool differing) {
-    json_t *table = page_table(page_section(r->document, differing ? "What differs" : "Parameters")), *value;
+    json_t *table = page_table(page_section(r->document, differing ? "Parameters that differ" : "Parameters")), *value;
     const char *slot;
     page_column(table, "slot", "");
     page_column(table, "parameter", "");

@@ -1,4 +1,4 @@
-/* Lists that runs say of themselves, as tables. */
+/* Lists from run.json as tables. */
 #include "report/report.h"
 
 const json_t *report_interval(const json_t *row, const char *key) {

@@ -5,7 +5,7 @@
 #include "options/args.h"
 #include "report/report.h"
 
-static double ms(const json_t *pass, const char *key) {
+static double pass_ms(const json_t *pass, const char *key) {
     return json_number_value(json_object_get(json_object_get(pass, "time_ns"), key)) / 1e6;
 }
 
@@ -20,13 +20,13 @@ static const json_t *timed(const json_t *run, const char *slot, bool cached_work
 static json_t *time_cell(const json_t *pass) {
     if (!pass) return json_null();
     bool several = json_integer_value(json_object_get(json_object_get(pass, "time_ns"), "n")) > 1;
-    return several ? page_interval(ms(pass, "median"), ms(pass, "min"), ms(pass, "max"))
-                   : json_real(ms(pass, "median"));
+    return several ? page_interval(pass_ms(pass, "median"), pass_ms(pass, "min"), pass_ms(pass, "max"))
+                   : json_real(pass_ms(pass, "median"));
 }
 
 static json_t *time_point(const json_t *pass, size_t place) {
     json_t *cell = time_cell(pass),
-           *point = json_pack("{s:o, s:I}", "x", json_number(ms(pass, "median")), "y", (json_int_t)place);
+           *point = json_pack("{s:o, s:I}", "x", json_number(pass_ms(pass, "median")), "y", (json_int_t)place);
     if (json_is_object(cell)) {
         json_object_set(point, "x_low", json_object_get(cell, "low"));
         json_object_set(point, "x_high", json_object_get(cell, "high"));
@@ -68,13 +68,13 @@ static void add_sums(const struct report *r, json_t *blocks, const json_t *slots
         json_t *slot;
         json_array_foreach(slots, i, slot) {
             const json_t *pass = timed(r->runs[k], json_string_value(slot), cached_work);
-            if (pass) sum += ms(pass, "median");
+            if (pass) sum += pass_ms(pass, "median");
         }
         const char *label = r->count > 1 ? r->labels[k] : "";
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s%s%.3f ms", k ? "; " : "", label,
                                  label[0] ? " " : "", sum);
     }
-    snprintf(text + used, sizeof text - used, ", medians of the passes added up.");
+    snprintf(text + used, sizeof text - used, " (sum of the medians of the passes).");
     page_text(blocks, "text", text);
 }
 
@@ -99,16 +99,16 @@ static void add_work(const struct report *r, json_t *blocks, bool cached_work) {
     json_decref(series);
 }
 
-/* What a device's times are worth, each once. */
+/* Notes about the times of CPU devices, one for each device. */
 static void add_warnings(const struct report *r, json_t *blocks) {
     for (size_t i = 0; i < r->count; i++) {
         const json_t *device = json_object_get(r->runs[i], "device");
-        bool told = strcmp(report_text(device, "type"), "cpu") != 0;
-        for (size_t k = 0; k < i && !told; k++) told = json_equal(device, json_object_get(r->runs[k], "device"));
+        bool listed = strcmp(report_text(device, "type"), "cpu") != 0;
+        for (size_t k = 0; k < i && !listed; k++) listed = json_equal(device, json_object_get(r->runs[k], "device"));
         char text[600];
-        snprintf(text, sizeof text, "%.200s: %.200s, which say nothing about a GPU's", report_text(device, "name"),
+        snprintf(text, sizeof text, "%.200s: %.200s; times do not represent a GPU", report_text(device, "name"),
                  report_text(device, "times_are"));
-        if (!told) page_text(blocks, "note", text);
+        if (!listed) page_text(blocks, "note", text);
     }
 }
 

@@ -1,4 +1,4 @@
-/* A measurement of stability as tables and as JSON. */
+/* The results of glint stability as tables and as JSON. */
 #include "stability/stability.h"
 
 #include <math.h>
@@ -92,9 +92,9 @@ static void cell_count(struct table *t, uint64_t count) {
 }
 
 static void print_passes(const struct glint_stability *s) {
-    static const char *const titles[] = {">",           "<pass",       ">median", ">99 %",
-                                         ">largest",    ">above",      ">starts", ">decide otherwise",
-                                         ">end reason", ">first here", NULL};
+    static const char *const titles[] = {">",      "<pass",        ">median", ">99 %",       ">largest",
+                                         ">above", ">first above", ">flips",  ">end reason", ">first flip",
+                                         NULL};
     struct table *t = table_create(titles);
     for (size_t i = 0; i < s->pass_count; i++) {
         const struct glint_stability_pass *p = &s->passes[i];
@@ -132,10 +132,10 @@ static void print_worst(const struct glint_stability *s) {
     table_destroy(&t);
 }
 
-/* Stops: how often it can be doubled before half floats hold it no longer. */
+/* Stops: how often the value can be doubled before it exceeds the range of half floats. */
 static void print_overflow(const struct glint_stability *s) {
-    static const char *const titles[] = {"<image",          ">largest", ">x,y",      "<unit",
-                                         ">stops to 65504", ">beyond",  ">NaN, Inf", NULL};
+    static const char *const titles[] = {"<image",          ">largest",    ">x,y",      "<unit",
+                                         ">stops to 65504", ">over 65504", ">NaN, Inf", NULL};
     struct table *t = table_create(titles);
     for (size_t i = 0; i < s->image_count; i++) {
         const struct glint_stability_image *image = &s->images[i];
@@ -155,11 +155,11 @@ static void print_overflow(const struct glint_stability *s) {
 void stability_print(const struct stability_report *report) {
     const struct glint_stability *s = report->stability;
     printf("%s, %s on %s: %u perturbed replays, images in %s\n\n", report->capture, report->preset, report->device,
-           s->seeds, report->half ? "their own formats" : "float");
+           s->seeds, report->half ? "their declared formats" : "float");
     print_inputs(s);
-    printf("\nAmplification (relative change over that of the inputs) of pixels that reflect; above: more than %g; "
-           "starts: no "
-           "earlier pass is\n",
+    printf("\nAmplification (relative change divided by that of the inputs) of reflecting pixels. above: pixels over "
+           "%g; first above:\n"
+           "pixels that are over it in no earlier pass; flips: pixels with another decision in some replay\n",
            s->bound);
     print_passes(s);
     printf("\nWorst pixels\n");

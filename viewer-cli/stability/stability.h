@@ -1,4 +1,4 @@
-/* What `glint stability` says and keeps of a measurement. */
+/* Reports and files of `glint stability`. */
 #ifndef GLINT_VIEWER_STABILITY_H
 #define GLINT_VIEWER_STABILITY_H
 

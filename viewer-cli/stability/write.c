@@ -1,4 +1,4 @@
-/* A measurement of stability as a run of layers. */
+/* Writes the results of glint stability as a run folder of layers. */
 #include "stability/stability.h"
 
 #include <stdio.h>
@@ -13,7 +13,7 @@
 
 enum { LAYERS = 3 };
 
-/* What run.json says of one part. */
+/* The entry of one part in run.json. */
 static json_t *part_json(const char *file, const char *name, const char *channels, const char *unit,
                          const char *meaning, uint32_t width, uint32_t height, bool integer) {
     return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "file", file, "part", name,
@@ -62,14 +62,13 @@ static bool write_pass(const char *folder, const struct glint_stability *s, cons
         const struct glint_stability_image *image = &s->images[i];
         if (image->pass != pass->pass) continue;
         ok = fill_layers(&layers[count], &parts[count], image, err);
-        json_array_append_new(
-            images,
-            part_json(file, image->name, image->decides ? "flips" : "amplification change flips", "1",
-                      image->decides
-                          ? "seeds that decided otherwise"
-                          : "relative change over that of the inputs; root mean square of the relative change; seeds "
-                            "that decided otherwise",
-                      image->width, image->height, false));
+        json_array_append_new(images,
+                              part_json(file, image->name, image->decides ? "flips" : "amplification change flips", "1",
+                                        image->decides ? "number of replays with another decision"
+                                                       : "relative change divided by that of the inputs; root mean "
+                                                         "square of the relative change; number of "
+                                                         "replays with another decision",
+                                        image->width, image->height, false));
         count++;
     }
     ok = ok && journal_path(folder, file, path, err) && glint_exr_write(path, parts, count, 0, err);
@@ -81,7 +80,7 @@ static bool write_pass(const char *folder, const struct glint_stability *s, cons
     return ok;
 }
 
-/* ---- What all passes together give ---- */
+/* ---- Layers over all passes ---- */
 
 static bool write_all(const char *folder, const struct glint_stability *s, json_t *passes, struct glint_error *err) {
     static const char file[] = "stability.exr";
@@ -90,9 +89,9 @@ static bool write_all(const char *folder, const struct glint_stability *s, json_
         const void *data;
         bool integer;
     } maps[] = {
-        {"last", "amplification", "amplification of what the last pass makes", s->amplification, false},
-        {"start", "index", "number of the pass that is above the bound first; 0: none", s->start, true},
-        {"flip_start", "index", "number of the pass that decides otherwise first; 0: none", s->flip_start, true},
+        {"last", "amplification", "amplification of the image of the last pass", s->amplification, false},
+        {"start", "index", "number of the first pass above the bound; 0: none", s->start, true},
+        {"flip_start", "index", "number of the first pass with another decision; 0: none", s->flip_start, true},
     };
     enum { MAPS = sizeof maps / sizeof *maps };
     struct glint_exr_channel channels[MAPS];

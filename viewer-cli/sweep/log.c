@@ -1,4 +1,4 @@
-/* What a sweep is, and what it has found, on disk: an interrupted one goes on from there. */
+/* The definition and results of a sweep on disk, from which an interrupted sweep resumes. */
 #include "sweep/sweep.h"
 
 #include <errno.h>
@@ -15,7 +15,7 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-/* All that the results depend on. */
+/* Everything that the results depend on. */
 static json_t *define(const struct sweep *sweep, const char *const *axes, const char *sample,
                       const struct list *shaders, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(sweep->device);
@@ -35,8 +35,8 @@ static json_t *define(const struct sweep *sweep, const char *const *axes, const 
     return json;
 }
 
-/* Puts a line into its row; false when it is none of this sweep's. */
-static bool keep(void *user, json_t *line) {
+/* Puts a line into its row; false when it does not belong to this sweep. */
+static bool keep_sweep_line(void *user, json_t *line) {
     struct sweep *sweep = user;
     const json_t *c = json_object_get(line, "capture"), *p = json_object_get(line, "point"),
                  *r = json_object_get(line, "round");
@@ -67,7 +67,7 @@ bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], st
 
 bool sweep_open(struct sweep *sweep, const char *const *axes, const char *sample, const struct list *shaders,
                 struct glint_error *err) {
-    sweep->journal = (struct journal){.folder = sweep->out, .kind = "sweep", .keep = keep, .user = sweep};
+    sweep->journal = (struct journal){.folder = sweep->out, .kind = "sweep", .keep = keep_sweep_line, .user = sweep};
     return make_rows(sweep, err) && (sweep->definition = define(sweep, axes, sample, shaders, err)) &&
            journal_open(&sweep->journal, sweep->definition, err);
 }

@@ -1,4 +1,4 @@
-/* A sweep as a page: the fronts as charts whose points show their values and pictures, and as tables. */
+/* The page of a sweep: the Pareto fronts as charts, whose points show their values and pictures, and as tables. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static void add_value(json_t *values, const char *name, json_t *cell, const char
     json_array_append_new(values, json_pack("[s, o, s]", name, cell, unit));
 }
 
-/* What the page shows of a point: what was set, errors by class, costs. */
+/* Values of a point on the page: settings, errors by class, costs. */
 static json_t *values_of(const struct sweep *sweep, size_t p) {
     static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
     const struct sweep_point *s = &sweep->sums[p];
@@ -99,7 +99,7 @@ static json_t *chart_of(const struct sweep *sweep, const struct sweep_front *fro
                      title, "x", "name", front->time ? "GPU time" : "texture fetches", "unit",
                      front->time ? "ms" : "per pixel", "scale", highest > 20 * lowest && lowest > 0 ? "log" : "linear",
                      "y", "name", glint_metric(sweep->metric)->title, "unit", "", "series", "name", "all points",
-                     "kind", "scatter", "muted", true, "points", others, "name", "beaten by none", "kind", "front",
+                     "kind", "scatter", "muted", true, "points", others, "name", "Pareto-optimal", "kind", "front",
                      "points", best);
 }
 
@@ -131,7 +131,7 @@ static void add_table(const struct sweep *sweep, const struct sweep_front *front
     }
 }
 
-/* From each point of the front to the next: what it changes in the picture. */
+/* Pictures of the difference between neighbouring points of the front. */
 static void add_changes(const struct sweep *sweep, const struct sweep_front *front, json_t *blocks) {
     json_t *pictures = json_array();
     for (size_t i = 0; i + 1 < front->count; i++)
@@ -145,7 +145,7 @@ static void add_changes(const struct sweep *sweep, const struct sweep_front *fro
             free(to);
         }
     if (json_array_size(pictures)) {
-        page_text(blocks, "text", "What changes between neighbours, |a − b| over their sum:");
+        page_text(blocks, "text", "Difference between neighbouring points, |a − b| / (a + b):");
         json_array_append(blocks, json_pack("{s:O}", "pictures", pictures));
     }
     json_decref(pictures);
@@ -158,9 +158,9 @@ static void add_facts(const struct sweep *sweep, json_t *document) {
     page_fact(document, "preset", glint_pipeline_name(sweep->base));
     page_fact(document, "errors against", sweep->against.truth ? "the truth in the capture" : "the reference");
     page_fact(document, "device", device->name);
-    snprintf(text, sizeof text, "median of %u rounds in turns%s%s", sweep->rounds,
-             sweep->whole ? ", all passes in one piece" : ", passes that points have in common measured once a round",
-             device->is_cpu ? "; a CPU device: its times say nothing about a GPU's" : "");
+    snprintf(text, sizeof text, "median of %u alternating rounds%s%s", sweep->rounds,
+             sweep->whole ? ", all passes of each point" : ", shared passes timed once a round",
+             device->is_cpu ? "; a CPU device: times do not represent a GPU" : "");
     if (sweep->rounds) page_fact(document, "times", text);
 }
 

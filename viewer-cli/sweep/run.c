@@ -1,4 +1,4 @@
-/* Looks at every point and times it, as far as that is not in the log yet. */
+/* Evaluates and times every point, unless the results are in the log already. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,12 +9,12 @@
 #include "draw/view/png_file.h"
 #include "sweep/sweep.h"
 
-/* One capture under way. */
+/* State of the work on one capture. */
 struct work {
     struct sweep *sweep;
     size_t capture;
     struct glint_judge *judge;
-    size_t done, total; /* results of all captures that this call has found, and will */
+    size_t done, total; /* number of results in this call, over all captures */
     char label[64];
 };
 
@@ -41,8 +41,8 @@ void sweep_change_name(size_t capture, size_t from, size_t to, char name[96]) {
     snprintf(name, 96, "pictures/change-%zu-%04zu-%04zu.png", capture, from, to);
 }
 
-static bool draw(const struct sweep *sweep, const char *name, const struct glint_pixels *pixels, const char *title,
-                 struct glint_error *err) {
+static bool draw_picture(const struct sweep *sweep, const char *name, const struct glint_pixels *pixels,
+                         const char *title, struct glint_error *err) {
     char path[4096];
     struct picture picture = {0};
     const bool ok = sweep_path(sweep, name, path, err) && pixels_draw(&picture, pixels, title, NULL, err) &&
@@ -51,7 +51,7 @@ static bool draw(const struct sweep *sweep, const char *name, const struct glint
     return ok;
 }
 
-/* The composed picture of the point that was looked at last. */
+/* Draws the composed image of the last evaluated point. */
 static bool draw_point(const struct work *work, size_t point, struct glint_error *err) {
     char name[96];
     struct glint_replay *replay = glint_judge_replay(work->judge);
@@ -59,7 +59,7 @@ static bool draw_point(const struct work *work, size_t point, struct glint_error
     struct glint_pixels pixels = {0};
     if (!work->sweep->pictures || !image) return true;
     sweep_picture_name("picture", work->capture, point, name);
-    const bool ok = pixels_read(replay, image, &pixels, err) && draw(work->sweep, name, &pixels, "", err);
+    const bool ok = pixels_read(replay, image, &pixels, err) && draw_picture(work->sweep, name, &pixels, "", err);
     glint_pixels_finish(&pixels);
     return ok;
 }
@@ -89,7 +89,7 @@ static bool place_line(const struct work *work, size_t point, json_t *line, stru
     return journal_append(&work->sweep->journal, line, err);
 }
 
-/* Whether a point's failure ends the sweep; else it is noted in the point's row. */
+/* Whether a failure ends the sweep; other failures are recorded in the point's row. */
 static bool fail_point(const struct work *work, size_t point, const struct glint_error *own, struct glint_error *err) {
     if (own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY || own->code == GLINT_ERROR_IO)
         return glint_fail(err, own->code, "%s", own->message);
@@ -111,7 +111,7 @@ static bool measure_point(struct work *work, size_t point, struct glint_error *e
     bool ok = glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
     const double start = now_seconds();
     ok = ok && draw_point(work, point, &own);
-    if (ok && work->sweep->against.truth && verdict.no_truth.code != GLINT_OK) /* the same for all points */
+    if (ok && work->sweep->against.truth && verdict.no_truth.code != GLINT_OK) /* the truth is missing for all points */
         ok = glint_fail(err, verdict.no_truth.code, "%s", verdict.no_truth.message);
     else if (ok) ok = place_line(work, point, look_json(work->sweep, &verdict, now_seconds() - start), err);
     else ok = fail_point(work, point, &own, err);
@@ -160,7 +160,7 @@ static bool misses(const struct sweep *sweep, size_t capture) {
     return false;
 }
 
-/* The first question's answer, before the points: it can take longer than they do. */
+/* Makes the reference before the points, because it can take longer than they do. */
 static bool find_answer(struct work *work, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     const float *error;
@@ -172,7 +172,7 @@ static bool find_answer(struct work *work, struct glint_error *err) {
     return ok;
 }
 
-/* A B C A B C …: what changes with time, as a device's clock, meets all alike. */
+/* Times points in the order A B C A B C …, so that slow changes, such as of the device's clock, affect all equally. */
 static bool take_turns(struct work *work, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     for (size_t p = 0; p < sweep->points; p++)
@@ -219,7 +219,7 @@ static bool on_front(const struct sweep *sweep, size_t point) {
     return false;
 }
 
-/* Reflections of all points on fronts, in turn; the others are empty. */
+/* Computes the reflections of all points on fronts; those of other points stay empty. */
 static bool draw_changes(const struct work *work, const struct glint_pixels *reflections, struct glint_error *err) {
     const struct sweep *sweep = work->sweep;
     for (size_t f = 0; f < sweep->front_count; f++)
@@ -228,10 +228,10 @@ static bool draw_changes(const struct work *work, const struct glint_pixels *ref
             struct glint_pixels change = {0};
             char name[96], title[96];
             sweep_change_name(work->capture, from, to, name);
-            snprintf(title, sizeof title, "what changes from %zu to %zu", from, to);
+            snprintf(title, sizeof title, "difference between %zu and %zu", from, to);
             const bool ok = pixels_difference(&reflections[from], &reflections[to], NULL,
                                               glint_judge_surfaces(work->judge), &change, err) &&
-                            draw(sweep, name, &change, title, err);
+                            draw_picture(sweep, name, &change, title, err);
             glint_pixels_finish(&change);
             if (!ok) return false;
         }
@@ -255,7 +255,7 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
             pipeline && glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, err) &&
             (answer = glint_judge_answer(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
             pixels_difference(&verdict.reflection, answer, noise, glint_judge_surfaces(work->judge), &error, err) &&
-            draw(sweep, name, &error, "error", err);
+            draw_picture(sweep, name, &error, "error", err);
         reflections[p] = verdict.reflection;
         verdict.reflection = (struct glint_pixels){0};
         glint_pixels_finish(&error);

@@ -1,4 +1,4 @@
-/* What a sweep's rows say together: sums over rounds and captures, and what nothing else beats. */
+/* Sums up the rows of a sweep over rounds and captures, and finds the Pareto fronts. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,10 +39,10 @@ double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const 
 
 static void add_value(struct sweep_sum *sum, double value, double captures) {
     sum->mean += value / captures;
-    if (isnan(value) || value > sum->worst) sum->worst = value; /* NAN stays */
+    if (isnan(value) || value > sum->worst) sum->worst = value; /* NAN is kept */
 }
 
-/* Higher is worse, of all metrics. */
+/* The metric as an error: higher is worse. */
 static double badness(const struct sweep *sweep, double error) {
     return glint_metric(sweep->metric)->higher_is_better ? -error : error;
 }

@@ -1,4 +1,4 @@
-/* A sweep: every point of a space of pipelines on every capture, what was found so far, and what it says. */
+/* A sweep: results of every point of a space of pipelines on every capture, and their summary. */
 #ifndef GLINT_VIEWER_SWEEP_H
 #define GLINT_VIEWER_SWEEP_H
 
@@ -12,28 +12,28 @@
 
 /* One point on one capture: lines of the log, as they were written. */
 struct sweep_row {
-    json_t *look;    /* NULL: not yet */
-    json_t **rounds; /* one for each timed round, NULL: not yet */
+    json_t *look;    /* NULL: not evaluated yet */
+    json_t **rounds; /* one for each timed round, NULL: not timed yet */
 };
 
-/* What nothing else beats, among the points that have a valid error. */
+/* The Pareto-optimal points among those with a valid error. */
 struct sweep_front {
     const char *name; /* "time", "fetches", "time_worst", "fetches_worst" */
     const char *title;
     bool time, worst;
     bool *on;
-    size_t *points, count; /* those on it, from the cheapest */
+    size_t *points, count; /* points on the front, from the cheapest */
 };
 enum { SWEEP_FRONTS = 4 };
 
-/* Over the captures. NAN where nothing is known. */
+/* Mean and worst over the captures. NAN if unknown. */
 struct sweep_sum {
     double mean, worst;
 };
 struct sweep_point {
-    bool valid; /* an error on every capture */
+    bool valid; /* has an error on every capture */
     struct sweep_sum error, frame_ms, cubemaps_ms, steps_px, fetches_px;
-    double low_ms, high_ms; /* of the rounds, mean over the captures */
+    double low_ms, high_ms; /* lowest and highest round, mean over the captures */
 };
 
 struct sweep {
@@ -42,7 +42,7 @@ struct sweep {
     struct glint_pipeline *base;
     struct glint_space *space;
     struct glint_device *device;
-    struct answer_args against; /* of the errors of fronts */
+    struct answer_args against; /* what errors are measured against */
     bool whole, all, pictures;
     uint32_t rounds;
     enum glint_metric metric;
@@ -50,7 +50,7 @@ struct sweep {
     struct progress *progress;
 
     size_t points;
-    struct sweep_row *rows; /* capture · points + point */
+    struct sweep_row *rows; /* index: capture · points + point */
     struct journal journal;
     json_t *definition;
     struct sweep_point *sums;
@@ -66,15 +66,15 @@ char *sweep_point_text(const struct sweep *sweep, size_t point);
 /* "OUT/name"; the path is at most 4096 long. */
 bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], struct glint_error *err);
 
-/* sweep_log.c: OUT/sweep.json says what is swept, OUT/log.jsonl has a line for each result. */
-/* Begins the folder, or goes on: a folder that holds another sweep is an error that names the difference. */
+/* log.c: OUT/sweep.json defines the sweep, OUT/log.jsonl has a line for each result. */
+/* Begins the folder, or resumes it. A folder with another sweep is an error that names the difference. */
 bool sweep_open(struct sweep *sweep, const char *const *axes, const char *sample, const struct list *shaders,
                 struct glint_error *err);
 
 /* sweep_run.c */
-/* Does what is missing. Points that fail are noted in the log and do not stop the others. */
+/* Evaluates missing results. Failures of points are recorded in the log and do not stop the others. */
 bool sweep_run(struct sweep *sweep, struct glint_error *err);
-/* Pictures of the points on fronts: how far each is off, and what changes from one to the next. */
+/* Pictures of the points on fronts: the error of each, and the difference from one to the next. */
 bool sweep_draw_fronts(struct sweep *sweep, struct glint_error *err);
 /* Names of pictures in OUT; "" for none. `what`: "picture", "error". */
 void sweep_picture_name(const char *what, size_t capture, size_t point, char name[96]);

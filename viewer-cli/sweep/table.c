@@ -1,4 +1,4 @@
-/* A sweep as tables: for people, as JSON, as CSV. */
+/* The results of a sweep as printed tables, JSON and CSV. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
 enum { CLASSES = sizeof classes / sizeof *classes };
 
-static void cell(struct table *table, double value) {
+static void value_or_dash_cell(struct table *table, double value) {
     if (isfinite(value)) table_cell(table, "%s", number_text(value));
     else table_cell(table, "–");
 }
@@ -44,13 +44,15 @@ static void print_point(struct table *table, const struct sweep *sweep, size_t p
         const char *value = glint_space_value(sweep->space, p, a);
         table_cell(table, "%s", value[0] ? value : "–");
     }
-    cell(table, s->error.mean);
-    if (several) cell(table, s->error.worst);
-    if (sweep->rounds) cell(table, s->frame_ms.mean), cell(table, s->low_ms), cell(table, s->high_ms);
-    if (sweep->rounds && several) cell(table, s->frame_ms.worst);
-    cell(table, s->steps_px.mean);
-    cell(table, s->fetches_px.mean);
-    if (several) cell(table, s->fetches_px.worst);
+    value_or_dash_cell(table, s->error.mean);
+    if (several) value_or_dash_cell(table, s->error.worst);
+    if (sweep->rounds)
+        value_or_dash_cell(table, s->frame_ms.mean), value_or_dash_cell(table, s->low_ms),
+            value_or_dash_cell(table, s->high_ms);
+    if (sweep->rounds && several) value_or_dash_cell(table, s->frame_ms.worst);
+    value_or_dash_cell(table, s->steps_px.mean);
+    value_or_dash_cell(table, s->fetches_px.mean);
+    if (several) value_or_dash_cell(table, s->fetches_px.worst);
 }
 
 static void print_front(const struct sweep *sweep, const struct sweep_front *front) {
@@ -61,7 +63,7 @@ static void print_front(const struct sweep *sweep, const struct sweep_front *fro
         list_titles(sweep, titles, names);
         struct table *table = table_create(titles);
         for (size_t i = 0; i < front->count; i++) print_point(table, sweep, front->points[i]);
-        printf("%s against %s: %zu of %zu points are beaten by none:\n\n", glint_metric(sweep->metric)->title,
+        printf("%s against %s: %zu of %zu points are Pareto-optimal:\n\n", glint_metric(sweep->metric)->title,
                front->title, front->count, sweep->points);
         table_print(table, stdout);
         table_destroy(&table);
@@ -74,13 +76,13 @@ static void print_front(const struct sweep *sweep, const struct sweep_front *fro
 void sweep_print(const struct sweep *sweep) {
     const struct glint_device_info *device = glint_device_get_info(sweep->device);
     for (size_t f = 0; f < sweep->front_count; f++) print_front(sweep, &sweep->fronts[f]);
-    printf("errors of the reflection, before it is composed, against the %s",
+    printf("errors of the reflection before compose, against the %s",
            sweep->against.truth ? "truth in the capture" : "reference");
     if (sweep->captures.count > 1) printf(", mean of %zu captures", sweep->captures.count);
     if (sweep->rounds)
-        printf("; times: median of %u rounds in turns on %s%s", sweep->rounds, device->name,
-               device->is_cpu ? " (a CPU device: its times say nothing about a GPU's)" : "");
-    printf("\npage, charts, tables and pictures: %s/index.html\n", sweep->out);
+        printf("; times: median of %u alternating rounds on %s%s", sweep->rounds, device->name,
+               device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
+    printf("\npage with charts, tables and pictures: %s/index.html\n", sweep->out);
 }
 
 static json_t *time_json(const struct sweep *sweep, const struct sweep_row *row, const char *key) {
@@ -137,7 +139,7 @@ static json_t *point_json(const struct sweep *sweep, size_t p) {
                      sum_json(s->fetches_px), "captures", captures);
 }
 
-/* What the results took on the wall's clock, in all calls together. */
+/* Wall-clock time of the results, over all calls. */
 static json_t *seconds_json(const struct sweep *sweep) {
     static const char *const keys[] = {"run_seconds", "metric_seconds", "picture_seconds"};
     double sums[3] = {0};

@@ -1,4 +1,4 @@
-/* What is tuned: chosen by name, or everything that is declared and can make a difference. */
+/* Chooses the parameters to tune: those of --vary, or all declared ones that can influence the reflection. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +44,7 @@ static bool is_variant(const char *name) {
     return !strchr(name, '.');
 }
 
-/* Variants first: what they have no parameter for is left out. */
+/* Applies variants first, because parameters of other variants are left out. */
 struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *values, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_copy(tune->base, err);
     bool ok = pipeline != NULL;
@@ -63,7 +63,7 @@ struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *valu
     return pipeline;
 }
 
-/* A number of something that each takes its time; taps are no fetches of a trace. */
+/* Whether the parameter is a count whose elements each cost time; taps of filters do not count as fetches of the trace passes. */
 static bool is_count(const struct tune *tune, const struct tune_axis *axis) {
     static const char *const units[] = {"steps", "cells", "samples", "taps"};
     char slot[128];
@@ -87,7 +87,7 @@ bool tune_scale(const struct tune *tune, double factor, double *values) {
     return some;
 }
 
-/* ---- Why a parameter is left alone ---- */
+/* ---- Why a parameter is not tuned ---- */
 
 static bool same_values(const struct glint_pipeline *a, const struct glint_pipeline *b) {
     for (size_t i = 0; i < glint_pipeline_pass_count(a); i++) {
@@ -100,7 +100,7 @@ static bool same_values(const struct glint_pipeline *a, const struct glint_pipel
     return true;
 }
 
-/* Whether another value of the start's parameter is compared with another reference. */
+/* Whether another value of this parameter would change the reference. */
 static bool asks_otherwise(const struct tune *tune, const char *name, const struct glint_row *row, double start,
                            bool *otherwise, struct glint_error *err) {
     char assignment[200];
@@ -123,13 +123,13 @@ static bool is_assumed(const struct glint_pass *pass, const char *name) {
     return false;
 }
 
-/* Of a pass on all captures. */
+/* State of a pass over all captures. */
 struct part {
     bool ran, cached, needed;
     char reason[192];
 };
 
-/* What the start's run on one capture says of a pass; false when it has no part in the reflection. */
+/* Adds the results of a pass in the start's run on one capture; false when the pass does not influence the reflection. */
 static bool ask_capture(const struct tune *tune, struct tune_subject *subject, const struct glint_pass *pass,
                         struct part *part, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(subject->judge);
@@ -160,12 +160,12 @@ static void leave(struct tune *tune, const char *name, const char *why, const ch
 static const char *why_left(const struct tune *tune, const struct glint_pass *pass, const struct glint_row *row,
                             const struct part *part, bool otherwise) {
     if (!part->ran) return "does not run: ";
-    if (pass->host) return "is chosen on the host: costs memory, not a frame's time";
-    if (part->cached) return "works on cube maps: its time is not a frame's";
-    if (!part->needed) return "has no part in the reflection";
-    if (otherwise) return "changes what is asked: another reference";
+    if (pass->host) return "is used on the host only: it costs memory, but no frame time";
+    if (part->cached) return "is used for cube maps, which are not processed every frame";
+    if (!part->needed) return "does not influence the reflection";
+    if (otherwise) return "would change the reference";
     if (!tune->against.truth && is_assumed(pass, row->name))
-        return "stands for what captures do not say: the reference assumes it too";
+        return "is an assumption about the scene, which the reference makes too";
     return NULL;
 }
 
@@ -187,7 +187,7 @@ static bool add_text(struct tune_axis *axis, const char *text, size_t length, st
     return true;
 }
 
-/* The whole of what is declared. */
+/* The whole declared range. */
 static bool declared_axis(struct tune_axis *axis, const struct glint_row *row, double start, struct glint_error *err) {
     axis->row = row;
     if (row->choices || row->type == GLINT_VALUE_BOOL) {
@@ -233,14 +233,14 @@ static bool fail_vary(const struct tune_axis *axis, const char *expected, const 
     return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s: expected %s, found '%s'", axis->name, expected, found);
 }
 
-/* "a,b,c": each must be a value of it; the start's own comes first when it is not among them. */
+/* "a,b,c": each must be a valid value; the start value is added in front if it is missing. */
 static bool read_list(const struct tune *tune, struct tune_axis *axis, const char *list, const char *start,
                       struct glint_error *err) {
     for (const char *at = list; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
         const size_t length = strcspn(at, ",");
         char assignment[200];
         snprintf(assignment, sizeof assignment, "%s=%.*s", axis->name, (int)length, at);
-        if (!length || length >= TUNE_TEXT) return fail_vary(axis, "values with commas between them", list, err);
+        if (!length || length >= TUNE_TEXT) return fail_vary(axis, "values separated by commas", list, err);
         struct glint_pipeline *copy = glint_pipeline_copy(tune->base, err);
         struct glint_error own = {0};
         const bool ok =
@@ -272,13 +272,13 @@ static bool read_range(struct tune_axis *axis, const char *range, double lowest,
     snprintf(shown, sizeof shown, "a range within %.9g to %.9g", lowest, highest);
     if (low < lowest || high > highest) return fail_vary(axis, shown, range, err);
     if (whole && (low != floor(low) || high != floor(high))) return fail_vary(axis, "whole numbers", range, err);
-    snprintf(shown, sizeof shown, "a range that holds the start's own %.9g", start);
+    snprintf(shown, sizeof shown, "a range that contains the start value %.9g", start);
     if (start < low || start > high) return fail_vary(axis, shown, range, err);
     number_axis(axis, low, high, start, whole);
     return true;
 }
 
-/* Of a variant that an axis chooses. */
+/* The pass of a variant that an axis can choose. */
 static const struct glint_row *find_other_row(const struct tune *tune, const char *name) {
     const struct glint_row *row = NULL;
     for (size_t a = 0; a < tune->axis_count; a++) {
@@ -322,15 +322,14 @@ static bool read_vary(const struct tune *tune, const char *text, struct tune_axi
     if (!own) row = find_other_row(tune, axis->name);
     axis->other = !own;
     if (!row)
-        return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s: the pipeline's %s/%s has no such parameter", axis->name,
+        return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s: %s/%s in the pipeline has no such parameter", axis->name,
                           pass ? pass->slot : "slot is empty:", pass ? pass->variant : "");
     const double value = own ? glint_pipeline_value(tune->base, pass, row) : row->initial;
     bool otherwise = false;
     if (own && !asks_otherwise(tune, axis->name, row, value, &otherwise, err)) return false;
     if (otherwise)
         return glint_fail(err, GLINT_ERROR_USAGE,
-                          "--vary %s: changes what is asked, so that errors would be against another reference",
-                          axis->name);
+                          "--vary %s: would change the reference, so errors could not be compared", axis->name);
     if (!values) return declared_axis(axis, row, value, err);
     axis->row = row;
     if (!strstr(values, "..")) {
@@ -357,7 +356,7 @@ bool tune_make_axes(struct tune *tune, struct glint_error *err) {
         if (!read_vary(tune, text, axis, err)) return false;
         for (size_t k = 0; k + 1 < tune->axis_count; k++)
             if (!strcmp(tune->axes[k].name, axis->name))
-                return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s: varied twice", axis->name);
+                return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s is given twice", axis->name);
     }
     return true;
 }

@@ -1,4 +1,4 @@
-/* What is found without a search, to compare with: all counts times one factor. */
+/* The baseline, which needs no search: the start with all counts multiplied by one factor. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,14 +9,14 @@ static bool try_factor(struct tune *tune, double octaves, struct tune_figures *f
                        struct glint_error *err) {
     if (!tune_scale(tune, exp2(octaves), tune->scaling))
         return glint_fail(err, GLINT_ERROR_USAGE,
-                          "--baseline scale: nothing that may move is a count of steps, cells, "
-                          "samples, taps or rays whose cost counts");
+                          "--baseline scale: no tuned parameter is a count of steps, cells, "
+                          "samples, taps or rays that influences the cost");
     if (!tune_evaluate(tune, tune->scaling, figures, err)) return false;
     *keeps = (tune->by_error ? figures->error : figures->cost) <= tune->within;
     return true;
 }
 
-/* By halving: costs rise with the factor, errors fall. */
+/* Bisects the factor: cost rises with it, and error falls. */
 bool tune_find_scale(struct tune *tune, struct glint_error *err) {
     enum { HALVINGS = 10 };
     double in = tune->by_error ? 3 : -10, out = tune->by_error ? -10 : 3; /* of the factor, as powers of two */
@@ -37,13 +37,13 @@ bool tune_find_scale(struct tune *tune, struct glint_error *err) {
     tune->factor = exp2(in);
     if (!try_factor(tune, in, &tune->scaled, &keeps, err)) return false;
     if (!tune->scaled_within) return true;
-    tune_set_yard(tune, tune->scaling);
+    tune_set_norm(tune, tune->scaling);
     if (!tune_evaluate(tune, tune->scaling, &tune->scaled, err)) return false;
     if (!tune->by_error) tune->within = tune->scaled.cost;
     return true;
 }
 
-/* Whether what was tuned costs more than this. */
+/* Whether the tuned preset costs more than the baseline. */
 static bool is_dearer(struct tune *tune, size_t s, struct glint_pipeline *scaled, bool *dearer,
                       struct glint_error *err) {
     struct glint_pipeline *const pipelines[TUNE_CONTENDERS] = {
@@ -62,7 +62,7 @@ static bool is_dearer(struct tune *tune, size_t s, struct glint_pipeline *scaled
     return true;
 }
 
-/* At equal cost on this capture: upwards where what was tuned costs more, else downwards. */
+/* Finds the factor of equal cost on this capture: upwards if the tuned preset costs more, else downwards. */
 bool tune_match_scale(struct tune *tune, size_t s, struct glint_error *err) {
     static const double step = 1.0442737824274138; /* a sixteenth of a doubling */
     const size_t bytes = tune->axis_count * sizeof(double);

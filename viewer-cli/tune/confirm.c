@@ -1,4 +1,4 @@
-/* What was found, measured anew beside what it is compared with. */
+/* Final measurement of the tuned preset, alternating with the start and the baseline. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +11,8 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-/* How much of what it may take a point takes: beside the baseline, of its time where that is most and as much as the interval
-   leaves open; else of the budget, mean over the captures. parts[capture]: of the baseline's time; NULL: not asked. */
+/* Times a point and returns the part of its limit that it takes: with a baseline, the largest upper bound over the captures of its time
+   relative to the baseline; else its mean time relative to the budget. parts[capture]: time relative to the baseline; may be NULL. */
 static bool time_point(struct tune *tune, struct glint_pipeline *scaled, size_t point, double *part, double *parts,
                        struct glint_error *err) {
     struct glint_pipeline *own = tune_pipeline(tune, tune->found.points[point].values, err);
@@ -37,7 +37,7 @@ static bool is_baseline(const struct tune *tune, size_t point) {
            !memcmp(tune->found.points[point].values, tune->scaling, tune->axis_count * sizeof *tune->scaling);
 }
 
-/* What errs least and was not measured yet, of what errs less than the one that is held (NULL: none is) and would keep the limit. */
+/* The point with the least error that was not timed yet, has less error than `held` (if not NULL) and should meet the limit. */
 static bool next_candidate(const struct tune *tune, const bool *measured, double limit,
                            const struct glint_search_point *held, size_t *next) {
     bool some = false;
@@ -52,9 +52,9 @@ static bool next_candidate(const struct tune *tune, const bool *measured, double
     return some;
 }
 
-/* Errors are exact, the search's times are not: what errs less than the best that was measured to keep the limit, in the beginning the
-   baseline, is measured as long as the times of those that were measured, beside the search's, say that it may keep it, too. */
-static bool choose(struct tune *tune, struct glint_pipeline *scaled, bool *measured, struct glint_error *err) {
+/* Errors are exact, but times of the search are noisy. Therefore points with less error than the best confirmed point (at first the
+   baseline) are timed again, as long as the difference between both timings so far allows that they meet the limit. */
+static bool choose_point(struct tune *tune, struct glint_pipeline *scaled, bool *measured, struct glint_error *err) {
     enum { TRIES = 24 };
     const struct glint_search_point *points = tune->found.points, *held = NULL;
     double limit = tune->within, off = 0;
@@ -75,11 +75,11 @@ static bool choose(struct tune *tune, struct glint_pipeline *scaled, bool *measu
     return true;
 }
 
-/* Times of a few rounds, and of a baseline that was measured once, are off by some per cent: what that is on each capture shows
-   where the best point is measured again. It may take too much, or leave some of it unused. */
+/* Times of a few rounds, and of a baseline that was timed once, are wrong by some per cent. Timing the best point again shows by how
+   much on each capture; if it exceeds the budget or leaves a part unused, the search continues with corrected times. */
 static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct glint_error *err) {
     enum { TIMES = 3 };
-    static const double used = 0.98; /* of what it may take */
+    static const double used = 0.98; /* part of the budget */
     double *parts = calloc(tune->captures.count, sizeof *parts), part = 0;
     bool ok = parts || no_memory(err);
     for (int i = 0; ok && i < TIMES && !is_baseline(tune, tune->chosen); i++) {
@@ -91,7 +91,7 @@ static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct gli
     return ok;
 }
 
-/* A search that tries many noisy times ends at one that was lucky. */
+/* A search over many noisy times tends to end at a point whose time was too low by chance, so the choice is timed again. */
 bool tune_choose(struct tune *tune, struct glint_error *err) {
     struct glint_pipeline *scaled = NULL;
     bool *measured = NULL, ok = true;
@@ -100,7 +100,7 @@ bool tune_choose(struct tune *tune, struct glint_error *err) {
     if (tune->scaled_within) ok = (scaled = tune_pipeline(tune, tune->scaling, err)) != NULL;
     ok = ok && correct(tune, scaled, err) &&
          ((measured = calloc(tune->found.count, sizeof *measured)) != NULL || no_memory(err));
-    ok = ok && choose(tune, scaled, measured, err);
+    ok = ok && choose_point(tune, scaled, measured, err);
     if (scaled) glint_pipeline_destroy(&scaled);
     free(measured);
     return ok;
@@ -116,7 +116,7 @@ static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err)
     const enum glint_answer answer = answer_args_kind(&tune->against);
     struct tune_measured *measured = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
     struct glint_verdict verdict;
-    snprintf(tune->label, sizeof tune->label, "%s, measured again", tune_contenders[k]);
+    snprintf(tune->label, sizeof tune->label, "%s, final timing", tune_contenders[k]);
     if (!glint_judge_look(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
         return false;
     measured->errors = verdict.errors[answer];
@@ -129,7 +129,7 @@ static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err)
     return glint_metrics_valid(&measured->errors, tune->subjects[s].path, err);
 }
 
-/* The baseline of this capture: its factor here. */
+/* Creates the baseline with the factor of this capture. */
 static bool match(struct tune *tune, size_t s, struct glint_error *err) {
     if (!tune->contenders[TUNE_SCALED]) return true;
     if (!tune_match_scale(tune, s, err) || !tune_scale(tune, tune->subjects[s].factor, tune->scaling)) return false;
@@ -137,7 +137,7 @@ static bool match(struct tune *tune, size_t s, struct glint_error *err) {
     return (tune->contenders[TUNE_SCALED] = tune_pipeline(tune, tune->scaling, err)) != NULL;
 }
 
-static bool measure(struct tune *tune, size_t s, struct glint_error *err) {
+static bool measure_subject(struct tune *tune, size_t s, struct glint_error *err) {
     struct tune_measured *measured = tune->measured + s * TUNE_CONTENDERS;
     struct tune_times times[TUNE_CONTENDERS];
     if (!match(tune, s, err)) return false;
@@ -154,7 +154,7 @@ bool tune_confirm(struct tune *tune, struct glint_error *err) {
     if (!make_contenders(tune, err)) return false;
     for (size_t s = 0; s < tune->subject_count; s++) {
         tune_unload_subject(tune, s);
-        if (!tune_load_subject(tune, s, GLINT_RESAMPLES, err) || !measure(tune, s, err)) return false;
+        if (!tune_load_subject(tune, s, GLINT_RESAMPLES, err) || !measure_subject(tune, s, err)) return false;
         tune_unload_subject(tune, s);
         tune->done = 0.9 + 0.1 * (double)(s + 1) / (double)tune->subject_count;
     }

@@ -1,4 +1,4 @@
-/* Why a limit cannot be kept: the least that was found, and the passes that take it. */
+/* Explains why no point meets the limit: the best point, and its most expensive passes. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,9 +32,9 @@ static bool add_part(struct parts *parts, const struct glint_pass *pass, double 
     return true;
 }
 
-/* Means over rounds and captures of what counts. */
-static bool measure(struct tune *tune, const struct glint_pipeline *pipeline, struct parts *parts,
-                    struct glint_error *err) {
+/* Mean times of the counted passes over rounds and captures. */
+static bool measure_passes(struct tune *tune, const struct glint_pipeline *pipeline, struct parts *parts,
+                           struct glint_error *err) {
     bool ok = true;
     const double rounds = (double)tune->captures.count * tune->rounds;
     for (size_t s = 0; ok && s < tune->captures.count; s++)
@@ -58,12 +58,12 @@ static bool is_tried(const struct tune *tune, const struct glint_pass *pass) {
     return false;
 }
 
-/* "; upscale/best_match takes 24 % (not tried: bilinear)" of the passes that take most. */
-static void tell_parts(const struct tune *tune, const struct parts *parts, char *text, size_t size) {
+/* "; its most expensive passes: upscale/best_match takes 24 % (not tried: bilinear)" */
+static void describe_expensive_passes(const struct tune *tune, const struct parts *parts, char *text, size_t size) {
     enum { MOST = 5 };
     size_t count;
     const struct glint_pass *passes = glint_passes(&count);
-    int length = snprintf(text, size, "; of that ");
+    int length = snprintf(text, size, "; its most expensive passes: ");
     double whole = 0;
     for (size_t i = 0; i < parts->count; i++) whole += parts->items[i].ms;
     for (size_t i = 0; i < parts->count && i < MOST && length < (int)size; i++) {
@@ -86,15 +86,15 @@ bool tune_fail_least(struct tune *tune, struct glint_error *err) {
     char text[700] = "";
     if (!tune->fetches && !tune->by_error) {
         struct glint_pipeline *pipeline = tune_pipeline(tune, least->values, err);
-        const bool ok = pipeline && measure(tune, pipeline, &parts, err);
-        if (ok) tell_parts(tune, &parts, text, sizeof text);
+        const bool ok = pipeline && measure_passes(tune, pipeline, &parts, err);
+        if (ok) describe_expensive_passes(tune, &parts, text, sizeof text);
         if (pipeline) glint_pipeline_destroy(&pipeline);
         free(parts.items);
         if (!ok) return false;
     }
     return glint_fail(
         err, GLINT_ERROR_UNSUPPORTED,
-        "no point reaches %s of %.4g %s: the least of %zu points is %.4g, with %s of %.4g%s; no preset was written",
+        "no point meets %s limit of %.4g %s: the best of %zu points has %.4g, with %s of %.4g%s; no preset was written",
         tune->by_error ? "an error" : "a cost", tune->within,
         tune->by_error ? glint_metric(tune->metric)->title : tune_cost_unit(tune), tune->found.count,
         least->figures.limited, tune->by_error ? "a cost" : "an error", least->figures.wanted, text);

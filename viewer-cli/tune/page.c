@@ -1,4 +1,4 @@
-/* A tuning as a page: every point tried, the path of the best, what moved, what was given up. */
+/* The page of glint tune: all points, the path of the best, changed parameters, and the final comparison. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,19 +33,19 @@ static json_t *chart_point(const struct tune *tune, size_t p, bool whole) {
     return json;
 }
 
-static bool known(const struct tune *tune, size_t p) {
+static bool point_is_known(const struct tune *tune, size_t p) {
     const struct glint_search_figures *figures = &tune->found.points[p].figures;
     return isfinite(figures->wanted) && isfinite(figures->limited);
 }
 
-/* All points; those that were the best when they were found, joined in that order; the start; what all steps scaled gives. */
+/* Chart of all points, the successive best points joined by a line, the start, and the scaled start. */
 static json_t *chart(const struct tune *tune, bool whole) {
     json_t *all = json_array(), *path = json_array(), *chosen = json_array(), *scaled = json_array(),
            *marks = json_array();
     size_t best = 0;
     char title[200], limit[100];
     for (size_t p = 0; p < tune->found.count; p++) {
-        if (!known(tune, p)) continue;
+        if (!point_is_known(tune, p)) continue;
         json_array_append_new(all, chart_point(tune, p, whole));
         if (p && !glint_search_better(&tune->found.points[p].figures, &tune->found.points[best].figures, tune->within))
             continue;
@@ -55,7 +55,7 @@ static json_t *chart(const struct tune *tune, bool whole) {
     json_array_append_new(chosen, chart_point(tune, tune->chosen, whole));
     if (tune->contenders[TUNE_SCALED])
         json_array_append_new(scaled, json_pack("{s:f, s:f, s:s}", "x", tune->scaled.cost, "y", tune->scaled.error,
-                                                "name", "all steps scaled"));
+                                                "name", "scaled start"));
     snprintf(limit, sizeof limit, "the limit, %.4g", tune->within);
     json_array_append_new(marks, json_pack("{s:f, s:s}", tune->by_error ? "y" : "x", tune->within, "label", limit));
     json_array_append_new(
@@ -67,13 +67,13 @@ static json_t *chart(const struct tune *tune, bool whole) {
         "s:s, s:o}], s:o}",
         "title", title, "x", "name", tune->fetches ? "texture fetches" : "GPU time", "unit",
         tune->fetches ? "per pixel" : "ms", "y", "name", glint_metric(tune->metric)->title, "unit", "", "series",
-        "name", "tried", "kind", "scatter", "muted", true, "points", all, "name", "best so far", "kind", "line",
-        "points", path, "name", "chosen", "kind", "scatter", "points", chosen, "name", "all steps scaled", "kind",
+        "name", "evaluated", "kind", "scatter", "muted", true, "points", all, "name", "best so far", "kind", "line",
+        "points", path, "name", "chosen", "kind", "scatter", "points", chosen, "name", "scaled start", "kind",
         "scatter", "points", scaled, "marks", marks);
 }
 
 static void add_moved(const struct tune *tune, json_t *document) {
-    json_t *table = page_table(page_section(document, "What moved"));
+    json_t *table = page_table(page_section(document, "Changed parameters"));
     const double *values = tune->found.points[tune->chosen].values;
     page_column(table, "parameter", ""), page_column(table, "from", ""), page_column(table, "to", "");
     page_column(table, "unit", ""), page_column(table, "what it does", "");
@@ -92,7 +92,7 @@ static void add_moved(const struct tune *tune, json_t *document) {
 static void add_contenders(const struct tune *tune, size_t s, json_t *document) {
     char title[200];
     snprintf(title, sizeof title, "%.150s%s", base_name(tune->subjects[s].path),
-             tune->subjects[s].unseen ? ", not tuned on" : "");
+             tune->subjects[s].held_out ? ", held out" : "");
     json_t *blocks = page_section(document, title), *table = page_table(blocks);
     const struct tune_measured *measured = tune->measured + s * TUNE_CONTENDERS;
     const struct glint_metric_table *rows = &measured[TUNE_START].errors;
@@ -100,12 +100,12 @@ static void add_contenders(const struct tune *tune, size_t s, json_t *document) 
     for (size_t r = 0; r < rows->count; r++)
         page_column(table, r ? rows->rows[r].name : glint_metric(tune->metric)->title, "");
     page_column(table, "fetches", "per pixel");
-    if (tune->repeat) page_column(table, "GPU time", "ms"), page_column(table, "tuned takes", "parts of it");
+    if (tune->repeat) page_column(table, "GPU time", "ms"), page_column(table, "time of tuned", "relative");
     for (int k = 0; k < TUNE_CONTENDERS; k++) {
         if (!tune->contenders[k]) continue;
         json_t *row = json_array();
         char name[64];
-        snprintf(name, sizeof name, "all steps × %.3g", tune->subjects[s].factor);
+        snprintf(name, sizeof name, "start, scaled × %.3g", tune->subjects[s].factor);
         json_array_append_new(row, json_string(k == TUNE_SCALED ? name : tune_contenders[k]));
         for (size_t r = 0; r < rows->count; r++) {
             const struct glint_figure figure = measured[k].errors.rows[r].of[tune->metric];
@@ -120,7 +120,8 @@ static void add_contenders(const struct tune *tune, size_t s, json_t *document) 
         page_row(table, row);
     }
     page_text(blocks, "text",
-              "How much more tuned errs, with the interval of the difference (tiles drawn alike in both):");
+              "Error of tuned minus error of the other, with its 95 % interval (the same image tiles are resampled in "
+              "both):");
     table = page_table(blocks);
     page_column(table, "against", "");
     for (size_t r = 0; r < rows->count; r++) page_column(table, rows->rows[r].name, "");
@@ -138,24 +139,24 @@ static void add_contenders(const struct tune *tune, size_t s, json_t *document) 
 }
 
 static void add_left(const struct tune *tune, json_t *document) {
-    json_t *table = page_table(page_section(document, "Left alone"));
-    page_column(table, "parameter", ""), page_column(table, "because it", "");
+    json_t *table = page_table(page_section(document, "Parameters that were not tuned"));
+    page_column(table, "parameter", ""), page_column(table, "it", "");
     for (size_t i = 0; i < tune->left_count; i++)
         page_row(table, json_pack("[s, s]", tune->left[i].name, tune->left[i].why));
     for (size_t a = 0; a < tune->axis_count; a++)
         if (!tune->found.matters[a])
-            page_row(table, json_pack("[s, s]", tune->axes[a].name, "changes nothing on these captures"));
+            page_row(table, json_pack("[s, s]", tune->axes[a].name, "has no effect on these captures"));
 }
 
 static void add_facts(const struct tune *tune, json_t *document) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     char text[200];
     for (size_t s = 0; s < tune->captures.count; s++) page_fact(document, "tuned on", tune->captures.items[s]);
-    for (size_t s = 0; s < tune->unseen.count; s++) page_fact(document, "not tuned on", tune->unseen.items[s]);
+    for (size_t s = 0; s < tune->held_out.count; s++) page_fact(document, "held out", tune->held_out.items[s]);
     page_fact(document, "start", glint_pipeline_name(tune->base));
     page_fact(document, "preset", tune->out);
     page_fact(document, "errors against", tune->against.truth ? "the truth in the captures" : "the reference");
-    if (tune->captures.count > 1) page_fact(document, "of these counts", tune->worst ? "the worst" : "the mean");
+    if (tune->captures.count > 1) page_fact(document, "over captures", tune->worst ? "the worst" : "the mean");
     page_fact(document, "device", device->name);
     snprintf(text, sizeof text, "%zu points, seed %u", tune->found.count, tune->seed);
     page_fact(document, "search", text);
@@ -171,7 +172,7 @@ bool tune_write_page(const struct tune *tune, struct glint_error *err) {
     json_t *document = page_create(title);
     if (!document) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     add_facts(tune, document);
-    page_chart(page_section(document, "Every point that was tried"), chart(tune, true));
+    page_chart(page_section(document, "All evaluated points"), chart(tune, true));
     add_moved(tune, document);
     for (size_t s = 0; tune->confirmed && s < tune->subject_count; s++) add_contenders(tune, s, document);
     add_left(tune, document);

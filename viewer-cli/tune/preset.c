@@ -1,4 +1,4 @@
-/* What was found, as a preset that says where it comes from, and all of it as JSON. */
+/* Writes the result as a preset with a record of how it was found, and everything as JSON. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ static json_t *value_json(const struct glint_row *row, double value) {
     return value == floor(value) && fabs(value) < 1e9 ? json_integer((json_int_t)value) : json_real(value);
 }
 
-/* Variants, and what is not as declared. */
+/* Variants, and parameters that differ from their declared defaults. */
 static json_t *preset_json(const struct glint_pipeline *pipeline, const char *name, const char *title) {
     json_t *slots = json_object(), *set = json_object();
     for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
@@ -44,12 +44,12 @@ static json_t *limit_json(const struct tune *tune) {
 static json_t *captures_list(const struct tune *tune) {
     json_t *list = json_array(), *hashes;
     struct glint_error ignored = {0};
-    for (int unseen = 0; unseen < 2; unseen++) {
-        const struct list *captures = unseen ? &tune->unseen : &tune->captures;
+    for (int held_out = 0; held_out < 2; held_out++) {
+        const struct list *captures = held_out ? &tune->held_out : &tune->captures;
         if (!(hashes = captures_json(captures, &ignored))) continue;
         for (size_t i = 0; i < captures->count; i++)
             json_array_append_new(list, json_pack("{s:s, s:O, s:b}", "path", captures->items[i], "xxh3_128",
-                                                  json_array_get(hashes, i), "unseen", unseen));
+                                                  json_array_get(hashes, i), "held_out", held_out));
         json_decref(hashes);
     }
     return list;
@@ -120,10 +120,10 @@ static json_t *confirmed_json(const struct tune *tune) {
         }
         if (tune->contenders[TUNE_SCALED])
             json_object_set_new(json_object_get(contenders, "scaled"), "factor", json_real(tune->subjects[s].factor));
-        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "capture", tune->subjects[s].path, "unseen",
-                                              tune->subjects[s].unseen, "contenders", contenders, "tuned_less_start",
-                                              differences_of(tune, s, TUNE_START, TUNE_TUNED), "tuned_less_scaled",
-                                              differences_of(tune, s, TUNE_SCALED, TUNE_TUNED)));
+        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "capture", tune->subjects[s].path,
+                                              "held_out", tune->subjects[s].held_out, "contenders", contenders,
+                                              "tuned_less_start", differences_of(tune, s, TUNE_START, TUNE_TUNED),
+                                              "tuned_less_scaled", differences_of(tune, s, TUNE_SCALED, TUNE_TUNED)));
     }
     return list;
 }
@@ -171,8 +171,8 @@ static json_t *left_json(const struct tune *tune) {
         json_array_append_new(left, json_pack("{s:s, s:s}", "name", tune->left[i].name, "why", tune->left[i].why));
     for (size_t a = 0; a < tune->axis_count; a++)
         if (!tune->found.matters[a])
-            json_array_append_new(left,
-                                  json_pack("{s:s, s:s}", "name", tune->axes[a].name, "why", "changes nothing here"));
+            json_array_append_new(
+                left, json_pack("{s:s, s:s}", "name", tune->axes[a].name, "why", "has no effect on these captures"));
     return left;
 }
 

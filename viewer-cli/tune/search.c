@@ -1,4 +1,4 @@
-/* The search, from the start and what is compared with it. */
+/* Runs the search from the start and the baseline. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,16 +22,16 @@ static bool try_values(void *user, const double *values, struct glint_search_fig
     return true;
 }
 
-/* The start, and what is compared with the search: both set what others are measured by. */
+/* Evaluates the start and the baseline, which define the norm and the limit. */
 static bool begin_search(struct tune *tune, const double *start, struct glint_error *err) {
     if (!tune_evaluate(tune, start, &tune->start, err)) return false;
-    tune_set_yard(tune, start);
+    tune_set_norm(tune, start);
     tune->asked = tune->limit * (tune->part ? (tune->by_error ? tune->start.error : tune->start.cost) : 1);
     tune->within = tune->asked;
     return !tune->baseline || (tune_find_scale(tune, err) && tune_evaluate(tune, start, &tune->start, err));
 }
 
-/* `count` known points, one after the other. */
+/* `known`: `count` points, one after the other, from which the search continues. */
 static bool search(struct tune *tune, uint32_t tries, const double *known, size_t count, struct glint_error *err) {
     enum { NOISE_PER_CENT = 2 };
     const struct glint_search_options options = {.limit = tune->within,

@@ -1,4 +1,4 @@
-/* The captures: loaded, run once, and what they are timed by. */
+/* Loads the captures, runs the start once on each, and times pipelines on them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,14 +40,14 @@ bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct g
 }
 
 bool tune_load(struct tune *tune, struct glint_error *err) {
-    tune->subject_count = tune->captures.count + tune->unseen.count;
+    tune->subject_count = tune->captures.count + tune->held_out.count;
     tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
     if (!tune->subjects) return no_memory(err);
     for (size_t s = 0; s < tune->subject_count; s++) {
         struct tune_subject *subject = &tune->subjects[s];
-        subject->unseen = s >= tune->captures.count;
-        subject->path = subject->unseen ? tune->unseen.items[s - tune->captures.count] : tune->captures.items[s];
-        if (subject->unseen) continue;
+        subject->held_out = s >= tune->captures.count;
+        subject->path = subject->held_out ? tune->held_out.items[s - tune->captures.count] : tune->captures.items[s];
+        if (subject->held_out) continue;
         struct glint_verdict verdict;
         snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
         if (!tune_load_subject(tune, s, 0, err) ||
@@ -70,7 +70,7 @@ bool tune_time(struct tune *tune, struct tune_subject *subject, const struct gli
     return true;
 }
 
-/* Order statistics between which the true median lies with 95 %, whatever the distribution: each value is below it with a half. */
+/* Order statistics that contain the true median with 95 % for any distribution, as each value is below the median with probability 1/2. */
 struct tune_median tune_median(double *values, size_t count) {
     if (!count) return (struct tune_median){NAN, NAN, NAN};
     glint_sort_doubles(values, count);
@@ -86,7 +86,7 @@ struct tune_median tune_median(double *values, size_t count) {
                                 values[count - 1 - low]};
 }
 
-/* Who is first changes from round to round. */
+/* The order of the pipelines changes from round to round. */
 bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
                         struct tune_times times[TUNE_CONTENDERS], struct glint_error *err) {
     const size_t rounds = tune->repeat;
@@ -94,7 +94,7 @@ bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct 
            *parts = values + TUNE_CONTENDERS * rounds;
     bool ok = values || no_memory(err);
     for (uint32_t r = 0; ok && r < rounds; r++) {
-        snprintf(tune->label, sizeof tune->label, "measured again, round %u", r + 1);
+        snprintf(tune->label, sizeof tune->label, "final timing, round %u", r + 1);
         glint_judge_next_round(subject->judge);
         for (size_t turn = 0; ok && turn < TUNE_CONTENDERS; turn++) {
             const size_t k = (turn + r) % TUNE_CONTENDERS;

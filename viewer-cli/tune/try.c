@@ -1,4 +1,4 @@
-/* Evaluates pipelines on all captures that are tuned on, once each, and keeps what was found. */
+/* Evaluates pipelines once on each capture that is tuned on, and records the results in the journal. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-/* ---- What is kept ---- */
+/* ---- The journal ---- */
 
 static json_t *axes_json(const struct tune *tune) {
     json_t *axes = json_array();
@@ -27,7 +27,7 @@ static json_t *axes_json(const struct tune *tune) {
     return axes;
 }
 
-static bool keep(void *user, json_t *line) {
+static bool keep_tune_line(void *user, json_t *line) {
     struct tune *tune = user;
     const json_t *start = json_object_get(line, "start_ms");
     size_t s;
@@ -44,7 +44,7 @@ static bool keep(void *user, json_t *line) {
     return json_array_append(tune->lines, line) == 0;
 }
 
-/* All that figures depend on. Neither the budget nor the seed: another search finds them again. */
+/* Everything that results depend on. Budget and seed do not belong to it, so that another search reuses the results. */
 bool tune_open(struct tune *tune, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     json_t *captures = captures_json(&tune->captures, err),
@@ -64,7 +64,7 @@ bool tune_open(struct tune *tune, struct glint_error *err) {
     tune->lines = json_array();
     tune->journal.folder = tune->folder;
     tune->journal.kind = "tuning";
-    tune->journal.keep = keep;
+    tune->journal.keep = keep_tune_line;
     tune->journal.user = tune;
     const bool ok = (definition && tune->lines) ? journal_open(&tune->journal, definition, err) : no_memory(err);
     json_decref(definition);
@@ -73,8 +73,8 @@ bool tune_open(struct tune *tune, struct glint_error *err) {
 
 /* ---- Evaluations ---- */
 
-/* In turns with the start: what changes with time, as a device's clock, is in both. In whole frames, so that caches hold what
-   they will hold; a CPU's times say nothing, and its whole frames take long. */
+/* Alternates with the start, so that slow changes, such as of the device's clock, affect both. Runs whole frames on a GPU, so that caches
+   have realistic contents; on a CPU, whole frames take too long and times do not represent a GPU anyway. */
 static bool time_beside_start(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
                               double *ms, struct glint_error *err) {
     double *ratios = calloc(2 * tune->rounds + 1, sizeof *ratios), *starts = ratios + tune->rounds;
@@ -93,7 +93,7 @@ static bool time_beside_start(struct tune *tune, struct tune_subject *subject, c
     return ok;
 }
 
-/* Failures that a pipeline has itself are figures that it has not. */
+/* A failure of the pipeline itself is recorded as missing figures and does not end the search. */
 static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
                         json_t *line, struct glint_error *err) {
     const enum glint_answer answer = answer_args_kind(&tune->against);
@@ -126,19 +126,19 @@ static struct tune_figures figures_on(const json_t *line, size_t s) {
                                  json_is_number(cost) ? json_number_value(cost) : NAN};
 }
 
-/* Means over the captures; or, of the capture where that is most, its part of the yard's, times the yard's mean. */
+/* Means over the captures; with --over worst, the largest ratio to the norm of the same capture, times the mean norm. */
 static struct tune_figures sum_up(const struct tune *tune, const json_t *line) {
     const double count = (double)tune->captures.count;
-    struct tune_figures mean = {0}, yard = {0}, most = {0};
+    struct tune_figures mean = {0}, norm = {0}, most = {0};
     for (size_t s = 0; s < tune->captures.count; s++) {
-        const struct tune_figures here = figures_on(line, s), by = tune->subjects[s].yard;
+        const struct tune_figures here = figures_on(line, s), by = tune->subjects[s].norm;
         mean.error += here.error / count, mean.cost += here.cost / count;
-        yard.error += by.error / count, yard.cost += by.cost / count;
+        norm.error += by.error / count, norm.cost += by.cost / count;
         most.error = fmax(most.error, here.error / by.error), most.cost = fmax(most.cost, here.cost / by.cost);
     }
     if (!isfinite(mean.error) || !isfinite(mean.cost)) return (struct tune_figures){NAN, NAN};
-    if (tune->worst && yard.error > 0) mean.error = most.error * yard.error;
-    if ((tune->worst || tune->scaled_within) && yard.cost > 0) mean.cost = most.cost * yard.cost;
+    if (tune->worst && norm.error > 0) mean.error = most.error * norm.error;
+    if ((tune->worst || tune->scaled_within) && norm.cost > 0) mean.cost = most.cost * norm.cost;
     return mean;
 }
 
@@ -156,7 +156,7 @@ static bool keep_start(struct tune *tune, struct glint_error *err) {
     return journal_append(&tune->journal, json_pack("{s:o}", "start_ms", start), err);
 }
 
-/* On all captures, appended to the journal. Takes `values`. */
+/* Evaluates on all captures and appends to the journal. Takes ownership of `values`. */
 static bool add_line(struct tune *tune, const struct glint_pipeline *pipeline, json_t *values,
                      struct glint_error *err) {
     const bool first = !tune->fetches && tune->subjects[0].start_ms == 0;
@@ -200,10 +200,10 @@ bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures 
                             err->code ? err->message : "interrupted");
 }
 
-void tune_set_yard(struct tune *tune, const double *values) {
+void tune_set_norm(struct tune *tune, const double *values) {
     json_t *list = values_json(tune, values);
     const json_t *line = find_line(tune, list);
-    for (size_t s = 0; s < tune->captures.count; s++) tune->subjects[s].yard = figures_on(line, s);
+    for (size_t s = 0; s < tune->captures.count; s++) tune->subjects[s].norm = figures_on(line, s);
     json_decref(list);
 }
 
@@ -212,13 +212,13 @@ void tune_correct(struct tune *tune, const double *values, double part, const do
     const json_t *line = find_line(tune, list);
     tune->within = tune->scaled_within ? 0 : sum_up(tune, line).cost / part;
     for (size_t s = 0; s < tune->captures.count && tune->scaled_within; s++) {
-        tune->subjects[s].yard.cost = figures_on(line, s).cost / parts[s];
-        tune->within += tune->subjects[s].yard.cost / (double)tune->captures.count;
+        tune->subjects[s].norm.cost = figures_on(line, s).cost / parts[s];
+        tune->within += tune->subjects[s].norm.cost / (double)tune->captures.count;
     }
     json_decref(list);
 }
 
-/* Of a line that is kept. */
+/* Decodes the figures of a line of the journal. */
 static void values_of(const struct tune *tune, const json_t *line, double *values) {
     for (size_t a = 0; a < tune->axis_count; a++) {
         const struct tune_axis *axis = &tune->axes[a];

@@ -14,27 +14,27 @@ enum { TUNE_TEXT = 48 };
 /* What is tuned: a parameter, the pipeline's rays, or the variant of a slot. */
 struct tune_axis {
     char name[128];              /* "slot.parameter", "pipeline.rays", "slot" */
-    bool other;                  /* of a variant that is not the start's */
+    bool other;                  /* parameter of a variant that the start does not use */
     const struct glint_row *row; /* of a parameter */
     char (*texts)[TUNE_TEXT];    /* its choices, axis.choices of them; NULL for numbers */
     struct glint_search_axis axis;
 };
-/* What is declared and left alone. */
+/* A declared parameter that is not tuned, and the reason. */
 struct tune_left {
     char name[128], why[224];
 };
-/* Of one pipeline on a capture, or over those that it is tuned on. */
+/* Error and cost of a pipeline on one capture, or over all captures that are tuned on. */
 struct tune_figures {
     double error, cost;
 };
 struct tune_subject {
     const char *path;
-    bool unseen; /* looked at in the end alone */
+    bool held_out; /* not tuned on; measured in the final comparison only */
     struct glint_capture *capture;
     struct glint_judge *judge;
     double start_ms; /* what times are relative to; 0: not measured yet */
     struct tune_figures
-        yard;      /* what --over worst and --baseline measure others by here: the baseline's, else the start's */
+        norm;      /* what --over worst and --baseline measure others by here: the baseline's, else the start's */
     double factor; /* of TUNE_SCALED here: the least at which it costs no less than what was tuned */
 };
 
@@ -43,22 +43,22 @@ struct tune_median {
     double value, low, high;
 };
 enum { TUNE_START, TUNE_TUNED, TUNE_SCALED, TUNE_CONTENDERS };
-/* A contender on one capture, measured anew. */
+/* Final measurement of a contender on one capture. */
 struct tune_measured {
     struct glint_metric_table errors;
     double steps_px, fetches_px;
     struct tune_median ms;   /* NAN: not timed */
-    struct tune_median part; /* of its time that the tuned one takes, round by round */
+    struct tune_median part; /* time of the tuned preset relative to this contender's, round by round */
 };
 
 struct tune {
-    const char *out, *folder; /* the preset's file; where the rest is kept */
-    struct list captures, unseen, vary, slots, shaders;
+    const char *out, *folder; /* file of the preset; folder for everything else */
+    struct list captures, held_out, vary, slots, shaders;
     struct answer_args against;
     const char *command_line;
     bool all, fetches, by_error, baseline, worst;
-    double limit; /* of cost, or of error */
-    bool part;    /* the limit is a part of the start's figure */
+    double limit; /* limit of cost or error */
+    bool part;    /* the limit is relative to the start */
     uint32_t tries, seed, rounds, repeat;
     enum glint_metric metric;
 
@@ -66,28 +66,28 @@ struct tune {
     struct glint_device *device;
     struct progress *progress;
     char label[64];
-    double done; /* of all the work, 0 to 1 */
+    double done; /* progress of all work, 0 to 1 */
 
-    struct tune_subject *subjects; /* captures, then unseen ones */
+    struct tune_subject *subjects; /* captures, then held-out ones */
     size_t subject_count;
     struct tune_axis *axes;
     size_t axis_count;
     struct tune_left *left;
     size_t left_count;
     struct journal journal;
-    json_t *lines; /* of the journal: figures by values */
-    size_t fresh;  /* pipelines that this call evaluated */
+    json_t *lines; /* lines of the journal: figures by values */
+    size_t fresh;  /* number of pipelines that this call evaluated */
 
     struct glint_search_result found;
     struct tune_figures start;
     double asked,
         within;    /* the limit in the figure's own unit; what is searched for: the baseline's cost, if that is less */
-    size_t chosen; /* of found.points */
+    size_t chosen; /* index in found.points */
     bool confirmed, confirmed_within;
-    double factor;   /* that all counts are scaled by, for TUNE_SCALED */
-    double *scaling; /* the values there */
+    double factor;   /* by which all counts are scaled in TUNE_SCALED */
+    double *scaling; /* the scaled values */
     struct tune_figures scaled;
-    bool scaled_within; /* else no factor keeps the limit, and it is the one that comes nearest */
+    bool scaled_within;                                 /* false: no factor meets the limit, and this is the nearest */
     struct glint_pipeline *contenders[TUNE_CONTENDERS]; /* NULL: none */
     struct tune_measured *measured;                     /* subject · TUNE_CONTENDERS + contender */
 };
@@ -95,26 +95,26 @@ void tune_finish(struct tune *tune);
 const char *tune_cost_unit(const struct tune *tune);       /* "ms", "fetches/px" */
 extern const char *const tune_contenders[TUNE_CONTENDERS]; /* "start", "tuned", "scaled" */
 
-/* What follows calls only what stands before it. */
+/* The modules below depend only on those above them. */
 
 /* axes.c */
-/* The axes that --vary names, or all that are declared; what is left alone of these, and why. After tune_load. */
+/* Makes the axes that --vary names, or all declared ones, and lists parameters that are not tuned with the reason. Call after tune_load. */
 bool tune_make_axes(struct tune *tune, struct glint_error *err);
 void tune_value_text(const struct tune_axis *axis, double value, char text[TUNE_TEXT]);
-/* Whether the time of a slot counts: all do, or those of --slots. */
+/* Whether the time of a slot counts: by default all, else those of --slots. */
 bool tune_slot_counts(const struct tune *tune, const char *slot);
-/* The start with these values. */
+/* A copy of the start with these values. */
 struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *values, struct glint_error *err);
-/* The start's values, with all counts that may move and cost something times a factor; false: there are none. */
+/* The start's values with all tuned counts that cost time multiplied by a factor; false if there are no such counts. */
 bool tune_scale(const struct tune *tune, double factor, double *values);
 
 /* subjects.c */
 /* Opens and uploads the captures that are tuned on, and runs the start once on each. */
 bool tune_load(struct tune *tune, struct glint_error *err);
-/* One more capture with a judge of its own. */
+/* Loads one more capture, with its own judge. */
 bool tune_load_subject(struct tune *tune, size_t subject, uint32_t resamples, struct glint_error *err);
 void tune_unload_subject(struct tune *tune, size_t subject);
-/* One round of what counts of a frame; `whole`: in one piece. */
+/* Times one round of the counted passes; `whole`: all passes of the frame in one submission. */
 bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
                double *ms, struct glint_error *err);
 /* Sorts the values. */
@@ -122,41 +122,40 @@ struct tune_median tune_median(double *values, size_t count);
 struct tune_times {
     struct tune_median ms, part; /* NAN without rounds */
 };
-/* Rounds of all pipelines that are not NULL, in turns, each in one piece. */
+/* Times alternating rounds of all pipelines that are not NULL, each as a whole frame. */
 bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct glint_pipeline *const *pipelines,
                         struct tune_times times[TUNE_CONTENDERS], struct glint_error *err);
 bool tune_report(void *user, const char *what, double done); /* a glint_progress; user: the tune */
 
 /* try.c */
-/* Begins the journal, or goes on with it. After tune_make_axes. */
+/* Begins the journal, or resumes it. Call after tune_make_axes. */
 bool tune_open(struct tune *tune, struct glint_error *err);
-/* Of these values, tried now or found in the journal. */
+/* Evaluates these values, or finds them in the journal. */
 bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err);
-/* Others are measured by these values' figures from now on. They must have been evaluated. */
-void tune_set_yard(struct tune *tune, const double *values);
-/* These were measured to take this part of what they may, and these of the baseline's time on the captures: costs are
-   limited, or measured, by that from now on. */
+/* Makes the figures of these values, which must have been evaluated, the norm for others. */
+void tune_set_norm(struct tune *tune, const double *values);
+/* Corrects costs from now on: these values were timed to take `part` of their limit, and parts[capture] of the baseline's time. */
 void tune_correct(struct tune *tune, const double *values, double part, const double *parts);
-/* The values of all that was tried, one after the other; the caller frees them. */
+/* The values of all evaluated points, one after the other; the caller frees them. */
 bool tune_all_tried(const struct tune *tune, double **values, size_t *count, struct glint_error *err);
 
 /* baseline.c */
-/* Finds the largest factor that keeps the budget, or the smallest that keeps the error, and makes its figures the yard. A
-   budget becomes what it costs, so that both take the same. */
+/* Finds the largest factor that meets the budget, or the smallest that meets the error, and makes its figures the norm. The budget then
+   becomes the baseline's cost, so that both cost the same. */
 bool tune_find_scale(struct tune *tune, struct glint_error *err);
-/* Sets a subject's factor, from the baseline's own upwards or downwards. */
+/* Finds the factor of equal cost on one capture, starting from the baseline's factor. */
 bool tune_match_scale(struct tune *tune, size_t subject, struct glint_error *err);
 
 /* search.c */
-/* Finds tune->found. What was found until an error stays. */
+/* Fills tune->found; on an error the points so far stay. */
 bool tune_search(struct tune *tune, struct glint_error *err);
-/* Goes on from all that is kept when the chosen one was measured to take that (tune_correct). A fourth of the tries. */
+/* Corrects costs (tune_correct) and continues the search from all known points with a fourth of the tries. */
 bool tune_search_again(struct tune *tune, double part, const double *parts, struct glint_error *err);
 
 /* confirm.c */
-/* Chooses the best point that keeps the limit when it is measured again. */
+/* Chooses the best point that meets the limit in the final timing. */
 bool tune_choose(struct tune *tune, struct glint_error *err);
-/* Measures start, tuned and scaled on all captures, in turns. */
+/* Measures start, tuned and scaled on all captures, alternating. */
 bool tune_confirm(struct tune *tune, struct glint_error *err);
 
 /* "less", "more", "equal" with the interval of how much more b errs than a; of the part of its time that the tuned one takes. */
@@ -165,10 +164,10 @@ const char *tune_part_verdict(const struct tune_median *part);
 bool tune_difference(const struct tune *tune, size_t subject, int a, int b, size_t row,
                      struct glint_figure *difference);
 
-/* least.c: what no point reaches, with the least that was found, and which passes take that. Returns false. */
+/* least.c: fails with a message that no point meets the limit, with the best point and its most expensive passes. Returns false. */
 bool tune_fail_least(struct tune *tune, struct glint_error *err);
 
-/* preset.c: a preset with its provenance. */
+/* preset.c: writes the preset with a record of how it was found. */
 bool tune_write_preset(const struct tune *tune, struct glint_error *err);
 json_t *tune_json(const struct tune *tune);
 

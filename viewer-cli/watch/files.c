@@ -46,9 +46,9 @@ static bool add_folders_below(struct watch_files *files, const char *folder, str
     return ok;
 }
 
-/* ---- Their state ---- */
+/* ---- State of the files ---- */
 
-/* What tells a file from its earlier self, cheaply. */
+/* Cheap attributes by which a changed file is noticed. */
 static void add_file(XXH64_state_t *hash, const char *path) {
     struct stat info;
     XXH64_update(hash, path, strlen(path));
@@ -121,7 +121,7 @@ bool watch_files_wait(struct watch_files *files) {
     for (uint64_t before = known; !progress_interrupted();) {
         const uint64_t now = state_of(files);
         files->state = now;
-        if (now != known && now == before) return true; /* written to its end */
+        if (now != known && now == before) return true; /* completely written */
         before = now;
         nanosleep(&tenth, NULL);
     }

@@ -1,4 +1,4 @@
-/* The versions of a watched replay. */
+/* Replays the versions of a watched preset or shader. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ struct session {
     unsigned number, shown; /* of the newest version, and of the newest that ran; 0: none */
 };
 
-/* ---- What is said of a version ---- */
+/* ---- Reporting a version ---- */
 
 static void now_text(char text[16]) {
     const time_t now = time(NULL);
@@ -36,7 +36,7 @@ static void say(const struct session *s, const struct diff *diff) {
     now_text(at);
     printf("version %u, %s: %zu passes ran; ", s->number, at, again);
     const size_t first = diff_first(diff);
-    if (first == diff->count) puts("the same as the first version");
+    if (first == diff->count) puts("equal to the first version");
     else {
         const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
         printf("%zu of %zu images differ from the first version, the first of them %s: %s\n", differing, diff->count,
@@ -54,9 +54,9 @@ static bool show_run(struct session *s, const char *fault, bool refresh, struct 
     now_text(at);
     snprintf(title, sizeof title, "%.250s, watched", sheet_name(s->watch->capture));
     if (fault)
-        snprintf(lead, sizeof lead, "Version %u, %s, does not run; this is version %u.\n%.2000s", s->number, at,
-                 s->shown, fault);
-    else snprintf(lead, sizeof lead, "Version %u, %s, beside the first.", s->shown, at);
+        snprintf(lead, sizeof lead, "Version %u, %s, failed; this is version %u.\n%.2000s", s->number, at, s->shown,
+                 fault);
+    else snprintf(lead, sizeof lead, "Version %u, %s, compared with the first.", s->shown, at);
     const struct diff_page page = {
         .title = title, .lead = lead, .kind = fault ? "code" : "text", .refresh = refresh, .picture_first = true};
     const bool ok = diff_sides_open(diff.sides, paths, err) &&
@@ -85,7 +85,7 @@ static bool run_version(struct session *s, struct glint_error *err) {
     return ok;
 }
 
-/* False when nothing more can be done, or after Ctrl-C; a version that does not run is waited past. */
+/* False when the watch cannot continue, or after Ctrl-C; a version that fails only waits for the next change. */
 static bool next_version(struct session *s, struct glint_error *err) {
     struct glint_error fault = {0};
     s->number++;
@@ -95,13 +95,13 @@ static bool next_version(struct session *s, struct glint_error *err) {
     }
     if (fault.code == GLINT_ERROR_INTERRUPTED || fault.code == GLINT_ERROR_MEMORY)
         return glint_fail(err, fault.code, "%s", fault.message);
-    command_note(s->watch->command, "version %u does not run: %s", s->number, fault.message);
+    command_note(s->watch->command, "version %u failed: %s", s->number, fault.message);
     return !s->shown || show_run(s, fault.message, true, err);
 }
 
 static bool watch_all(struct session *s, struct glint_error *err) {
     bool ok = next_version(s, err);
-    if (ok) printf("watching; %s shows it, Ctrl-C ends\n", s->page);
+    if (ok) printf("watching for changes; open %s; stop with Ctrl-C\n", s->page);
     fflush(stdout);
     while (ok && watch_files_wait(&s->files)) ok = next_version(s, err);
     if (!ok && err->code == GLINT_ERROR_INTERRUPTED) ok = true;

@@ -1,10 +1,10 @@
-/* glint replay --watch: a capture replayed again whenever its preset or shaders change, beside the first version. */
+/* glint replay --watch: replays a capture whenever its preset or shaders change, and compares with the first version. */
 #ifndef GLINT_VIEWER_WATCH_H
 #define GLINT_VIEWER_WATCH_H
 
 #include "options/pipeline_args.h"
 
-/* ---- Files that are waited for: files.c ---- */
+/* ---- Watched files: files.c ---- */
 
 struct watch_files {
     char **files, **folders; /* folders: the shaders and presets in them */
@@ -15,7 +15,7 @@ struct watch_files {
    and $GLINT_PRESETS. */
 bool watch_files_init(struct watch_files *files, const struct pipeline_args *args, struct glint_error *err);
 void watch_files_finish(struct watch_files *files);
-/* Until one of them changes, is there anew or is gone, and nothing changes any more; false after Ctrl-C. */
+/* Waits until a file changes, appears or disappears, and then until nothing changes any more. False after Ctrl-C. */
 bool watch_files_wait(struct watch_files *files);
 
 /* ---- Versions: run.c ---- */

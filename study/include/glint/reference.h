@@ -35,7 +35,7 @@ struct glint_reference_state {
 struct glint_reference;
 struct glint_reference_options {
     const char *folder;  /* a run folder in which it is kept and from which it goes on, or NULL: memory alone */
-    bool anew;           /* removes what the folder holds, instead of going on or failing */
+    bool overwrite;      /* removes what the folder holds, instead of going on or failing */
     bool all;            /* no pass is dropped for having nothing to do */
     uint64_t keep_bytes; /* as of glint_replay_options, for a replay that others use too */
     /* Rays that are run in one piece, which an interruption loses; 0: one on a software device, else GLINT_REFERENCE_BATCH, of

@@ -85,7 +85,7 @@ json_t *page_load(const char *folder, struct glint_error *err) {
     else fclose(file);
     if (file && !document) glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, error.line, error.text);
     if (!document || json_integer_value(json_object_get(document, "format")) == 1) return document;
-    glint_fail(err, GLINT_ERROR_FORMAT, "%s: format: expected 1, the only one that this program knows", path);
+    glint_fail(err, GLINT_ERROR_FORMAT, "%s: format: expected 1, the only version that this program supports", path);
     json_decref(document);
     return NULL;
 }

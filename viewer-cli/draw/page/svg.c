@@ -23,7 +23,7 @@ static void evaluate_script(duk_context *js, const char *name, const unsigned ch
 /* The library asks for timers where it loads and never waits for one here. */
 static const char timers[] = "function setTimeout() { return 0; } function clearTimeout() {}";
 
-static duk_ret_t draw(duk_context *js, void *user) {
+static duk_ret_t draw_chart(duk_context *js, void *user) {
     struct drawing *drawing = user;
     duk_eval_string_noresult(js, timers);
     evaluate_script(js, "echarts.min.js", blob_echarts, blob_echarts_end);
@@ -40,7 +40,7 @@ static duk_ret_t draw(duk_context *js, void *user) {
 static bool draw_all(struct drawing *drawing, const char *path, struct glint_error *err) {
     duk_context *js = duk_create_heap_default();
     if (!js) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    bool ok = duk_safe_call(js, draw, drawing, 0, 1) == DUK_EXEC_SUCCESS && drawing->svg;
+    bool ok = duk_safe_call(js, draw_chart, drawing, 0, 1) == DUK_EXEC_SUCCESS && drawing->svg;
     if (!ok) glint_fail(err, GLINT_ERROR_FORMAT, "%s: cannot draw the chart: %s", path, duk_safe_to_string(js, -1));
     duk_destroy_heap(js);
     return ok;

@@ -8,7 +8,7 @@
 
 /* Every `every`-th texel's bytes, planes of like bytes one after the other, each byte less the one to its left: what is smooth,
    or was stored as half, then compresses well. */
-static void split(uint8_t *planes, const struct source *s, uint32_t every, uint32_t width, uint32_t height) {
+static void split_planes(uint8_t *planes, const struct source *s, uint32_t every, uint32_t width, uint32_t height) {
     const size_t plane = (size_t)width * height;
     for (uint32_t k = 0; k < s->components; k++)
         for (uint32_t y = 0; y < height; y++) {
@@ -33,7 +33,7 @@ static uint8_t *pack(const struct source *s, uint32_t every, uint32_t width, uin
     uint8_t *planes = malloc(bytes), *packed = malloc(room + 1);
     *size = 0;
     if (planes && packed && compressor) {
-        split(planes, s, every, width, height);
+        split_planes(planes, s, every, width, height);
         *size = libdeflate_zlib_compress(compressor, planes, bytes, packed, room);
     }
     libdeflate_free_compressor(compressor);

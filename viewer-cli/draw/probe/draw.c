@@ -35,11 +35,11 @@ static double legend(const struct drawing *d, double y) {
     bool any = false;
     for (size_t i = 0; i < DRAW_LOOKS; i++) any |= d->used[i];
     if (!any) return y - 30;
-    legend_entry(d->out, &x, y, "<path d=\"M-6 0H8\" class=\"ray\"/>", "the ray");
+    legend_entry(d->out, &x, y, "<path d=\"M-6 0H8\" class=\"ray\"/>", "ray");
     legend_entry(
         d->out, &x, y,
         "<rect x=\"-6\" y=\"-5\" width=\"14\" height=\"10\" class=\"solid\"/><path d=\"M-6 5H8\" class=\"surface\"/>",
-        "behind what is seen");
+        "behind the visible surface");
     for (size_t i = 0; i < DRAW_LOOKS; i++) {
         char shape[96];
         const char *text = "";
@@ -54,7 +54,7 @@ static double legend(const struct drawing *d, double y) {
     return y;
 }
 
-static void head(FILE *out, const struct probe *probe, double height) {
+static void write_svg_head(FILE *out, const struct probe *probe, double height) {
     fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%.0f\" viewBox=\"0 0 %d %.0f\">\n%s",
             DRAW_WIDTH, height, DRAW_WIDTH, height, style);
     fprintf(out, "<rect width=\"%d\" height=\"%.0f\" class=\"paper\"/>\n<text x=\"24\" y=\"34\" class=\"head\">",
@@ -95,7 +95,7 @@ bool probe_draw(const char *path, const struct probe *probe, struct glint_error 
     bool ok = false;
     if (!body || !(d.out = open_memstream(&text, &size))) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     else {
-        head(d.out, probe, HEAD + LEGEND + d.top);
+        write_svg_head(d.out, probe, HEAD + LEGEND + d.top);
         const double below = legend(&d, HEAD) + LEGEND;
         fprintf(d.out, "<g transform=\"translate(0 %.0f)\">\n%s</g></svg>\n", below, body);
         fclose(d.out);

@@ -77,7 +77,8 @@ static void set_axes(struct drawing *d, struct panel *panel, const struct cube_r
         high = fmax(high, distance);
     }
     const bool log_y = low > 0 && high > 12 * low;
-    panel->x = (struct panel_axis){"way along the ray in m", by_decades ? PANEL_LOG : PANEL_LINEAR, span[0], span[1]};
+    panel->x =
+        (struct panel_axis){"distance along the ray in m", by_decades ? PANEL_LOG : PANEL_LINEAR, span[0], span[1]};
     panel->y = (struct panel_axis){"distance from the centre in m", log_y ? PANEL_LOG : PANEL_LINEAR,
                                    log_y ? 0.8 * low : 0, 1.3 * high};
 }
@@ -114,7 +115,7 @@ static void draw_cube(struct drawing *d, const struct ray_records *records, uint
     draw_ending(&panel, &ray);
     draw_reference(&panel, reference_m, reference_m);
     const double start = draw_value(ray_records_last(records, "cubemap_ray"), "start_m");
-    snprintf(text, sizeof text, "from the picture at %s m", number_text(start));
+    snprintf(text, sizeof text, "from screen space at %s m", number_text(start));
     if (start > 0) panel_across(&panel, start, 1, text, "#7a8ca5");
     draw_end(d, &panel);
 }

@@ -135,7 +135,7 @@ static void draw_part(struct drawing *d, const struct part *part, double left, d
     draw_bar(d, left, y, rgb, part->share, text);
 }
 
-static void head(struct drawing *d, const struct ray_records *records, const char *what) {
+static void draw_heading(struct drawing *d, const struct ray_records *records, const char *what) {
     fprintf(d->out, "<text x=\"24\" y=\"%.1f\" class=\"title\">%s/%s: %s</text>\n", d->top - 10,
             records->records->pass->slot, records->records->pass->variant, what);
 }
@@ -144,9 +144,9 @@ static void head(struct drawing *d, const struct ray_records *records, const cha
 static void title_of(const struct ray_records *records, size_t next, char *text, size_t size) {
     const struct glint_probe_record *made = next < records->count ? &records->records[next] : NULL;
     if (made && glint_probe_is(made, "made"))
-        snprintf(text, size, "%s level %.0f, texel %.0f,%.0f is made of", image_of(made), draw_value(made, "level"),
+        snprintf(text, size, "%s level %.0f, texel %.0f,%.0f combines", image_of(made), draw_value(made, "level"),
                  draw_value(made, "texel_x"), draw_value(made, "texel_y"));
-    else snprintf(text, size, "mixes in");
+    else snprintf(text, size, "combines");
 }
 
 static void draw_weights(struct drawing *d, const struct ray_records *records, size_t next,
@@ -157,7 +157,7 @@ static void draw_weights(struct drawing *d, const struct ray_records *records, s
     const size_t rows = mixture->count < MOST_ROWS ? mixture->count : MOST_ROWS;
     char text[160];
     title_of(records, next, text, sizeof text);
-    head(d, records, text);
+    draw_heading(d, records, text);
     if (!elsewhere) draw_places(d, mixture, 24, height);
     for (size_t i = 0; i < rows; i++) draw_part(d, &mixture->parts[i], left, d->top + (double)i * ROW);
     if (rows < mixture->count)
@@ -171,7 +171,7 @@ static void draw_layer(struct drawing *d, const struct ray_records *records, con
     const struct glint_probe_word under = glint_probe_word("image", (float)draw_value(layer, "under"));
     const double share =
         (draw_value(layer, "share_r") + draw_value(layer, "share_g") + draw_value(layer, "share_b")) / 3;
-    head(d, records, "blends a colour over another");
+    draw_heading(d, records, "blends one colour over another");
     for (int k = 0; k < 2; k++) {
         double rgb[3];
         char text[128];

@@ -95,10 +95,10 @@ void draw_screen(struct drawing *d, const struct ray_records *records) {
     const double way = shown_way(&ray), reference_m = draw_reference_m(d, records, "screen_end");
     if (!(way > 0)) return;
     struct panel panel = draw_panel(d);
-    panel.x = (struct panel_axis){"way in the picture in pixels", PANEL_LINEAR, 0, way};
-    panel.y = (struct panel_axis){"depth in m, even in 1/z", PANEL_INVERSE, 0, 0};
+    panel.x = (struct panel_axis){"distance on screen in pixels", PANEL_LINEAR, 0, way};
+    panel.y = (struct panel_axis){"depth in m, linear in 1/z", PANEL_INVERSE, 0, 0};
     set_depths(&ray, way, &panel.y);
-    draw_begin(&panel, "In the picture", records, "screen_end");
+    draw_begin(&panel, "Screen space", records, "screen_end");
     for (size_t i = 0; i < DRAW_POINTS; i++) {
         d->points[i][0] = way * (double)i / (DRAW_POINTS - 1);
         d->points[i][1] = seen_at(d->probe, &ray, d->points[i][0]);

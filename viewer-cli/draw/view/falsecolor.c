@@ -61,7 +61,7 @@ static bool find_scale(struct legend *legend, const struct source *s, const stru
         legend->high = options->high;
     } else if (!percentiles(s, may, options, &legend->low, &legend->high, err)) return false;
     if (options->scale == SCALE_LOG && !(legend->low > 0))
-        return glint_fail(err, GLINT_ERROR_USAGE, "a logarithmic scale needs a range above 0");
+        return glint_fail(err, GLINT_ERROR_USAGE, "a logarithmic scale needs a positive range");
     bool wide = legend->low > 0 && legend->high > 20 * legend->low;
     legend->logarithmic = options->scale == SCALE_LOG || (may && wide);
     return legend->logarithmic || !may || options->range_given ||

@@ -36,7 +36,7 @@ struct flow {
     int x, y, width;
 };
 
-static void item(struct flow *flow, struct rgb color, const char *label) {
+static void draw_legend_item(struct flow *flow, struct rgb color, const char *label) {
     int width = 18 + text_measure(flow->text, label) + 16;
     if (flow->x > MARGIN_PX && flow->x + width > flow->width) {
         flow->x = MARGIN_PX;
@@ -105,7 +105,8 @@ static void shares(struct flow *flow, const struct legend *l) {
         if (l->kind == KIND_REASON && i < sizeof reasons / sizeof *reasons) reason_label(i, name);
         else snprintf(name, sizeof name, i == 255 ? "none" : i == 256 ? "others" : "%u", i);
         snprintf(label, sizeof label, "%s  %.1f %%", name, l->shares[i] * 100);
-        item(flow, i == 255 ? COLOR_BACKGROUND : colormap_category(l->kind == KIND_REASON ? i : i + 1), label);
+        draw_legend_item(flow, i == 255 ? COLOR_BACKGROUND : colormap_category(l->kind == KIND_REASON ? i : i + 1),
+                         label);
     }
 }
 
@@ -116,17 +117,18 @@ static void layout(struct flow *flow, const struct legend *l) {
     if (scaled) bar(flow, l);
     if (l->kind == KIND_INDEX || l->kind == KIND_REASON) shares(flow, l);
     if (l->kind == KIND_NORMAL) {
-        item(flow, (struct rgb){255, 128, 128}, "+X");
-        item(flow, (struct rgb){128, 255, 128}, "+Y");
-        item(flow, (struct rgb){128, 128, 255}, "+Z");
+        draw_legend_item(flow, (struct rgb){255, 128, 128}, "+X");
+        draw_legend_item(flow, (struct rgb){128, 255, 128}, "+Y");
+        draw_legend_item(flow, (struct rgb){128, 128, 255}, "+Z");
     }
-    if (l->has_zero) item(flow, colormap_category(0), "0 or less");
-    if (l->has_none) item(flow, COLOR_NONE, "not compared");
-    if (l->has_infinite) item(flow, COLOR_SKY, "infinite (sky)");
+    if (l->has_zero) draw_legend_item(flow, colormap_category(0), "0 or less");
+    if (l->has_none) draw_legend_item(flow, COLOR_NONE, "not compared");
+    if (l->has_infinite) draw_legend_item(flow, COLOR_SKY, "infinite (sky)");
     if (l->kind == KIND_INVALID) {
-        item(flow, COLOR_INVALID, "NaN");
-        item(flow, COLOR_INFINITE, "infinite");
-    } else if (l->has_invalid) item(flow, COLOR_INVALID, l->kind == KIND_DISTANCE ? "NaN" : "NaN or infinite");
+        draw_legend_item(flow, COLOR_INVALID, "NaN");
+        draw_legend_item(flow, COLOR_INFINITE, "infinite");
+    } else if (l->has_invalid)
+        draw_legend_item(flow, COLOR_INVALID, l->kind == KIND_DISTANCE ? "NaN" : "NaN or infinite");
     if (flow->x > MARGIN_PX) flow->y += LINE_PX;
     flow->y += MARGIN_PX / 2;
 }

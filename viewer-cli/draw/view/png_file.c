@@ -135,6 +135,6 @@ bool png_file_animate(const char *path, const struct picture *pictures, size_t c
                       struct glint_error *err) {
     for (size_t i = 1; i < count; i++)
         if (pictures[i].width != pictures[0].width || pictures[i].height != pictures[0].height)
-            return glint_fail(err, GLINT_ERROR_USAGE, "%s: frames of one size are needed", path);
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: all frames must have the same size", path);
     return write_file(path, &(struct frames){pictures, count, turn_ms}, err);
 }

@@ -238,8 +238,8 @@ static bool read_run(struct source *source, const struct source_choice *choice, 
         run ? find_run_image(run, choice->path, choice->image ? choice->image : choice->part, err) : NULL;
     bool ok = false;
     if (image && image->components > 4)
-        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: image %s has %u channels, at most 4 can be shown", choice->path,
-                   image->name, image->components);
+        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: image %s has %u channels, but at most 4 can be shown",
+                   choice->path, image->name, image->components);
     else if (image) {
         snprintf(source->title, sizeof source->title, "%s", image->name);
         snprintf(source->unit, sizeof source->unit, "%s", image->unit);

@@ -99,7 +99,7 @@ static bool fill_histogram(struct histogram *h, const struct channel *c, const s
     choose_range(h, c, &options->range);
     if (h->logarithmic && !(h->low > 0)) {
         free(h->counts);
-        return glint_fail(err, GLINT_ERROR_USAGE, "a logarithmic scale needs a range above 0");
+        return glint_fail(err, GLINT_ERROR_USAGE, "a logarithmic scale needs a positive range");
     }
     uint32_t bin = 0; /* values and edges both rise */
     for (size_t i = 0; i < c->count; i++) {
@@ -123,7 +123,7 @@ static void bar_text(double share, char text[4 * BAR_COLUMNS]) {
 }
 
 static bool print_histogram(const struct channel *c, const struct histogram *h) {
-    static const char *const titles[] = {">from", ">to", ">texels", ">%", "<share of the fullest", NULL};
+    static const char *const titles[] = {">from", ">to", ">texels", ">%", "<relative to the largest bin", NULL};
     struct table *table = table_create(titles);
     size_t most = 1;
     for (uint32_t i = 0; i < h->bins; i++) most = h->counts[i] > most ? h->counts[i] : most;

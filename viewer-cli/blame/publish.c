@@ -1,4 +1,4 @@
-/* What is known so far, for who looks into the folder while the rest is found. */
+/* Writes the shares known so far into the folder at intervals, so that they can be read while the work goes on. */
 #include <stdlib.h>
 
 #include "blame/blame.h"
@@ -17,13 +17,14 @@ static bool write_json(const struct blame *blame, struct glint_error *err) {
     return ok;
 }
 
-bool blame_tell(struct blame *blame, bool at_once, struct glint_error *err) {
+bool blame_publish(struct blame *blame, bool at_once, struct glint_error *err) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    const double since = (double)(now.tv_sec - blame->told.tv_sec) + 1e-9 * (double)(now.tv_nsec - blame->told.tv_nsec);
+    const double since =
+        (double)(now.tv_sec - blame->published.tv_sec) + 1e-9 * (double)(now.tv_nsec - blame->published.tv_nsec);
     if (!blame_is_known(&blame->captured[0]) || (!at_once && (!blame->out || since < EVERY_SECONDS))) return true;
     if (!blame_sum_up(blame, err)) return false;
     if (blame->out && !(write_json(blame, err) && blame_write_page(blame, err))) return false;
-    clock_gettime(CLOCK_MONOTONIC, &blame->told);
+    clock_gettime(CLOCK_MONOTONIC, &blame->published);
     return true;
 }
