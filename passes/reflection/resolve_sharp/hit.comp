@@ -87,9 +87,11 @@ End own_end(ivec2 pixel, ivec2 chosen, vec3 position, vec3 direction) {
     float limit_m = end.finished ? INFINITE : end.travelled_m, nearest_m = limit_m;
     for (int i = 0; i < 9; ++i) {
         ivec2 texel = clamp(own + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
-        if (!has_ray(texel)) continue;
+        if (texel == chosen) continue;
         End beside = end_of(texel);
-        if (!hit_on_screen(beside)) past = hit_on_screen(past) ? beside : past;
+        bool hit = hit_on_screen(beside);
+        if (!(hit || hit_on_screen(past)) || !has_ray(texel)) continue;
+        if (!hit) past = beside;
         else {
             float hit_m = own_hit(position, direction, beside.travelled_m);
             if (hit_m > 0.0) nearest_m = min(nearest_m, hit_m);
