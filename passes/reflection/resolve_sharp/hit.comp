@@ -77,27 +77,32 @@ float own_hit(vec3 position, vec3 direction, float first_m) {
 }
 
 // At the outline of what is reflected, rays of neighbouring texels end on different surfaces, and which of them was chosen says
-// nothing of the pixel's own ray. The chosen ray's hit holds where the own ray has it, too. Otherwise the nearest hit of the rays
-// around that the own ray meets takes its place, unless the chosen ray ended off screen before that. When there is none, and
-// the own ray is seen to pass in front of what the chosen one hit, it ends as a ray around that hit nothing on screen.
+// nothing of the pixel's own ray. The chosen ray's hit holds where the own ray has it, too. Otherwise the nearest hit of the four
+// rays around the pixel that the own ray meets takes its place, unless the chosen ray ended off screen before that. When there is
+// none, and the own ray is seen to pass in front of what the chosen one hit, it ends as a ray around that hit nothing on screen.
+const int AROUND = 4;
+const float APART = 1.005; // hits nearer to each other than that lead to the same surface, and the first of them is tried
 End own_end(ivec2 pixel, ivec2 chosen, vec3 position, vec3 direction) {
     End end = end_of(chosen), past = end;
     if (end.finished && own_hit(position, direction, end.travelled_m) > 0.0) return end;
-    ivec2 own = pixel / int(reduction(frame.size)), last = ivec2(frame.size.zw) - 1;
-    float limit_m = end.finished ? INFINITE : end.travelled_m, nearest_m = limit_m;
-    for (int i = 0; i < 9; ++i) {
-        ivec2 texel = clamp(own + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
-        if (texel == chosen) continue;
+    ivec2 own = pixel / int(reduction(frame.size)), toward = 2 * (pixel & 1) - 1, last = ivec2(frame.size.zw) - 1;
+    float hits_m[AROUND];
+    for (int i = 0; i < AROUND; ++i) {
+        ivec2 texel = clamp(own + ivec2(i & 1, i >> 1) * toward, ivec2(0), last);
         End beside = end_of(texel);
-        bool hit = hit_on_screen(beside);
-        if (!(hit || hit_on_screen(past)) || !has_ray(texel)) continue;
-        if (!hit) past = beside;
-        else {
-            float hit_m = own_hit(position, direction, beside.travelled_m);
-            if (hit_m > 0.0) nearest_m = min(nearest_m, hit_m);
-        }
+        bool taken = texel != chosen && has_ray(texel), hit = hit_on_screen(beside);
+        hits_m[i] = taken && hit ? beside.travelled_m : INFINITE;
+        if (taken && !hit && hit_on_screen(past)) past = beside;
     }
-    if (nearest_m < limit_m) return End(nearest_m, true, end.place);
+    float limit_m = end.finished ? INFINITE : end.travelled_m, tried_m = 0.0;
+    for (int tries = 0; tries < AROUND; ++tries) {
+        float first_m = INFINITE;
+        for (int i = 0; i < AROUND; ++i) first_m = hits_m[i] > tried_m * APART ? min(first_m, hits_m[i]) : first_m;
+        if (first_m == INFINITE) break;
+        float hit_m = own_hit(position, direction, first_m);
+        if (hit_m > 0.0 && hit_m < limit_m) return End(hit_m, true, end.place);
+        tried_m = first_m;
+    }
     if (!hit_on_screen(end)) return end;
     Seen seen = seen_at(position + direction * end.travelled_m);
     return seen.found && seen.point_m < seen.depth_m * (1.0 - ON_SURFACE) ? past : end;
