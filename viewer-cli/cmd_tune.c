@@ -231,7 +231,7 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
 /* An interrupted search leaves its best so far. */
 static enum status interrupted(const struct tune *tune) {
     struct glint_error err = {0};
-    const bool some = tune->found.count && tune->found.within;
+    const bool some = tune->found.count && tune->found.feasible;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
     command_note(&cmd_tune, "%s%s%s keeps what was found; the same command goes on from there", some ? tune->out : "",
                  some ? " is the best so far, not measured again; " : "", tune->folder);
@@ -239,7 +239,7 @@ static enum status interrupted(const struct tune *tune) {
 }
 
 static bool work(struct tune *tune, struct glint_error *err) {
-    return tune_search(tune, err) && (tune->found.within || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
+    return tune_search(tune, err) && (tune->found.feasible || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
            tune_confirm(tune, err) && tune_write_preset(tune, err) && tune_write_page(tune, err);
 }
 

@@ -1,7 +1,7 @@
 // What every pass has beside its declaration: constants that the host sets, the frame, the samplers. The generated
 // shared/bindings.glsl includes it. Other bindings of set 0 and other constants are rows of the declaration (passes/row_kinds.py).
 layout(constant_id = 0) const bool diagnostics = false;
-layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/tell.glsl)
+layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/record.glsl)
 layout(constant_id = 3) const bool halves = true; // false: images declared as half floats are full floats
 layout(constant_id = 4) const uint dispatch_phase = 0u; // the number of this dispatch among the pass's rows DISPATCH…
 const uint ALL_TILES = 0xFFFFFFFFu; // there is no list of tiles: the dispatch covers the whole image

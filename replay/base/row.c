@@ -1,4 +1,4 @@
-/* Look-ups in declarations. */
+/* Queries on declarations. */
 #include "row.h"
 
 #include <stdio.h>
@@ -117,7 +117,7 @@ const char *cubemap_order_image(void) {
     return name;
 }
 
-/* Cube-map arrays hold the active cube maps in the order of one table, so whoever reads an array depends on that. */
+/* An array of cube maps holds the active ones in the order of a table, so a pass that reads the array depends on the table, too. */
 size_t glint_row_reads(const struct glint_row *row, const char *names[2]) {
     if (row->kind != GLINT_ROW_READ) return 0;
     const struct glint_row *captured = capture_row(row->name);

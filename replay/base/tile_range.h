@@ -1,4 +1,4 @@
-/* The ranges of tiles that rows DISPATCH_TILES name (passes/shared/tile_ranges.h). */
+/* The ranges of the tile list, which rows DISPATCH_TILES name (passes/shared/tile_ranges.h). */
 #ifndef GLINT_REPLAY_TILE_RANGE_H
 #define GLINT_REPLAY_TILE_RANGE_H
 

@@ -79,7 +79,7 @@ static size_t lists_after(const struct run *run, const struct glint_pass *pass, 
         const struct glint_row *row = &pass->rows[r];
         if (row->kind != GLINT_ROW_DISPATCH_LIST && starts_dispatch(row)) break;
         if (row->kind != GLINT_ROW_DISPATCH_LIST) continue;
-        if (graph_find(run->graph, row->name)->source == SOURCE_NOTHING) return 0;
+        if (graph_find(run->graph, row->name)->source == SOURCE_FALLBACK) return 0;
         lists[count++] = run_image(run, row->name);
     }
     return count;

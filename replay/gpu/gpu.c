@@ -1,4 +1,4 @@
-/* Choice and creation of the gpu, its memory and its one command buffer. */
+/* Chooses and creates the Vulkan device, allocates memory and submits the command buffer. */
 #include "gpu.h"
 
 #include <ctype.h>
@@ -16,7 +16,7 @@ static bool name_contains(const char *text, const char *part) {
     return length == 0;
 }
 
-/* The place of the chosen gpu, or `count` with an error that says why each one was passed over. */
+/* The index of the chosen device, or `count` with an error that says why each candidate was rejected. */
 static size_t choose_device(const struct glint_device_info *infos, size_t count, const char *select,
                             struct glint_error *err) {
     char why[768] = "";
@@ -215,7 +215,7 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
     VkMemoryRequirements need;
     vkGetBufferMemoryRequirements(gpu->device, buffer->buffer, &need);
     const VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    /* Reading uncached memory is slow for the host; what shaders read over the bus is slow for every pass. */
+    /* The host reads uncached memory slowly, and shaders read host memory slowly over the bus. */
     const VkMemoryPropertyFlags preferred = use == HOST_BUFFER_READBACK || use == HOST_BUFFER_STORAGE
                                                 ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                                             : use == HOST_BUFFER_UPLOAD ? 0

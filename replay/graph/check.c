@@ -1,23 +1,20 @@
-/* Declarations that contradict themselves or one another. */
+/* Finds declarations that contradict themselves or one another. */
 #include "graph.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static bool is_uint(const struct glint_row *row) {
-    return row->format == GLINT_FORMAT_R8UI || row->format == GLINT_FORMAT_R32UI;
-}
-
 void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
                       struct faults *faults) {
-    const bool array = size_is_array(image->size), cube = size_is_cube(image->size), layered = array || cube;
+    const bool array = size_is_array(image->size), cube = size_is_cube(image->size), layered = array || cube,
+               is_uint = glint_format_is_uint(image->format);
     const char *kind = binding->glsl, *is = NULL;
     if (size_is_buffer(image->size)) {
         if (strcmp(kind, glint_row_is_output(binding) ? "uimageBuffer" : "utextureBuffer") != 0)
             is = glint_row_is_output(binding) ? "a list, to be written as uimageBuffer"
                                               : "a list, to be read as utextureBuffer";
-    } else if (strstr(kind, "Buffer")) is = "no list";
-    else if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
+    } else if (strstr(kind, "Buffer")) is = "not a list";
+    else if ((kind[0] == 'u') != is_uint) is = is_uint ? "a uint image" : "a float image";
     else if (glint_row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), layered ? "image2DArray" : "image2D") != 0)
         is = layered ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
     else if (row_is_sampled(binding) && (strstr(kind, "Cube") || strstr(kind, "Array") ? !layered : layered))
@@ -28,14 +25,14 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
                    glint_row_is_output(binding) ? "writes" : "reads", row_image(binding), kind, is);
 }
 
-/* Rows that speak of another row of the same pass. */
+/* Rows that refer to another row of the same pass. */
 static void check_rows(const struct glint_pass *pass, struct faults *faults) {
     const struct glint_row *dispatch = NULL; /* the last one */
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r], *own = glint_pass_output(pass, row_image(row));
         if ((glint_row_is_output(row) || row->optional) && size_is_buffer(row->size) &&
-            (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
+            (row->fallback != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI and a fallback value of 0xFFFFFFFF",
                        pass->slot, pass->variant, row->name);
         if (row->kind == GLINT_ROW_DISPATCH_LIST && glint_pass_row(pass, GLINT_ROW_WORKGROUP, NULL))
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected workgroups of 8 x 8", pass->slot,
@@ -49,32 +46,34 @@ static void check_rows(const struct glint_pass *pass, struct faults *faults) {
         if (glint_row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
         if (row->kind == GLINT_ROW_BYPASS && (!own || !glint_pass_row(pass, GLINT_ROW_READ, row->name)))
             faults_add(faults, GLINT_ERROR_USAGE,
-                       "%s/%s: BYPASS %s: expected an image that the pass writes, made of one that it reads",
-                       pass->slot, pass->variant, row->image);
+                       "%s/%s: BYPASS %s: expected an image that the pass writes and one that it reads", pass->slot,
+                       pass->variant, row->image);
         const struct glint_row *captured = row->kind == GLINT_ROW_ALIAS ? capture_row(row->name) : NULL;
         if (row->kind == GLINT_ROW_ALIAS &&
             (!own || !captured || own->format != captured->format || own->size != captured->size))
-            faults_add(
-                faults, GLINT_ERROR_USAGE,
-                "%s/%s: ALIAS %s: expected an image that the pass writes, and one of the capture that is like it",
-                pass->slot, pass->variant, row->image);
+            faults_add(faults, GLINT_ERROR_USAGE,
+                       "%s/%s: ALIAS %s: expected an image that the pass writes and one of the capture with the same "
+                       "format and size",
+                       pass->slot, pass->variant, row->image);
         if (row->kind == GLINT_ROW_READ_OWN && !own)
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: READ_OWN %s: expected an image that the pass writes",
                        pass->slot, pass->variant, row->image);
         else if (row->kind == GLINT_ROW_READ_OWN) graph_check_kind(pass, row, own, faults);
-        const bool sums = own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) && !is_uint(own);
+        const bool sums =
+            own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) && !glint_format_is_uint(own->format);
         if (row->kind == GLINT_ROW_ACCUMULATE && (!sums || !glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL)))
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: ACCUMULATE %s: expected a plain float image that the pass writes, and PER_RAY",
                        pass->slot, pass->variant, row->name);
         if (row->kind == GLINT_ROW_ASSUMED && !glint_pass_row(pass, GLINT_ROW_SPEC, row->name) &&
             !glint_pass_row(pass, GLINT_ROW_PUSH, row->name))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: ASSUMED %s: expected a number that the pass takes",
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: ASSUMED %s: expected a numeric parameter of the pass",
                        pass->slot, pass->variant, row->name);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && row->assigned &&
             !glint_pass_row(pass, GLINT_ROW_SPEC, row->assigned))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: DISPATCH_LEVELS_BY %s: expected a number that the pass takes",
-                       pass->slot, pass->variant, row->assigned);
+            faults_add(faults, GLINT_ERROR_USAGE,
+                       "%s/%s: DISPATCH_LEVELS_BY %s: expected a numeric parameter of the pass", pass->slot,
+                       pass->variant, row->assigned);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && (!own || !size_has_levels(own->size)))
             faults_add(faults, GLINT_ERROR_USAGE,
                        "%s/%s: DISPATCH_LEVELS %s: expected an image with levels that the pass writes", pass->slot,

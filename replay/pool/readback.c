@@ -1,4 +1,4 @@
-/* Images back in host memory. */
+/* Reads images back to host memory. */
 #include "pool.h"
 
 #include <string.h>
@@ -8,12 +8,12 @@
 #include "shared/tile_list.h"
 #include "timing.h"
 
-static VkDeviceSize aligned(VkDeviceSize size) {
+static VkDeviceSize align_offset(VkDeviceSize size) {
     return (size + 15) & ~(VkDeviceSize)15;
 }
 
-/* What lies behind a list's header and its items means nothing, and shall be the same in every run. */
-static void blank_list(const struct pooled *image, uint32_t *words) {
+/* Overwrites the unused words of a list, whose contents are undefined, so that they are the same in every run. */
+static void clear_unused_words(const struct pooled *image, uint32_t *words) {
     const uint32_t head = image->image.desc.width, end = head * image->image.desc.height;
     const bool tiles = image->levels[0].info.row->size == GLINT_SIZE_TILES;
     for (uint32_t i = 4; i < head && !tiles; i++) words[i] = UINT32_MAX;
@@ -30,7 +30,7 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
     VkDeviceSize size = 0;
     for (size_t i = 0; i < count; i++) {
         offsets[i] = size;
-        size += aligned(image_bytes(&parts[i].image->image.desc, parts[i].info->level));
+        size += align_offset(image_bytes(&parts[i].image->image.desc, parts[i].info->level));
     }
     if (buffer->size < size) {
         host_buffer_finish(buffer, pool->gpu);
@@ -43,7 +43,7 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
     bool ok = device_submit(pool->gpu, "reading images back", err);
     for (size_t i = 0; ok && i < count; i++)
         if (parts[i].image->image.desc.buffer)
-            blank_list(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));
+            clear_unused_words(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));
     pool->source->seconds[PHASE_READBACK] += glint_now_seconds() - start;
     return ok;
 }
@@ -65,7 +65,7 @@ bool pool_read_image(struct pool *pool, const struct glint_image *info, enum gli
     struct pooled *image = pool->images;
     for (uint32_t i = 0; image && pooled_shown(image, i) != info;)
         if (!pooled_shown(image, i++)) image = image->next, i = 0;
-    if (!image) return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
+    if (!image) return glint_fail(err, GLINT_ERROR_USAGE, "the image does not belong to the last run");
     const size_t value_bytes = format_bytes(image->image.desc.format) / info->components;
     const bool uint = glint_format_is_uint(image->image.desc.format);
     const bool same =

@@ -1,4 +1,4 @@
-/* What run.json says of a run, but for its files: made when the run ends, since pipeline and options are the caller's. */
+/* run.json without files. It is made when the run ends, since the caller owns the pipeline and the options. */
 #include "session.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@ static json_t *parameter_record(const struct glint_row *row, double value) {
     return row->type == GLINT_VALUE_FLOAT ? json_real(value) : json_integer((json_int_t)value);
 }
 
-/* Lists are counted when the record is written. */
+/* The items of lists are counted when the record is written. */
 static json_t *work_record(const struct run *run, size_t p) {
     const struct step *step = &run->steps[p];
     const uint64_t rays = pass_rays(run->graph, &run->graph->passes[p]);
@@ -56,7 +56,7 @@ static json_t *device_record(const struct glint_device_info *info) {
                      info->driver_version, "times_are", info->is_cpu ? "CPU times of a software device" : "GPU times");
 }
 
-/* Whether the images that were read instead of computed come from this capture. */
+/* Whether the run folder of the inputs is a run of this capture. */
 static bool inputs_match(const struct run *run) {
     char hash[33];
     json_t *inputs = json_loads(glint_run_json(run->plan->inputs), 0, NULL);
@@ -73,7 +73,7 @@ static json_int_t history_number(const struct glint_run *history) {
     return number;
 }
 
-static bool diagnoses(const struct run *run) {
+static bool makes_diagnostics(const struct run *run) {
     for (size_t i = 0; i < run->graph->image_count; i++)
         if (run->graph->images[i].row->kind == GLINT_ROW_DIAGNOSTIC && run->graph->images[i].source == SOURCE_MADE)
             return true;
@@ -84,12 +84,12 @@ static json_t *warnings_record(const struct run *run) {
     json_t *list = json_array();
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
-        if (image->source == SOURCE_NOTHING && image->row->kind == GLINT_ROW_CAPTURE)
-            json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
-                                                     image->row->role, image->name, image->row->nothing));
+        if (image->source == SOURCE_FALLBACK && image->row->kind == GLINT_ROW_CAPTURE)
+            json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g",
+                                                     image->row->role, image->name, image->row->fallback));
     }
-    if (run->options->diagnostics && !diagnoses(run))
-        json_array_append_new(list, json_string("no pass that runs has the diagnostics that were asked for"));
+    if (run->options->diagnostics && !makes_diagnostics(run))
+        json_array_append_new(list, json_string("diagnostics were asked for, but no pass that runs makes any"));
     if (run->plan->inputs && !inputs_match(run))
         json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
@@ -97,7 +97,8 @@ static json_t *warnings_record(const struct run *run) {
         json_array_append_new(list, json_sprintf("%s holds frame %lld, but this is frame %u", run->options->history,
                                                  (long long)history_number(run->plan->history), frame->number));
     if (run->sizes->history && !frame->has_previous)
-        json_array_append_new(list, json_string("the capture has no camera of the frame before: it counts as still"));
+        json_array_append_new(
+            list, json_string("the capture has no camera of the previous frame: the camera counts as still"));
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
         json_array_append_new(list, json_string(notes[i]));

@@ -1,9 +1,9 @@
-/* What passes did in the last run that images alone tell: items of lists, rays by their end reasons. */
+/* Counts work that only images show: items of lists, and rays by their end reasons. */
 #include "session.h"
 
 #include <string.h>
 
-/* Of a list: its items without what fills it up. */
+/* The number of items of a list, without padding. */
 static uint64_t count_items(const uint32_t *words, uint32_t width, uint64_t count) {
     uint64_t items = 0;
     for (uint64_t i = 0; i < words[3] && width + i < count; i++) items += words[width + i] != UINT32_MAX;
@@ -16,7 +16,7 @@ static uint64_t count_rays(const uint8_t *reasons, uint64_t count) {
     return rays;
 }
 
-/* What an image of the last run counts; false when it is not there any more. */
+/* The number of items or rays in an image of the last run; false if the image is no longer available. */
 static bool count_image(struct glint_replay *replay, const char *name, uint64_t *found, struct glint_error *err) {
     struct host_buffer buffer = {0};
     VkDeviceSize offset;

@@ -1,4 +1,4 @@
-/* Devices: Vulkan's, with shaders and programs. */
+/* Devices with their shaders and programs. */
 #include "device.h"
 
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "shared/tile_list.h"
 
-/* What passes want to know of a device. */
+/* Properties of the device that passes depend on. */
 static void describe_for_passes(struct glint_device_info *info) {
     info->filters_together = info->is_cpu;
     info->tile_wide = info->is_cpu ? STRIP_WIDE : TILE_WIDE;

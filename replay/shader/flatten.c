@@ -1,5 +1,5 @@
-/* Puts includes in place, since glslang's C interface has no callback for them. #line directives keep what the author
-   sees: a message names their file and line, and a declaration row's __LINE__ stays its binding. */
+/* Inlines includes, since the C interface of glslang 12 takes no include callback. #line directives preserve files and
+   line numbers, so that messages are correct and __LINE__ of a declaration row remains its binding. */
 #include "shader.h"
 #include "text_file.h"
 
@@ -14,10 +14,10 @@ enum { DEPTH_MAX = 16, TEXT_MAX = 1 << 22, PATH_SIZE = 1024 };
 struct flatten {
     char *text;
     size_t size, capacity;
-    const char *pass_folder; /* the pass's own under passes/, "reflection/blur" */
-    const char *folder;
-    bool versioned; /* #version, which must come first, has been seen */
-    bool foreign;   /* something came from the folder */
+    const char *pass_folder; /* folder of the pass under passes/: "reflection/blur" */
+    const char *folder;      /* the user's copy of passes/, or NULL */
+    bool versioned;          /* #version, which must come first, has been seen */
+    bool foreign;            /* a file came from `folder` */
 };
 
 static bool append_text(struct flatten *out, const char *text, size_t length, struct glint_error *err) {
@@ -58,8 +58,8 @@ static void parse_include(const char *line, size_t length, char *name) {
     name[i < length && line[i] == close ? n : 0] = 0;
 }
 
-/* What `#line N` calls the next line; 0 when the line is none. */
-static size_t renumbered(const char *line, size_t length) {
+/* N of a line `#line N`, else 0. */
+static size_t parse_line_directive(const char *line, size_t length) {
     size_t i = 0, number = 0;
     while (i < length && isspace((unsigned char)line[i])) i++;
     if (length - i < 6 || strncmp(line + i, "#line ", 6) != 0) return 0;
@@ -76,8 +76,8 @@ static bool is_version(const char *line, size_t length) {
     return length - i >= 7 && strncmp(line + i, "version", 7) == 0;
 }
 
-/* A path beside another: its folder, then the name, with "x/../" taken out. */
-static bool beside(char *path, const char *file, const char *name) {
+/* The path of a file relative to the folder of another file, with "x/../" resolved. */
+static bool join_sibling(char *path, const char *file, const char *name) {
     const char *slash = strrchr(file, '/');
     int folder = slash ? (int)(slash - file + 1) : 0;
     if (snprintf(path, PATH_SIZE, "%.*s%s", folder, file, name) >= PATH_SIZE) return false;
@@ -99,7 +99,7 @@ static bool flatten_disk(struct flatten *out, const char *path, int depth, struc
     return ok;
 }
 
-/* A file of passes/: the folder's, else the one that is built in. */
+/* Whether the path is a file of passes/, in `folder` or built in. */
 static bool is_pass_file(const struct flatten *out, const char *path) {
     char own[PATH_SIZE];
     return glint_pass_text(path) ||
@@ -122,13 +122,14 @@ static bool flatten_include(struct flatten *out, const char *file, size_t line, 
     char path[PATH_SIZE], in_slot[PATH_SIZE];
     if (depth >= DEPTH_MAX)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s:%zu: includes nest deeper than %d", file, line, DEPTH_MAX);
-    if (on_disk && (name[0] == '/' ? snprintf(path, sizeof path, "%s", name) < PATH_SIZE : beside(path, file, name)) &&
+    if (on_disk &&
+        (name[0] == '/' ? snprintf(path, sizeof path, "%s", name) < PATH_SIZE : join_sibling(path, file, name)) &&
         access(path, R_OK) == 0)
         return flatten_disk(out, path, depth + 1, err);
-    if (!on_disk && beside(path, file, name) && is_pass_file(out, path))
+    if (!on_disk && join_sibling(path, file, name) && is_pass_file(out, path))
         return flatten_pass_file(out, path, depth + 1, err);
     if (on_disk && snprintf(in_slot, sizeof in_slot, "%s/", out->pass_folder) < PATH_SIZE &&
-        beside(path, in_slot, name) && is_pass_file(out, path))
+        join_sibling(path, in_slot, name) && is_pass_file(out, path))
         return flatten_pass_file(out, path, depth + 1, err);
     if (is_pass_file(out, name)) return flatten_pass_file(out, name, depth + 1, err);
     return glint_fail(err, GLINT_ERROR_USAGE, "%s:%zu: include \"%s\" not found beside the file nor among the passes",
@@ -155,14 +156,14 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
                 !append_line_directive(out, line + 1, file, err))
                 return false;
         }
-        const size_t next = renumbered(text, length);
+        const size_t next = parse_line_directive(text, length);
         if (next) line = next - 1;
         text += length + (end != NULL);
     }
     return true;
 }
 
-static char *finished(struct flatten *out, bool ok, const char *path, struct glint_error *err) {
+static char *finish_flatten(struct flatten *out, bool ok, const char *path, struct glint_error *err) {
     if (ok && out->text && out->versioned) return out->text;
     if (ok) glint_fail(err, GLINT_ERROR_FORMAT, out->text ? "%s:1: expected #version 460 first" : "%s: empty", path);
     free(out->text);
@@ -171,7 +172,7 @@ static char *finished(struct flatten *out, bool ok, const char *path, struct gli
 
 char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err) {
     struct flatten out = {.pass_folder = pass->folder ? pass->folder : "", .folder = folder};
-    return finished(&out, flatten_disk(&out, path, 0, err), path, err);
+    return finish_flatten(&out, flatten_disk(&out, path, 0, err), path, err);
 }
 
 char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, struct glint_error *err) {
@@ -181,7 +182,7 @@ char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, str
     snprintf(path, sizeof path, "%s/%s.comp", pass->folder, pass->variant);
     if (!is_pass_file(&out, path)) return NULL;
     const bool ok = flatten_pass_file(&out, path, 0, err);
-    if (!ok || out.foreign) return finished(&out, ok, path, err);
+    if (!ok || out.foreign) return finish_flatten(&out, ok, path, err);
     free(out.text);
     return NULL;
 }

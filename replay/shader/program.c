@@ -1,4 +1,4 @@
-/* Compute programs, made from a pass's rows: a row's line number is its binding or constant id. */
+/* Compute programs, created from a pass's rows. The line number of a row is its binding or specialization constant id. */
 #include "program.h"
 
 #include <stdio.h>
@@ -54,11 +54,11 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
         if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
             fits = add_constant(constants, pass->rows[i].id, bits);
         else if (pass->rows[i].kind == GLINT_ROW_FACT)
-            fits = add_constant(constants, pass->rows[i].id, !(graph_pass->lacks >> facts++ & 1));
+            fits = add_constant(constants, pass->rows[i].id, !(graph_pass->false_facts >> facts++ & 1));
         else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
         else if (pass->rows[i].optional) /* has_NAME, of OPTIONAL_READ */
             fits = add_constant(constants, 1000 + pass->rows[i].id,
-                                graph_bound(graph, &pass->rows[i])->source != SOURCE_NOTHING);
+                                graph_bound(graph, &pass->rows[i])->source != SOURCE_FALLBACK);
         else if (pass->rows[i].kind == GLINT_ROW_PUSH && (fits = constants->push_count < PUSH_BYTES_MAX / 4))
             constants->push[constants->push_count++] = bits;
     }
@@ -189,7 +189,7 @@ struct program *programs_get(struct programs *programs, struct gpu *gpu, const s
     size_t count = 0;
     for (struct program **at = &programs->first; *at; at = &(*at)->next, count++) {
         struct program *found = *at;
-        if (found->key == key) { /* to the front, so that the end is what was not used for longest */
+        if (found->key == key) { /* moved to the front, so that the list is in order of last use */
             *at = found->next;
             found->next = programs->first;
             return programs->first = found;

@@ -1,4 +1,4 @@
-/* The picture that a run ends with, and what lies over its opaque surfaces. */
+/* The final picture of a run, and its error where transparent surfaces or water cover the opaque ones. */
 #include "glint/study.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ static bool reads_part(const struct glint_pass *pass, const char *part) {
     return false;
 }
 
-bool glint_study_draws(struct glint_replay *replay, const char *part) {
+bool glint_study_reads_part(struct glint_replay *replay, const char *part) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     for (size_t i = 0; i < count; i++)
@@ -48,8 +48,8 @@ bool glint_study_draws(struct glint_replay *replay, const char *part) {
     return false;
 }
 
-bool glint_study_over(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
-                      struct glint_image_error *error, struct glint_error *err) {
+bool glint_study_overlay_error(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
+                               struct glint_image_error *error, struct glint_error *err) {
     static const char *const rgb[] = {"R", "G", "B"}, *const depth[] = {"depth.Z"};
     const struct glint_part_info *scene = glint_capture_find(capture, GLINT_PART_SCENE),
                                  *over = glint_capture_find(capture, part);

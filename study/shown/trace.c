@@ -1,4 +1,4 @@
-/* Compares where traced rays ended with the truth that the capture carries. */
+/* Compares the end points of traced rays with the truth of the capture. */
 #include "glint/probe.h"
 #include "glint/study.h"
 
@@ -12,7 +12,7 @@
 enum { REASONS = GLINT_END_REASONS, TRACERS = 2, GROUPS = TRACERS * REASONS };
 static const char *const tracers[TRACERS] = {"screen", "cube map"};
 
-/* One image of the run, or NULL when the run has none of that name and it may be missing. */
+/* An image of the run. `data` is NULL if it is optional and the run does not have it. */
 struct pixels {
     uint32_t width, height, components;
     union {
@@ -22,13 +22,13 @@ struct pixels {
     } data;
 };
 
-/* `required`: what the image is called where it is missed; NULL: it may be missing. */
+/* `required`: what to call a missing image in the error message; NULL if the image is optional. */
 static bool get_image(struct glint_replay *replay, enum glint_pass_role role, enum glint_type type,
                       const char *required, struct pixels *out, struct glint_error *err) {
     const struct glint_image *image = study_image(replay, role);
     if (!image && !required) return true;
     if (!image)
-        return glint_fail(err, GLINT_ERROR_USAGE, "the run has no image of %s: expected one with diagnostics on",
+        return glint_fail(err, GLINT_ERROR_USAGE, "the run has no image of %s: expected a run with diagnostics",
                           required);
     *out = (struct pixels){image->width, image->height, image->components, {NULL}};
     return (out->data.any = study_values(replay, image, type, err)) != NULL;
@@ -44,9 +44,9 @@ static int by_error(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Samples are sorted by error, so that each group's are too. */
-static void summarize(const struct sample *samples, size_t count, uint32_t first, uint32_t last,
-                      struct glint_trace_row *row) {
+/* Samples are sorted by error, and so are those of each group. */
+static void fill_trace_row(const struct sample *samples, size_t count, uint32_t first, uint32_t last,
+                           struct glint_trace_row *row) {
     size_t right = 0, seen = 0, lit = 0;
     for (size_t i = 0; i < count; ++i) {
         if (samples[i].group < first || samples[i].group > last) continue;
@@ -72,17 +72,17 @@ static void summarize(const struct sample *samples, size_t count, uint32_t first
 static void fill_table(struct sample *samples, size_t count, struct glint_trace_table *table) {
     qsort(samples, count, sizeof *samples, by_error);
     for (uint32_t group = 0; group < GROUPS; ++group) {
-        const struct glint_probe_word reason = glint_probe_word("end reason", (float)(group % REASONS));
+        const struct glint_probe_label reason = glint_probe_label("end reason", (float)(group % REASONS));
         struct glint_trace_row row = {.tracer = tracers[group / REASONS], .reason = reason.name, .text = reason.text};
-        summarize(samples, count, group, group, &row);
+        fill_trace_row(samples, count, group, group, &row);
         if (row.rays > 0) table->rows[table->count++] = row;
     }
     struct glint_trace_row all = {.tracer = "all", .reason = "all", .text = "all rays"};
-    summarize(samples, count, 0, GROUPS - 1, &all);
+    fill_trace_row(samples, count, 0, GROUPS - 1, &all);
     table->rows[table->count++] = all;
 }
 
-/* What is compared: images of the run at its resolution, the truth at the capture's. */
+/* The images to compare: those of the run in the pipeline's resolution, the truth in the capture's. */
 struct inputs {
     struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, screen_fetches, cubemap_fetches,
         reflection;
@@ -121,7 +121,7 @@ static void free_inputs(struct inputs *in) {
     free(in->radiance);
 }
 
-/* Reasons of images that the run lacks are 0, not traced. */
+/* 0 (not traced) if the run lacks the image. */
 static uint32_t reason_at(const struct pixels *image, size_t i) {
     uint32_t reason = image->data.u ? image->data.u[i] : 0;
     return reason < REASONS ? reason : 0;
@@ -142,11 +142,11 @@ static uint32_t truth_end(const struct inputs *in, size_t pixel) {
     return in->mirror[2 * pixel + 1] > 0.5F ? GLINT_TRUTH_ON_SCREEN : GLINT_TRUTH_ELSEWHERE;
 }
 
-/* Rays of all surfaces: the arrays have room for one a texel. */
+/* Rays of all surfaces, at most one a texel. */
 struct rays {
     float *found, *truth;
     uint8_t *surfaces;
-    struct sample *samples; /* of surfaces up to max_roughness */
+    struct sample *samples; /* rays of surfaces up to max_roughness */
     size_t count, sample_count;
     double fetches[GLINT_SURFACE_COUNT]; /* sums */
     double max_roughness;
@@ -156,7 +156,7 @@ static double fetches_at(const struct pixels *image, size_t i) {
     return image->data.u ? (double)image->data.u[i] : 0;
 }
 
-/* One texel of the run, unless it has no ray to compare. */
+/* Compares the ray of a texel, if it has one. */
 static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) {
     uint32_t scale = in->travelled.width == in->width && in->travelled.height == in->height ? 1 : 2;
     uint32_t pick = in->pick.data.u[i] < 4 && scale == 2 ? in->pick.data.u[i] : 0;
@@ -165,7 +165,7 @@ static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) 
     if (x >= in->width || y >= in->height) return;
     size_t pixel = (size_t)y * in->width + x;
     bool on_screen = in->finished.data.u && in->finished.data.u[i] != 0;
-    bool by_screen = on_screen || !in->cubemap_end.data.u; /* nothing traces on where the screen ends */
+    bool by_screen = on_screen || !in->cubemap_end.data.u; /* no tracer continues where the screen ends */
     uint32_t reason = reason_at(by_screen ? &in->screen_end : &in->cubemap_end, i);
     float distance = in->mirror[2 * pixel], travelled = in->travelled.data.f[i],
           roughness = in->normal.data.f[4 * i + 3];

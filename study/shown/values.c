@@ -1,4 +1,4 @@
-/* Values of runs and captures in memory. */
+/* Reads images of runs and channels of captures into memory. */
 #include "values.h"
 
 #include <stdlib.h>

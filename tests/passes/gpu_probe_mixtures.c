@@ -19,7 +19,7 @@ static double told(const struct glint_probe_record *record, const char *name) {
 }
 
 static const struct kept *image_of(const struct glint_probe_record *record, const struct images *images) {
-    const struct glint_probe_word of = glint_probe_word("image", glint_probe_value(record, "image"));
+    const struct glint_probe_label of = glint_probe_label("image", glint_probe_value(record, "image"));
     const float level = glint_probe_value(record, "level"); /* NaN: the record has none */
     assert_non_null(of.name);
     return level_of(images, of.name, level > 0 ? (uint32_t)level : 0);
@@ -94,7 +94,7 @@ static void same_rgb(const struct glint_probe_record *record, const char *const 
 
 /* One pixel's story and all images of its run. */
 struct told_pixel {
-    const struct glint_probe_story *story;
+    const struct glint_probe_trace *story;
     const struct images *images;
     const uint32_t *pixel, *texel;
 };
@@ -317,10 +317,10 @@ static void mixtures(struct gpu *gpu, const struct way *way) {
         free_images(&plain);
     }
     for (size_t i = 0; i < PIXELS; i++) {
-        struct glint_probe_story story;
+        struct glint_probe_trace story;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
         check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-        assert_int_equal(story.lost, 0);
+        assert_int_equal(story.dropped, 0);
         told_of += way->check(&(struct told_pixel){&story, &probed, pixels[i], texel});
         free(story.records);
     }

@@ -126,7 +126,7 @@ void near(double told, double found, double largest) {
     if (!(fabs(told - found) <= ROUNDINGS * 0x1p-24 * largest)) fail_msg("told %.9g, found %.9g", told, found);
 }
 
-const struct glint_probe_record *of_slot(const struct glint_probe_story *story, const char *slot, const char *kind,
+const struct glint_probe_record *of_slot(const struct glint_probe_trace *story, const char *slot, const char *kind,
                                          size_t *at) {
     for (; *at < story->count; ++*at)
         if (glint_probe_is(&story->records[*at], kind) && strcmp(story->records[*at].pass->slot, slot) == 0)

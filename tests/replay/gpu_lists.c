@@ -124,7 +124,7 @@ static void wrong_declarations_are_refused(void **state) {
     assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
     fixture_says(&err, "worker/made dispatches over depth_full, which is no list");
     struct glint_row none = made_worker.rows[2];
-    none.nothing = 0;
+    none.fallback = 0;
     MADE(&made, pass_with(&made_worker, rows, "list_a", none, &pass));
     err = (struct glint_error){0};
     assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));

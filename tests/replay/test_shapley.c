@@ -218,7 +218,7 @@ static void what_is_known_is_told_at_once(void **state) {
         for (size_t stop = 0; stop < 3; stop++) {
             struct watch watch = {.stop_at = stop};
             const struct glint_game game = {
-                .players = PLAYERS, .values = GAMES, .play = play_watched, .news = look, .user = &watch};
+                .players = PLAYERS, .values = GAMES, .play = play_watched, .update = look, .user = &watch};
             const struct glint_shapley_options options = {.exact = exact, .permutations = 20};
             const bool done = glint_shapley(&game, &options, &watch.found, &err);
             assert_int_equal(done, stop == 0);

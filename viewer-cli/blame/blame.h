@@ -11,7 +11,7 @@
 #include "io/progress.h"
 
 /* What a coalition is worth: errors against both answers by class, the chosen answer first, and texture fetches. */
-enum { BLAME_CLASSES = GLINT_SURFACE_COUNT, BLAME_FETCHES = GLINT_ANSWER_COUNT * BLAME_CLASSES, BLAME_VALUES };
+enum { BLAME_CLASSES = GLINT_SURFACE_COUNT, BLAME_FETCHES = GLINT_TARGET_COUNT * BLAME_CLASSES, BLAME_VALUES };
 extern const char *const blame_classes[BLAME_CLASSES];
 
 /* Milliseconds a frame, NAN without: what exchanging a player alone adds, and what having it alone as it is saves. */
@@ -54,7 +54,7 @@ static inline size_t blame_value(size_t answer, size_t class) {
     return answer * BLAME_CLASSES + class;
 }
 /* The answer in the first place, and in the second. */
-static inline enum glint_answer blame_answer(const struct blame *blame, size_t place) {
+static inline enum glint_target blame_answer(const struct blame *blame, size_t place) {
     return (place == 0) == answer_args_kind(&blame->against);
 }
 /* The error that the player takes away (positive) or makes when it alone is exchanged in the preset; that it makes when it

@@ -10,7 +10,7 @@
 #include "shared/cone.glsl"
 #include "shared/reuse.glsl"
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 // Level 0 is the image, weighted by whether there is a ray; a coarser level the mean of the finer one's texels.
 vec4 level_texel(ivec2 pixel, ivec2 size) {

@@ -9,7 +9,7 @@
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 void main() {
     ivec2 pixel = tile_texel(reduction(frame.size));

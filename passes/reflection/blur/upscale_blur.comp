@@ -12,7 +12,7 @@
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 const uint DOWN = 0u, ALONG_ROWS = 1u, ALONG_COLUMNS = 2u, FINER = 3u, FINEST = 4u; // dispatch phases
 

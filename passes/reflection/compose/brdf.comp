@@ -9,7 +9,7 @@
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 // How much of the reflection the surface sends to the viewer.
 vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {

@@ -2,7 +2,7 @@
 #ifndef GLINT_CUBEMAP_PROBE
 #define GLINT_CUBEMAP_PROBE
 #include "shared/cubemap.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 void probe_cubemap_ray(vec3 origin, vec3 direction, float start_m, uint best) {
     probe(PROBE_cubemap_ray, vec4(origin, direction.x), vec4(direction.yz, start_m, best));

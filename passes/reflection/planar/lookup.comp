@@ -9,7 +9,7 @@
 #include "shared/camera.glsl"
 #define TILE_LIST water_tiles
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 const float LEAST_RISE = 1e-3; // a ray that a ripple sends down meets another one, and goes on about level
 

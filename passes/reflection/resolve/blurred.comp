@@ -9,7 +9,7 @@
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 // 1 from `full` on, 0 up to `none`, which may lie on either side; equal: a step.
 float fade(float none, float full, float at) {

@@ -6,7 +6,7 @@
 #include "shared/cube_filter.glsl"
 #include "shared/fog.glsl"
 #include "shared/paraboloid.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 const float LEAST_SHARE = 1.0 / 64.0; // of what is looked for in a level: what has less is mostly rounding
 

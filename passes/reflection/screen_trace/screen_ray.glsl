@@ -3,7 +3,7 @@
 // t = s P.w/(1 - s D.w), so 1/w = (1 - s D.w)/P.w. Next include of a pass with the parameter length_m.
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 struct ScreenRay {
     vec3 origin, direction; // view

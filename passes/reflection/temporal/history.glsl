@@ -1,7 +1,7 @@
 // The history of a pixel, and the mean with it. Next include of a pass with the rows of history_rows.h, after
 // shared/neighbour.glsl.
 #include "shared/reproject.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 struct Past {
     vec4 color;

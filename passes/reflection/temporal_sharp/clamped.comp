@@ -10,7 +10,7 @@
 #include "shared/reuse.glsl"
 #include "shared/shown.glsl"
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 vec4 current_color(ivec2 pixel) {
     return has_reflection_sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);

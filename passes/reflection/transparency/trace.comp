@@ -10,7 +10,7 @@
 #include "shared/camera.glsl"
 #define TILE_LIST transparent_tiles
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 // What a texel of another surface weighs: where all four are, they are better than nothing.
 const float ELSEWHERE = 1e-4;
@@ -58,9 +58,9 @@ vec3 seen(ivec2 pixel) {
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = fresnel ? clamp(abs(dot(normalize(mat3(frame.world_from_view) * view), normalize(normal))), 0.0, 1.0) : 1.0;
     uint image = has_composed_water ? IMAGE_composed_water : IMAGE_composed;
-    vec3 through = told_mix(image, behind, IMAGE_transparent_color, own.rgb, own.a);
+    vec3 through = probed_mix(image, behind, IMAGE_transparent_color, own.rgb, own.a);
     float share = clamp(intensity * reflected_share(cosine), 0.0, 1.0);
-    return told_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(pixel, depth_m), share);
+    return probed_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(pixel, depth_m), share);
 }
 
 void main() {

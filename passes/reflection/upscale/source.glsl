@@ -1,4 +1,4 @@
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 // The last of the half-resolution images that the pipeline makes.
 vec4 half_color(ivec2 texel) {

@@ -11,7 +11,7 @@
 #include "shared/cube_filter.glsl"
 #define TILE_LIST water_tiles
 #include "shared/tiles.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 struct Water {
     vec3 position, towards, normal, own; // own: the light it scatters
@@ -60,7 +60,7 @@ vec3 seen_through(Water water, ivec2 pixel) {
         }
     }
     float left = pow(max(1.0 - water.opacity, 0.0), depth ? way_m : 1.0);
-    return told_mix(IMAGE_water_color, water.own, IMAGE_composed, bottom, left);
+    return probed_mix(IMAGE_water_color, water.own, IMAGE_composed, bottom, left);
 }
 
 vec3 mirrored(Water water, ivec2 pixel) {
@@ -80,7 +80,7 @@ vec3 mirrored(Water water, ivec2 pixel) {
         color = around.rgb + color * (1.0 - around.a);
         under = IMAGE_mixture;
     }
-    return told_mix(under, color, IMAGE_planar_reflection, planar.rgb, planar.a);
+    return probed_mix(under, color, IMAGE_planar_reflection, planar.rgb, planar.a);
 }
 
 void main() {
@@ -102,7 +102,7 @@ void main() {
         float share = clamp(intensity * face_reflectance(cosine, index), 0.0, 1.0);
         probe_pixel(pixel);
         vec3 through = seen_through(water, pixel);
-        color = told_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(water, pixel), share);
+        color = probed_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(water, pixel), share);
     }
     imageStore(composed_water, pixel, vec4(color, 1.0));
 }

@@ -87,7 +87,7 @@ void probe_layer(uint below_image, vec3 below, uint image, vec3 color, vec3 shar
     probe(PROBE_layer, vec4(image, share), vec4(color, below_image), vec4(below, 0.0));
 }
 // mix(below, color, share), told with what images they are.
-vec3 told_mix(uint below_image, vec3 below, uint image, vec3 color, float share) {
+vec3 probed_mix(uint below_image, vec3 below, uint image, vec3 color, float share) {
     probe_layer(below_image, below, image, color, vec3(share));
     return mix(below, color, share);
 }
