@@ -86,12 +86,6 @@ void channel_names(struct channel_names *names, const char *channels) {
         names->list[names->count++] = word;
 }
 
-const char *channel_word(const char *channels, size_t place, size_t *length) {
-    for (; place > 0 && strchr(channels, ' '); place--) channels = strchr(channels, ' ') + 1;
-    *length = strcspn(channels, " ");
-    return channels;
-}
-
 const struct glint_row *glint_pass_role(const struct glint_pass *pass, enum glint_pass_role role) {
     for (size_t r = 0; r < pass->row_count; r++)
         if (pass->rows[r].kind == GLINT_ROW_ROLE && pass->rows[r].first == (int)role) return &pass->rows[r];

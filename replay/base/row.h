@@ -24,9 +24,7 @@ const struct glint_row *capture_row(const char *image);
 const char *cubemap_order_image(void);
 /* The value of a parameter in `values`, an array parallel to the pass's rows; NULL if the pass has no such parameter. */
 const double *parameter_value(const struct glint_pass *pass, const double *values, const char *parameter);
-/* The name at a place in a list such as "R G B"; *length receives its length. */
-const char *channel_word(const char *channels, size_t place, size_t *length);
-/* Such a list split into at most four names. */
+/* A list such as "R G B" split into at most four names. */
 struct channel_names {
     char text[256];
     const char *list[4];

@@ -54,23 +54,19 @@ _Static_assert(GLINT_END_HIT == (int)END_hit && GLINT_END_SKY == (int)END_sky &&
                    GLINT_END_FALLBACK == (int)END_fallback && GLINT_END_REASONS == (int)END_REASONS,
                "glint/probe.h counts end reasons as passes/shared/end_reasons.h lists them");
 
-static const struct glint_probe_label decisions[] =
-    {
-#define DECISION(name, text) {#name, text},
-#include "shared/probe/decisions.h"
-        {NULL, NULL}},
-                                      ends[] =
-                                          {
 #define REASON(name, text) {#name, text},
-#include "shared/end_reasons.h"
-#undef REASON
-                                              {NULL, NULL}},
-                                      images[] =
-                                          {
+#define DECISION(name, text) {#name, text},
 #define PROBE_IMAGE(name) {#name, #name},
+static const struct glint_probe_label decisions[] = {
+#include "shared/probe/decisions.h"
+    {NULL, NULL}};
+static const struct glint_probe_label ends[] = {
+#include "shared/end_reasons.h"
+    {NULL, NULL}};
+static const struct glint_probe_label images[] = {
 #include "shared/probe/images.h"
-                                              {NULL, NULL}},
-                                      faces[] = {{"+X", "+X"}, {"-X", "-X"}, {"+Y", "+Y"}, {"-Y", "-Y"},
+    {NULL, NULL}};
+static const struct glint_probe_label faces[] = {{"+X", "+X"}, {"-X", "-X"}, {"+Y", "+Y"}, {"-Y", "-Y"},
                                                  {"+Z", "+Z"}, {"-Z", "-Z"}, {NULL, NULL}};
 
 struct glint_probe_label glint_probe_label(const char *unit, float value) {

@@ -1,20 +1,11 @@
 /* Chooses and creates the Vulkan device, allocates memory and submits the command buffer. */
+#define _GNU_SOURCE /* strcasestr */
 #include "gpu.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool name_contains(const char *text, const char *part) {
-    size_t length = strlen(part);
-    for (; *text; text++) {
-        size_t i = 0;
-        while (i < length && text[i] && tolower((unsigned char)text[i]) == tolower((unsigned char)part[i])) i++;
-        if (i == length) return true;
-    }
-    return length == 0;
-}
 
 /* The index of the chosen device, or `count` with an error that says why each candidate was rejected. */
 static size_t choose_device(const struct glint_device_info *infos, size_t count, const char *select,
@@ -24,7 +15,7 @@ static size_t choose_device(const struct glint_device_info *infos, size_t count,
     unsigned long index = select ? strtoul(select, &end, 10) : 0;
     bool by_index = select && isdigit((unsigned char)select[0]) && *end == 0;
     for (size_t i = 0; i < count; i++) {
-        if (by_index ? i != index : select && !name_contains(infos[i].name, select)) continue;
+        if (by_index ? i != index : select && !strcasestr(infos[i].name, select)) continue;
         if (infos[i].usable) return i;
         size_t used = strlen(why);
         snprintf(why + used, sizeof why - used, "; device %zu, %.120s, %.120s", i, infos[i].name, infos[i].reason);

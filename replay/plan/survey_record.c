@@ -74,14 +74,13 @@ static json_t *cubemaps_record(const struct survey_state *state) {
         if (survey->active_traced) json_object_set_new(entry, "nearby", json_integer(map->nearby));
         json_array_append_new(list, entry);
     }
-    json_t *record = json_pack("{sisisisisiso}", "faces", (int)(6 * survey->active_surveyed), "open",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list);
-    json_object_set_new(record, "time_ns", time_record(&state->cubes.time));
-    if (survey->active_traced) json_object_set_new(record, "ways_time_ns", time_record(&state->trace_time));
-    return record;
+    return json_pack("{si si si si si so so so*}", "faces", (int)(6 * survey->active_surveyed), "open",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list, "time_ns",
+                     time_record(&state->cubes.time), "ways_time_ns",
+                     survey->active_traced ? time_record(&state->trace_time) : NULL);
 }
 
 json_t *survey_record(const struct survey_state *state, const struct glint_frame *frame) {
@@ -95,14 +94,12 @@ json_t *survey_record(const struct survey_state *state, const struct glint_frame
     if (json && survey->on_device) json_object_set_new(json, "time_ns", time_record(&state->time));
     if (json && survey->active_surveyed) json_object_set_new(json, "active_cubemaps", cubemaps_record(state));
     if (!json || !survey->on_device || survey->partial) return json;
-    json_object_set_new(json, "metalness", numbers_record(survey->metalness, GLINT_SURVEY_BINS));
-    json_object_set_new(json, "weight", numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS));
-    json_object_set_new(json, "water", json_integer((json_int_t)survey->water));
-    json_object_set_new(json, "transparent", json_integer((json_int_t)survey->transparent));
-    json_object_set_new(json, "motion", json_string(glint_survey_motion(survey)));
-    json_object_set_new(json, "moved", json_integer((json_int_t)survey->moved));
-    json_object_set_new(json, "moving", json_integer((json_int_t)survey->moving));
-    json_object_set_new(json, "stencil", stencil_record(survey, frame));
-    json_object_set_new(json, "light", range_record(survey->light));
+    json_object_update_new(json, json_pack("{so so sI sI ss sI sI so so}", "metalness",
+                                           numbers_record(survey->metalness, GLINT_SURVEY_BINS), "weight",
+                                           numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS), "water",
+                                           (json_int_t)survey->water, "transparent", (json_int_t)survey->transparent,
+                                           "motion", glint_survey_motion(survey), "moved", (json_int_t)survey->moved,
+                                           "moving", (json_int_t)survey->moving, "stencil",
+                                           stencil_record(survey, frame), "light", range_record(survey->light)));
     return json;
 }

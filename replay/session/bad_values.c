@@ -40,10 +40,9 @@ static bool append_bad(struct glint_replay *replay, const struct image_part *par
                                       .value = bad->value,
                                       .not_finite = bad->not_finite,
                                       .clamped = bad->clamped};
-    size_t length;
-    const char *word = channel_word(info->row->channels ? info->row->channels : info->row->source,
-                                    bad->first % info->components, &length);
-    snprintf(list->channel, sizeof list->channel, "%.*s", (int)length, word);
+    struct channel_names names;
+    channel_names(&names, info->row->channels ? info->row->channels : info->row->source);
+    snprintf(list->channel, sizeof list->channel, "%.47s", names.list[bad->first % info->components]);
     return true;
 }
 

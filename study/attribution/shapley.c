@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "glint/blame.h"
+#include "no_memory.h"
+#include "random.h"
 
 struct play {
     const struct glint_game *game;
@@ -11,16 +13,12 @@ struct play {
     uint32_t evaluated;
 };
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
 static const double *evaluate_coalition(struct play *play, uint32_t coalition, struct glint_error *err) {
     const struct glint_game *game = play->game;
     double **known = &play->known[coalition];
     if (*known) return *known;
     double *values = calloc(game->values + 1, sizeof *values);
-    if (!values) no_memory(err);
+    if (!values) no_memory(err, "Shapley values");
     else if (!game->play(game->user, coalition, values, err)) {
         free(values);
         values = NULL;
@@ -78,13 +76,6 @@ static bool sum_all_coalitions(struct play *play, struct glint_shapley *out, str
     return true;
 }
 
-static uint64_t next_random(uint64_t *state) { /* SplitMix64 */
-    uint64_t z = *state += 0x9E3779B97F4A7C15u;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBu;
-    return z ^ z >> 31;
-}
-
 static void shuffle_players(size_t *order, size_t n, uint64_t *state) {
     for (size_t i = 0; i < n; i++) order[i] = i;
     for (size_t i = n; i-- > 1;) {
@@ -136,7 +127,7 @@ static bool sum_permutations(struct play *play, const struct glint_shapley_optio
     uint64_t state = options->seed;
     size_t order[GLINT_PLAYERS_MAX];
     double *sample = calloc(2 * count + 1, sizeof *sample), *spread = sample ? sample + count : NULL;
-    bool ok = sample || no_memory(err);
+    bool ok = sample || no_memory(err, "Shapley values");
     for (uint32_t pair = 1; ok; pair++) {
         memset(sample, 0, count * sizeof *sample);
         shuffle_players(order, game->players, &state);
@@ -161,7 +152,7 @@ bool glint_shapley(const struct glint_game *game, const struct glint_shapley_opt
         return glint_fail(err, GLINT_ERROR_USAGE, "expected 1 to %d players, found %zu", GLINT_PLAYERS_MAX, n);
     play.known = calloc((size_t)1 << n, sizeof *play.known);
     out->share = calloc(4 * n * v + 2 * v + 1, sizeof *out->share);
-    bool ok = (play.known && out->share) || no_memory(err), ends = false;
+    bool ok = (play.known && out->share) || no_memory(err, "Shapley values"), ends = false;
     if (ok) {
         out->half = out->share + n * v;
         out->first = out->half + n * v;

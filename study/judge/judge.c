@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "targets.h"
+#include "no_memory.h"
 
 /* The time of a pass in the current round. */
 struct measured {
@@ -22,7 +23,7 @@ struct glint_judge {
     struct target *targets;
     uint32_t round;
     struct measured *measured;
-    size_t measured_count, measured_room;
+    size_t measured_count;
 };
 
 const char *glint_target_name(enum glint_target target) {
@@ -108,10 +109,6 @@ void glint_verdict_finish(struct glint_verdict *verdict) {
     *verdict = (struct glint_verdict){0};
 }
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
 /* Reads the reflection and its coverage. If the passes that make it were dropped, it is black with no coverage. */
 static bool read_reflection(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(judge->capture, GLINT_PART_GBUFFER);
@@ -122,13 +119,13 @@ static bool read_reflection(struct glint_judge *judge, struct glint_verdict *ver
     verdict->reflection =
         (struct glint_pixels){gbuffer->width, gbuffer->height, 3, calloc(3 * judge->pixels, sizeof(float))};
     verdict->coverage = calloc(judge->pixels, 1);
-    return (verdict->reflection.values && verdict->coverage) || no_memory(err);
+    return (verdict->reflection.values && verdict->coverage) || no_memory(err, "judge");
 }
 
 static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(judge->replay, &count);
-    if (!(verdict->passes = calloc(count + 1, sizeof *verdict->passes))) return no_memory(err);
+    if (!(verdict->passes = calloc(count + 1, sizeof *verdict->passes))) return no_memory(err, "judge");
     for (size_t i = 0; i < count; i++) {
         struct glint_verdict_pass *pass = &verdict->passes[verdict->pass_count++];
         *pass = (struct glint_verdict_pass){.pass = results[i].pass,
@@ -160,7 +157,7 @@ static bool compare_with_target(struct glint_judge *judge, const struct target *
 static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *pipeline, const struct target *target,
                        struct glint_verdict *verdict, struct glint_error *err) {
     uint8_t *compared = target ? malloc(judge->pixels + 1) : NULL;
-    if (target && !compared) return no_memory(err);
+    if (target && !compared) return no_memory(err, "judge");
     for (size_t i = 0; compared && i < judge->pixels; i++)
         compared[i] = verdict->coverage[i] && judge->surfaces[i] != GLINT_SURFACE_NONE &&
                       !(target->error && isinf(target->error[i])); /* the target is unknown there */
@@ -220,13 +217,9 @@ static const struct measured *find_measured(const struct glint_judge *judge, uin
 }
 
 static bool add_measured(struct glint_judge *judge, const struct glint_pass_result *result, struct glint_error *err) {
-    if (judge->measured_count == judge->measured_room) {
-        const size_t room = 2 * judge->measured_room + 64;
-        struct measured *larger = realloc(judge->measured, room * sizeof *larger);
-        if (!larger) return no_memory(err);
-        judge->measured = larger;
-        judge->measured_room = room;
-    }
+    struct measured *larger = realloc(judge->measured, (judge->measured_count + 1) * sizeof *larger);
+    if (!larger) return no_memory(err, "judge");
+    judge->measured = larger;
     judge->measured[judge->measured_count++] = (struct measured){result->key, result->time.median_ns};
     return true;
 }
@@ -261,7 +254,7 @@ bool glint_judge_time(struct glint_judge *judge, const struct glint_pipeline *pi
     *cost = (struct glint_cost){0};
     if (!glint_replay_run(judge->replay, pipeline, &options, progress, user, err)) return false;
     const struct glint_pass_result *results = glint_replay_results(judge->replay, &count);
-    bool ok = (cost->passes = calloc(count + 1, sizeof *cost->passes)) != NULL || no_memory(err);
+    bool ok = (cost->passes = calloc(count + 1, sizeof *cost->passes)) != NULL || no_memory(err, "judge");
     for (size_t i = 0; ok && i < count; i++) ok = !results[i].ran || add_cost(judge, &results[i], cost, err);
     if (!ok) glint_cost_finish(cost);
     return ok;

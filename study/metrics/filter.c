@@ -62,12 +62,8 @@ static void filter_some_columns(void *user, size_t first, size_t last) {
         }
 }
 
-void filter_rows(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel) {
-    struct filter filter = {from, to, width, height, kernel};
-    parallel_rows(height, filter_some_rows, &filter);
-}
-
-void filter_columns(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel) {
-    struct filter filter = {from, to, width, height, kernel};
-    parallel_rows(height, filter_some_columns, &filter);
+void filter_plane(const float *from, float *scratch, float *to, uint32_t width, uint32_t height,
+                  const struct kernel *rows, const struct kernel *columns) {
+    parallel_rows(height, filter_some_rows, &(struct filter){from, scratch, width, height, rows});
+    parallel_rows(height, filter_some_columns, &(struct filter){scratch, to, width, height, columns});
 }

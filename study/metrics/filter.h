@@ -11,8 +11,8 @@ struct kernel {
     float taps[2 * MAX_RADIUS + 1]; /* taps[0] is at -radius */
 };
 
-/* `to` must not be `from`. */
-void filter_rows(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel);
-void filter_columns(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel);
+/* Filters the rows with one kernel and the columns with another. The three planes must be different. */
+void filter_plane(const float *from, float *scratch, float *to, uint32_t width, uint32_t height,
+                  const struct kernel *rows, const struct kernel *columns);
 
 #endif

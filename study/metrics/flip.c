@@ -93,29 +93,19 @@ static const struct flip_image *image_of(const struct flip *f) {
 }
 
 /* Lengths of the gradients in work[0] and work[1]. Lightness is Yy / 116; its offset vanishes in derivatives. */
-static void to_lengths(const struct flip *f, size_t first, size_t last, float *lengths) {
+static void to_lengths(void *user, size_t first, size_t last) {
+    const struct flip *f = user;
     const uint32_t width = f->c->found->width;
     for (size_t i = first * width; i < last * width; i++)
-        lengths[i] = sqrtf(f->work[0][i] * f->work[0][i] + f->work[1][i] * f->work[1][i]) / 116;
+        f->lengths[i] = sqrtf(f->work[0][i] * f->work[0][i] + f->work[1][i] * f->work[1][i]) / 116;
 }
 
-static void to_edges(void *user, size_t first, size_t last) {
-    const struct flip *f = user;
-    to_lengths(f, first, last, image_of(f)->edge);
-}
-
-static void to_points(void *user, size_t first, size_t last) {
-    const struct flip *f = user;
-    to_lengths(f, first, last, image_of(f)->point);
-}
-
-static void find_features(struct flip *f, const struct kernel *derivative, void (*combine)(void *, size_t, size_t)) {
+static void find_features(struct flip *f, const struct kernel *derivative, float *lengths) {
     const uint32_t width = f->c->found->width, height = f->c->found->height;
-    filter_rows(f->opponent[0], f->work[2], width, height, derivative);
-    filter_columns(f->work[2], f->work[0], width, height, &f->smooth);
-    filter_rows(f->opponent[0], f->work[2], width, height, &f->smooth);
-    filter_columns(f->work[2], f->work[1], width, height, derivative);
-    parallel_rows(height, combine, f);
+    filter_plane(f->opponent[0], f->work[2], f->work[0], width, height, derivative, &f->smooth);
+    filter_plane(f->opponent[0], f->work[2], f->work[1], width, height, &f->smooth, derivative);
+    f->lengths = lengths;
+    parallel_rows(height, to_lengths, f);
 }
 
 /* Takes filtered Yy, Cx and both Gaussians of Cz from work[0] … work[3]. */
@@ -143,18 +133,16 @@ static void filter_color(struct flip *f) {
                   {f->opponent[2], &f->blue_yellow[0]},
                   {f->opponent[2], &f->blue_yellow[1]}};
     float *scratch = image_of(f)->lab[0]; /* free to use, since it is written later */
-    for (int k = 0; k < 4; k++) {
-        filter_rows(steps[k].from, scratch, width, height, steps[k].kernel);
-        filter_columns(scratch, f->work[k], width, height, steps[k].kernel);
-    }
+    for (int k = 0; k < 4; k++)
+        filter_plane(steps[k].from, scratch, f->work[k], width, height, steps[k].kernel, steps[k].kernel);
     parallel_rows(height, to_hunt, f);
 }
 
 static void make_image(struct flip *f, bool found) {
     f->found = found;
     parallel_rows(f->c->found->height, to_opponent, f);
-    find_features(f, &f->edge, to_edges);
-    find_features(f, &f->point, to_points);
+    find_features(f, &f->edge, image_of(f)->edge);
+    find_features(f, &f->point, image_of(f)->point);
     filter_color(f);
 }
 

@@ -17,9 +17,9 @@ struct flip {
     const struct comparison *c;
     size_t pixels;
     struct kernel achromatic, red_green, blue_yellow[2], smooth, edge, point;
-    float share[2]; /* weights of the two Gaussians of blue-yellow */
-    float *planes;  /* memory of all following planes */
-    float *opponent[3], *work[4];
+    float share[2];                         /* weights of the two Gaussians of blue-yellow */
+    float *planes;                          /* memory of all following planes */
+    float *opponent[3], *work[4], *lengths; /* lengths: where find_features writes */
     struct flip_image of[IMAGES];
     float exposure; /* f-stops */
     bool tone_mapped;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "glint/sort.h"
+#include "random.h"
 #include "threads.h"
 
 static const double TAIL = 0.025; /* on either side of a 95 % interval */
@@ -24,14 +25,6 @@ struct bootstrap {
     double *sums;    /* [worker][row][quantity] */
     uint32_t *drawn; /* [worker][tile] */
 };
-
-/* splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014). */
-static uint64_t next_random(uint64_t *state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
 
 /* How often each tile is drawn. A resample has a stream of its own, whichever thread it runs on. */
 static void draw_tiles(const struct bootstrap *b, size_t index, uint32_t *drawn) {

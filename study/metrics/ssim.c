@@ -88,10 +88,7 @@ bool map_ssim(struct comparison *c, struct glint_error *err) {
     s.map = malloc(pixels * sizeof *s.map);
     parallel_rows(height, show_rows, &s);
     const struct kernel kernel = gaussian_window();
-    for (int k = 0; k < MEANS; k++) {
-        filter_rows(s.displayed[k], scratch, width, height, &kernel);
-        filter_columns(scratch, s.means[k], width, height, &kernel);
-    }
+    for (int k = 0; k < MEANS; k++) filter_plane(s.displayed[k], scratch, s.means[k], width, height, &kernel, &kernel);
     if (s.map) parallel_rows(height, compare_rows, &s);
     free(planes);
     c->ssim = s.map;

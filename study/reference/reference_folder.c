@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "glint/exr.h"
+#include "no_memory.h"
+#include "values.h"
 
 enum { IMAGES = 4 };
 /* The mean comes last, since the last image of a run is its reflection. */
@@ -29,10 +31,6 @@ static const char *image_name(int i) {
     return name;
 }
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
-}
-
 /* ---- Reading ---- */
 
 static bool read_half(struct glint_run *run, const char *folder, const char *name, const struct glint_part_info *part,
@@ -41,9 +39,8 @@ static bool read_half(struct glint_run *run, const char *folder, const char *nam
     if (!image || image->width != part->width || image->height != part->height || image->components != 4)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected R G B A of %u × %u", folder, name,
                           part->width, part->height);
-    *pixels = (struct glint_pixels){part->width, part->height, 4, NULL};
-    pixels->values = malloc((size_t)part->width * part->height * 4 * sizeof *pixels->values);
-    return pixels->values ? glint_run_read(run, image, GLINT_F32, pixels->values, err) : no_memory(err);
+    *pixels = (struct glint_pixels){part->width, part->height, 4, study_run_values(run, image, err)};
+    return pixels->values != NULL;
 }
 
 static bool read_folder(struct glint_reference *reference, struct glint_run *run, struct glint_error *err) {
@@ -98,8 +95,7 @@ bool glint_study_run_error(struct glint_run *run, float **error, struct glint_er
     if (image->components != 1)
         return glint_fail(err, GLINT_ERROR_FORMAT, "image %s: expected one channel, found %s", image->name,
                           image->channels);
-    *error = malloc((size_t)image->width * image->height * sizeof **error);
-    return *error ? glint_run_read(run, image, GLINT_F32, *error, err) : no_memory(err);
+    return (*error = study_run_values(run, image, err)) != NULL;
 }
 
 /* ---- Writing ---- */
@@ -125,7 +121,7 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
     char *text = glint_replay_json(reference->replay, err);
     json_t *record = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
-    if (!record) return text && no_memory(err);
+    if (!record) return text && no_memory(err, "reference");
     json_t *own = reference_json(reference);
     json_t *list = json_array(), *last = last_run_pass(record);
     for (int i = 0; i < IMAGES; i++)
@@ -139,7 +135,7 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
               json_object_set_new(record, "reference", own) == 0 && json_object_set_new(last, "images", list) == 0;
     json_decref(reference->record);
     reference->record = record;
-    return ok || no_memory(err);
+    return ok || no_memory(err, "reference");
 }
 
 static void fill_part(const struct glint_pixels *pixels, int i, struct glint_exr_channel channels[4],
@@ -198,7 +194,7 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
         json_object_set_new(image, "file", json_string(file));
     }
     char *text = json_dumps(reference->record, JSON_REAL_PRECISION(17));
-    const bool written = text ? glint_run_write_json(reference->folder, text, err) : no_memory(err);
+    const bool written = text ? glint_run_write_json(reference->folder, text, err) : no_memory(err, "reference");
     free(text);
     if (!written) return false;
     if (!reference->state.begun) reference_remove_round(reference);

@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
-}
+#include "no_memory.h"
 
 static json_t *values_json(const struct glint_pipeline *pipeline, const struct glint_pass *pass) {
     json_t *values = json_object();
@@ -53,7 +51,7 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
     free(text);
     json_decref(all);
     json_decref(passes);
-    return reference->settings || (ok && no_memory(err));
+    return reference->settings || (ok && no_memory(err, "reference"));
 }
 
 static json_t *noise_json(const struct glint_reference_state *state) {

@@ -5,17 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
-/* splitmix64, S. Vigna */
-static double next_unit(uint64_t *state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
+#include "no_memory.h"
+#include "random.h"
 
 /* A step along one axis away from the centre, and how it changes the figures. */
 struct move {
@@ -174,7 +165,7 @@ static double fit_moves(const struct search *search, struct profile *profile, do
 static bool evaluate_moves(struct search *search, const struct profile *profile, double worth, double *constraint,
                            struct glint_error *err) {
     double *steps = malloc((search->count + 1) * sizeof *steps);
-    if (!steps) return no_memory(err);
+    if (!steps) return no_memory(err, "search");
     memcpy(steps, profile->centre, search->count * sizeof *steps);
     for (size_t a = 0; a < search->count; a++) {
         const struct move *move = profile->chosen[a] ? &profile->moves[profile->chosen[a] - 1] : NULL;
@@ -220,7 +211,7 @@ static bool bisect_to_limit(struct search *search, struct profile *profile, stru
     enum { HALVINGS = 5 };
     double *end = profile->before, low = 0, high = 1;
     double *steps = malloc((search->count + 1) * sizeof *steps);
-    if (!steps) return no_memory(err);
+    if (!steps) return no_memory(err, "search");
     memcpy(end, profile->centre, search->count * sizeof *end);
     for (size_t i = 0; i < profile->count; i++) {
         const struct move *move = &profile->moves[i];
@@ -294,7 +285,7 @@ static size_t pick_numbers(const struct search *search, const struct profile *pr
 static bool polish_best(struct search *search, struct profile *profile, struct glint_error *err) {
     const size_t left = search->options->max_points - search->result->count;
     size_t *axes = calloc(search->count + 1, sizeof *axes);
-    if (!axes) return no_memory(err);
+    if (!axes) return no_memory(err, "search");
     const size_t count = pick_numbers(search, profile, axes);
     centre_on(search, profile, search->result->best);
     const bool ok = !count || search_polish(search, profile->centre, axes, count, (uint32_t)(left / 2 + 1), err);
@@ -371,29 +362,26 @@ bool glint_search(const struct glint_search_axis *axes, size_t count, const stru
                             .user = user,
                             .result = result,
                             .random = options->seed,
-                            .scratch = calloc(count + 1, sizeof(double))};
+                            .scratch = calloc(4 * count + 1, sizeof(double))};
     size_t moves = 2;
     for (size_t a = 0; a < count; a++) moves += axes[a].choices > 2 ? axes[a].choices : 2;
-    struct profile profile = {.centre = calloc(count + 1, sizeof(double)),
-                              .moves = calloc(moves, sizeof *profile.moves),
-                              .chosen = calloc(count + 1, sizeof *profile.chosen),
+    struct profile profile = {.moves = calloc(moves, sizeof *profile.moves),
                               .skip = calloc(count + 1, sizeof *profile.skip),
-                              .weight = calloc(count + 1, sizeof(double)),
-                              .before = calloc(count + 1, sizeof(double)),
-                              .order = calloc(count + 1, sizeof *profile.order)};
+                              .order = calloc(2 * count + 1, sizeof *profile.order)};
     *result = (struct glint_search_result){.axes = count, .matters = calloc(count + 1, sizeof *result->matters)};
-    bool ok = (search.scratch && profile.centre && profile.moves && profile.chosen && profile.skip && profile.weight &&
-               profile.before && profile.order && result->matters) ||
-              no_memory(&own);
-    ok = ok && run_search(&search, &profile, &own);
+    bool ok = (search.scratch && profile.moves && profile.skip && profile.order && result->matters) ||
+              no_memory(&own, "search");
+    if (ok) {
+        profile.centre = search.scratch + count;
+        profile.weight = profile.centre + count;
+        profile.before = profile.weight + count;
+        profile.chosen = profile.order + count;
+        ok = run_search(&search, &profile, &own);
+    }
     if (!ok) glint_fail(err, own.code, "%s", own.message);
     free(profile.order);
-    free(profile.before);
-    free(profile.weight);
     free(profile.skip);
-    free(profile.chosen);
     free(profile.moves);
-    free(profile.centre);
     free(search.scratch);
     return ok;
 }

@@ -11,7 +11,6 @@ struct search {
     glint_search_evaluate evaluate;
     void *user;
     struct glint_search_result *result;
-    size_t room;
     uint64_t random;
     double *scratch; /* values of the current point */
 };

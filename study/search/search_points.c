@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
+#include "no_memory.h"
 
 void glint_search_result_finish(struct glint_search_result *result) {
     for (size_t i = 0; i < result->count; i++) free(result->points[i].values);
@@ -35,15 +33,11 @@ bool search_is_spent(const struct search *search) {
 static bool add_point(struct search *search, const double *values, const struct glint_search_figures *figures,
                       struct glint_error *err) {
     struct glint_search_result *result = search->result;
-    if (result->count == search->room) {
-        const size_t room = 2 * search->room + 64;
-        struct glint_search_point *larger = realloc(result->points, room * sizeof *larger);
-        if (!larger) return no_memory(err);
-        result->points = larger;
-        search->room = room;
-    }
+    struct glint_search_point *larger = realloc(result->points, (result->count + 1) * sizeof *larger);
+    if (!larger) return no_memory(err, "search");
+    result->points = larger;
     struct glint_search_point point = {malloc((search->count + 1) * sizeof(double)), *figures};
-    if (!point.values) return no_memory(err);
+    if (!point.values) return no_memory(err, "search");
     memcpy(point.values, values, search->count * sizeof(double));
     const size_t i = result->count++;
     result->points[i] = point;

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "axis.h"
+#include "no_memory.h"
+#include "random.h"
 
 enum { POINTS = 100000 };
 
@@ -13,12 +15,8 @@ struct glint_space {
     struct axis *axes;
     size_t axis_count;
     char (*values)[VALUE_SIZE]; /* axis_count a point */
-    size_t count, room;
+    size_t count;
 };
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
 
 void glint_space_destroy(struct glint_space **pointer) {
     struct glint_space *space = *pointer;
@@ -63,13 +61,13 @@ static struct glint_space *create_space(const struct glint_pipeline *base, const
     struct glint_space *space = calloc(1, sizeof *space);
     struct glint_pipeline **pipelines = NULL;
     size_t count = 0, variants = 1;
-    bool ok = space != NULL || no_memory(err);
+    bool ok = space != NULL || no_memory(err, "parameter space");
     while (ok && axes[space->axis_count]) space->axis_count++;
     if (ok && !space->axis_count) ok = glint_fail(err, GLINT_ERROR_USAGE, "expected an axis to vary");
-    ok = ok && ((space->axes = calloc(space->axis_count, sizeof *space->axes)) || no_memory(err)) &&
+    ok = ok && ((space->axes = calloc(space->axis_count, sizeof *space->axes)) || no_memory(err, "parameter space")) &&
          (space->base = glint_pipeline_copy(base, err)) && init_axes(space, axes, true, NULL, 0, err);
     for (size_t a = 0; ok && a < space->axis_count; a++) variants += space->axes[a].count;
-    ok = ok && ((pipelines = calloc(variants, sizeof *pipelines)) || no_memory(err)) &&
+    ok = ok && ((pipelines = calloc(variants, sizeof *pipelines)) || no_memory(err, "parameter space")) &&
          list_variants(space, pipelines, &count, err) &&
          init_axes(space, axes, false, (const struct glint_pipeline *const *)pipelines, count, err);
     for (size_t i = 0; pipelines && i < variants; i++)
@@ -102,13 +100,9 @@ static struct glint_pipeline *build_pipeline(const struct glint_space *space, si
 static bool add_point(struct glint_space *space, struct glint_error *err) {
     if (space->count == POINTS)
         return glint_fail(err, GLINT_ERROR_LIMIT, "expected at most %d points; fewer values, or a sample", POINTS);
-    if (space->count == space->room) {
-        const size_t room = 2 * space->room + 64;
-        void *larger = realloc(space->values, room * space->axis_count * sizeof *space->values);
-        if (!larger) return no_memory(err);
-        space->values = larger;
-        space->room = room;
-    }
+    void *larger = realloc(space->values, (space->count + 1) * space->axis_count * sizeof *space->values);
+    if (!larger) return no_memory(err, "parameter space");
+    space->values = larger;
     memset(value_at(space, space->count++, 0), 0, space->axis_count * sizeof *space->values);
     return true;
 }
@@ -145,18 +139,6 @@ struct glint_space *glint_space_create(const struct glint_pipeline *base, const 
     return space;
 }
 
-/* splitmix64, S. Vigna: the same numbers everywhere. */
-static uint64_t next_random(uint64_t *state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-}
-
-static double next_unit(uint64_t *state) {
-    return (double)(next_random(state) >> 11) * 0x1p-53;
-}
-
 struct glint_space *glint_space_create_hypercube(const struct glint_pipeline *base, const char *const *axes,
                                                  uint32_t count, uint64_t seed, struct glint_error *err) {
     if (count == 0 || count > POINTS) {
@@ -165,7 +147,7 @@ struct glint_space *glint_space_create_hypercube(const struct glint_pipeline *ba
     }
     struct glint_space *space = create_space(base, axes, err);
     uint32_t *strata = calloc(count, sizeof *strata);
-    bool ok = space && (strata || no_memory(err));
+    bool ok = space && (strata || no_memory(err, "parameter space"));
     for (uint32_t i = 0; ok && i < count; i++) ok = add_point(space, err);
     for (size_t a = 0; ok && a < space->axis_count; a++) {
         for (uint32_t i = 0; i < count; i++) { /* Fisher and Yates */
@@ -252,7 +234,7 @@ bool glint_space_sort(struct glint_space *space, const char *const *slots, struc
     double *ranks = calloc(space->count * axes + 1, sizeof *ranks);
     size_t *order = calloc(axes + 1, sizeof *order);
     char(*values)[VALUE_SIZE] = calloc(space->count * axes + 1, sizeof *values);
-    const bool ok = (sorting && ranks && order && values) || no_memory(err);
+    const bool ok = (sorting && ranks && order && values) || no_memory(err, "parameter space");
     if (ok) order_axes(space, slots, order);
     for (size_t i = 0; ok && i < space->count; i++) {
         sorting[i] = (struct sorting){i, axes, ranks + i * axes};

@@ -7,17 +7,6 @@
 
 #include "values.h"
 
-static const struct glint_image *picture_of(struct glint_replay *replay, const struct glint_pass *pass) {
-    const struct glint_image *last = NULL;
-    for (size_t i = 0; i < pass->row_count; i++) {
-        const struct glint_row *row = &pass->rows[i];
-        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
-        const struct glint_image *image = glint_replay_find_image(replay, row->name);
-        if (image) last = image;
-    }
-    return last;
-}
-
 const struct glint_image *glint_study_picture(struct glint_replay *replay) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
@@ -25,7 +14,8 @@ const struct glint_image *glint_study_picture(struct glint_replay *replay) {
     bool composed = false;
     for (size_t i = 0; i < count; i++) {
         composed = composed || glint_pass_role(results[i].pass, GLINT_ROLE_COMPOSED);
-        const struct glint_image *image = composed && results[i].shown ? picture_of(replay, results[i].pass) : NULL;
+        const struct glint_image *image =
+            composed && results[i].shown ? study_radiance(replay, results[i].pass, NULL) : NULL;
         if (image) last = image;
     }
     return last;

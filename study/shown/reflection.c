@@ -28,20 +28,8 @@ uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error 
     return surfaces;
 }
 
-/* The last of the pass's images that holds a reflection at full resolution, of those that `compose` reads where the run
-   has it: water and glass are laid over the picture afterwards, and maps that only they read are no reflection of it. */
-static const struct glint_image *reflection_of(struct glint_replay *replay, const struct glint_pass *pass,
-                                               const struct glint_pass *compose) {
-    const struct glint_image *last = NULL;
-    for (size_t i = 0; i < pass->row_count; i++) {
-        const struct glint_row *row = &pass->rows[i];
-        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
-        const struct glint_image *image = glint_replay_find_image(replay, row->name);
-        if (image && (!compose || glint_pass_row(compose, GLINT_ROW_READ, row->name))) last = image;
-    }
-    return last;
-}
-
+/* Only images that `compose` reads count, if the run has it: water and glass are composed afterwards, and images that only they read are not
+   reflections in the opaque surfaces. */
 const struct glint_image *glint_study_reflection_image(struct glint_replay *replay) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
@@ -51,7 +39,7 @@ const struct glint_image *glint_study_reflection_image(struct glint_replay *repl
         if (results[i].shown && is_compose(results[i].pass)) compose = results[i].pass;
     for (size_t i = 0; i < count; i++) {
         const struct glint_image *image =
-            results[i].ran && results[i].pass != compose ? reflection_of(replay, results[i].pass, compose) : NULL;
+            results[i].ran && results[i].pass != compose ? study_radiance(replay, results[i].pass, compose) : NULL;
         if (image) last = image;
     }
     return last;
@@ -86,9 +74,7 @@ bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixe
     }
     if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection to compare with");
     *pixels = (struct glint_pixels){last->width, last->height, last->components, NULL};
-    pixels->values = malloc((size_t)last->width * last->height * last->components * sizeof *pixels->values);
-    return pixels->values ? glint_run_read(run, last, GLINT_F32, pixels->values, err)
-                          : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", last->name);
+    return (pixels->values = study_run_values(run, last, err)) != NULL;
 }
 
 /* The value of a parameter as text for glint_pipeline_set; false if the pipeline has no such parameter. */

@@ -12,4 +12,10 @@ void *study_values(struct glint_replay *replay, const struct glint_image *image,
 float *study_channels(struct glint_capture *capture, const char *part, const char *const *channels, size_t count,
                       struct glint_error *err);
 
+/* The same of an image of a run folder, as GLINT_F32. */
+float *study_run_values(struct glint_run *run, const struct glint_run_image *image, struct glint_error *err);
+/* The last of a pass's images of the last run that holds radiance at full resolution; `reader`: only of those that this pass reads (NULL: any). */
+const struct glint_image *study_radiance(struct glint_replay *replay, const struct glint_pass *pass,
+                                         const struct glint_pass *reader);
+
 #endif

@@ -1,6 +1,7 @@
 /* Replays a frame unperturbed and with perturbed values, and compares the images. */
 #include "measuring.h"
 #include "values.h"
+#include "no_memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,10 +26,6 @@ static void measuring_finish(struct measuring *m) {
     for (int k = 0; k < 3; k++) free(m->decided[k]);
     free(m->tracked);
     free(m->surfaces);
-}
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "stability: out of memory");
 }
 
 /* ---- Runs ---- */
@@ -88,7 +85,7 @@ static bool track_image(struct measuring *m, const struct glint_image *from, str
     *t = (struct tracked){.out = image, .input = -1, .decision = -1};
     if (!image->name || !(t->base = read_bits(m, from, err)) || !(image->flips = calloc(texels, 1)) ||
         (!image->discrete && !(image->change = calloc(texels, sizeof *image->change))))
-        return no_memory(err);
+        return no_memory(err, "stability");
     if (!image->discrete) texels_begin(t);
     return true;
 }
@@ -159,7 +156,8 @@ static bool begin_measuring(struct measuring *m, struct glint_error *err) {
     s->images = calloc(images + 1, sizeof *s->images);
     m->tracked = calloc(images + 1, sizeof *m->tracked);
     for (int k = 0; k < 3; k++) m->decided[k] = calloc(pixels, sizeof *m->decided[k]);
-    if (!s->images || !m->tracked || !m->decided[0] || !m->decided[1] || !m->decided[2]) return no_memory(err);
+    if (!s->images || !m->tracked || !m->decided[0] || !m->decided[1] || !m->decided[2])
+        return no_memory(err, "stability");
     bool ok = track_all(m, NULL, err);
     for (size_t p = 0; ok && p < count; p++)
         if (results[p].shown) ok = track_all(m, results[p].pass, err);

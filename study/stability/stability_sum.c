@@ -6,10 +6,7 @@
 #include <string.h>
 
 #include "glint/sort.h"
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "stability: out of memory");
-}
+#include "no_memory.h"
 
 /* Whether a texel is compared: it must cover a reflecting pixel, unless the image is not per_pixel. */
 static bool is_compared(const struct measuring *m, const struct glint_stability_image *image, uint32_t x, uint32_t y) {
@@ -69,7 +66,7 @@ static bool find_amplification(const struct measuring *m, const struct tracked *
     struct glint_stability_image *image = t->out;
     if (!image->pass || !image->change) return true;
     image->amplification = calloc((size_t)image->width * image->height, sizeof *image->amplification);
-    if (!image->amplification) return no_memory(err);
+    if (!image->amplification) return no_memory(err, "stability");
     for (uint32_t y = 0; y < image->height; y++)
         for (uint32_t x = 0; x < image->width; x++) {
             const size_t at = (size_t)y * image->width + x;
@@ -114,7 +111,7 @@ static bool sum_image(const struct measuring *m, const struct tracked *t, struct
     float *values = malloc((size_t)image->width * image->height * sizeof *values);
     size_t count = 0;
     double flips = 0;
-    if (!values) return no_memory(err);
+    if (!values) return no_memory(err, "stability");
     for (uint32_t y = 0; y < image->height; y++)
         for (uint32_t x = 0; x < image->width; x++) {
             const size_t at = (size_t)y * image->width + x;
@@ -176,7 +173,7 @@ static bool sum_pass(const struct measuring *m, const struct glint_pass *of, siz
     for (size_t i = 0; i < s->image_count; i++) any |= s->images[i].pass == of && s->images[i].per_pixel;
     if (!any) return true;
     struct pass_sums sums = {calloc(pixels, sizeof *sums.amplification), calloc(pixels, 1)};
-    const bool ok = (sums.amplification && sums.flips) || no_memory(err);
+    const bool ok = (sums.amplification && sums.flips) || no_memory(err, "stability");
     for (size_t i = 0; ok && i < s->image_count; i++)
         if (s->images[i].pass == of && s->images[i].per_pixel) add_image(m, &s->images[i], &sums);
     struct glint_stability_pass *pass = &s->passes[s->pass_count++];
@@ -197,7 +194,7 @@ bool stability_sum_up(struct measuring *m, struct glint_error *err) {
     s->start = calloc(pixels, sizeof *s->start);
     s->flip_start = calloc(pixels, sizeof *s->flip_start);
     s->amplification = calloc(pixels, sizeof *s->amplification);
-    bool ok = (s->passes && s->start && s->flip_start && s->amplification) || no_memory(err);
+    bool ok = (s->passes && s->start && s->flip_start && s->amplification) || no_memory(err, "stability");
     if (ok) normalise_changes(m);
     if (ok) find_means(m);
     for (size_t i = 0; ok && i < s->image_count; i++)

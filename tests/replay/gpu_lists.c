@@ -128,7 +128,7 @@ static void wrong_declarations_are_refused(void **state) {
     MADE(&made, pass_with(&made_worker, rows, "list_a", none, &pass));
     err = (struct glint_error){0};
     assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
-    fixture_says(&err, "list list_a: expected R32UI, and 0xFFFFFFFF for nothing");
+    fixture_says(&err, "list list_a: expected R32UI and a fallback value of 0xFFFFFFFF");
     struct glint_row wide = {.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16};
     MADE(&made, pass_with(&made_worker, rows, "list_b", none, &pass));
     rows[pass.row_count++] = wide;
