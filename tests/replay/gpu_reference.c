@@ -282,7 +282,7 @@ static void a_folder_of_something_else_is_refused(void **state) {
             "cubemap_trace.values.tolerance is 0.02 there and 0.03 here");
     fixture_run(fixture, NULL);
     fixture_write_run(fixture, "plain", plain);
-    refused(fixture, plain, NULL, "no reference");
+    refused(fixture, plain, NULL, "not a reference");
     /* Anew, with the other setting. */
     reference = open_reference(fixture, folder, "cubemap_trace.tolerance=0.03", true, &err);
     assert_non_null(reference);

@@ -281,7 +281,7 @@ static void what_is_assumed_is_a_number_of_the_pass(void **state) {
     struct glint_error err;
     MAKE(&made, &sure);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    fixture_says(&err, "sure/v: ASSUMED w: expected a number");
+    fixture_says(&err, "sure/v: ASSUMED w: expected a numeric parameter");
     assert_null(strstr(err.message, "there"));
 }
 

@@ -124,7 +124,7 @@ static void what_cannot_be_is_said(void **state) {
     glint_fails(1, "No such file", "reference", in_folder("absent.exr"));
     glint_fails(2, "screen_trace.values.thickness is 0.01 there and 0.02 here", "reference", in_folder("room.exr"),
                 "-o", in_folder("kept"), "--set=screen_trace.thickness=0.02");
-    glint_fails(2, "a run that is no reference", "reference", in_folder("room.exr"), "-o", in_folder("run"));
+    glint_fails(2, "a run that is not a reference", "reference", in_folder("room.exr"), "-o", in_folder("run"));
     glint_fails(2, "between 0 and 1", "reference", in_folder("room.exr"), "--noise=1");
     glint_fails(2, "expected a whole number", "reference", in_folder("room.exr"), "--rays=0");
     glint_fails(2, "one capture", "reference", in_folder("room.exr"), in_folder("matte.exr"));

@@ -12,10 +12,10 @@
 #include "shared/tiles.glsl"
 #include "shared/probe/record.glsl"
 
-// What a texel of another surface weighs: where all four are, they are better than nothing.
+// The small weight of texels of another surface, which are used if all four are.
 const float ELSEWHERE = 1e-4;
 
-// Of a pane: at one face, then all ways between the two: R + (1 - R)² R (1 + R² + …) = 2R/(1 + R).
+// Reflectance of a pane: of the first face plus all interreflections of both: R + (1 - R)² R (1 + R² + …) = 2R/(1 + R).
 float reflected_share(float cosine) {
     float face = face_reflectance(cosine, index);
     return 2.0 * face / (1.0 + face);
@@ -41,7 +41,7 @@ vec3 mirrored(ivec2 pixel, float depth_m) {
     return sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0);
 }
 
-// Whether there is water before a transparent surface: that is then a part of what the water hides, not over it.
+// Whether there is water in front of a transparent surface, which then is behind the water and not composed over it.
 bool under_water(ivec2 pixel, float depth_m) {
     return has_composed_water && texelFetch(water_depth, pixel, 0).x < depth_m;
 }
