@@ -183,7 +183,8 @@ bool glint_writer_finish(struct glint_writer *writer, struct glint_error *err) {
     writer->error = (struct glint_error){0};
     if (writer->count) qsort(writer->parts, writer->count, sizeof *writer->parts, gbuffer_first);
     if (!attach_frame(writer, &writer->error) || !check_all(writer, &writer->error)) writer->result = false;
-    else if (!writer->options.background || pthread_create(&writer->worker, NULL, run_worker, writer)) run_worker(writer);
+    else if (!writer->options.background || pthread_create(&writer->worker, NULL, run_worker, writer))
+        run_worker(writer);
     else writer->started = true;
     if (!writer->started && !writer->result && err) *err = writer->error;
     return writer->started || writer->result;
