@@ -1,4 +1,4 @@
-/* Probed pixels of the street: what is told of them is what the run computed, and telling changes nothing. */
+/* Probed pixels of the street: the recorded values are those that the run computed, and recording changes no image. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -183,7 +183,7 @@ static size_t check_mixture(const struct glint_probe_trace *story, const char *s
     return count;
 }
 
-/* A single colour is what the ray found; where a cube map shows some sky, both are told. */
+/* A single colour is what the ray found; where a cube map shows some sky, both are recorded. */
 static size_t check_color(const struct glint_probe_trace *story, const struct kept *image, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;

@@ -43,6 +43,6 @@ uint32_t number(const struct glint_probe_record *record, const char *value);
 void same(const struct glint_probe_record *record, const char *value, const struct kept *image, uint32_t x, uint32_t y,
           uint32_t component);
 /* Sums of floats: off by no more than a few roundings of the largest part. */
-void near(double told, double found, double largest);
+void near(double recorded, double found, double largest);
 
 #endif

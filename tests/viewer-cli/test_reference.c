@@ -58,13 +58,13 @@ static void it_is_kept_and_goes_on(void **state) {
 static void how_far_it_is_is_told_on_request(void **state) {
     (void)state;
     struct outcome silent = glint("reference", in_folder("room.exr"), "--rays=16", NULL),
-                   told = glint("reference", in_folder("room.exr"), "--rays=16", "--progress", NULL);
+                   progress = glint("reference", in_folder("room.exr"), "--rays=16", "--progress", NULL);
     assert_int_equal(silent.status, 0);
-    assert_int_equal(told.status, 0);
+    assert_int_equal(progress.status, 0);
     assert_string_equal(silent.err, "");
-    assert_contains(told.err, "0 of 16 rays: 0.0 %");
+    assert_contains(progress.err, "0 of 16 rays: 0.0 %");
     outcome_free(&silent);
-    outcome_free(&told);
+    outcome_free(&progress);
 }
 
 /* Against itself nothing is left; against both, both answers are those of one each. */
