@@ -1,4 +1,4 @@
-/* Many small allocations that live and die together. */
+/* An arena: many small allocations that are freed together. */
 #include "arena.h"
 
 #include <stdlib.h>

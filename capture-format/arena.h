@@ -1,4 +1,4 @@
-/* Many small allocations that live and die together. */
+/* An arena: many small allocations that are freed together. */
 #ifndef GLINT_ARENA_H
 #define GLINT_ARENA_H
 
@@ -6,10 +6,10 @@
 
 struct glint_arena {
     struct glint_arena_block *last;
-    size_t bytes; /* taken so far */
+    size_t bytes; /* allocated so far */
 };
 
-/* Zeroed, aligned for any type; NULL when memory is out. */
+/* Zeroed, aligned for any type; NULL if memory is exhausted. */
 void *glint_arena_take(struct glint_arena *arena, size_t bytes);
 void *glint_arena_copy(struct glint_arena *arena, const void *data, size_t bytes);
 char *glint_arena_string(struct glint_arena *arena, const char *string);

@@ -1,4 +1,4 @@
-/* The structs of capture.h to EXR attributes and back, by the rows of the registry. */
+/* Converts the structs of capture.h to EXR attributes and back, by the rows of the registry. */
 #ifndef GLINT_ATTRIBUTES_H
 #define GLINT_ATTRIBUTES_H
 
@@ -11,20 +11,20 @@ struct glint_attribute_list {
     size_t count, capacity;
 };
 
-/* A place for one more, zeroed; NULL when memory is out. */
+/* Adds a zeroed element; NULL if memory is exhausted. */
 struct glint_exr_attribute *glint_attribute_push(struct glint_arena *arena, struct glint_attribute_list *list);
 bool glint_attribute_push_string(struct glint_arena *arena, struct glint_attribute_list *list, const char *name,
                                  const char *value);
 
-/* Adds what `from` (the scope's struct) holds. False when memory is out or a value has no name. */
+/* Adds the attributes of `from`, the scope's struct. False if memory is exhausted or a value has no name. */
 bool glint_attributes_encode(struct glint_arena *arena, struct glint_attribute_list *list, enum glint_scope scope,
                              const void *from);
 /* Fills `to` (zeroed) from the part's attributes and checks them: types, ranges, matrices, volumes. */
 bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
                              void *to);
-/* The nearest rotation in place of one that is less than double precise; the position stays. Sets rotation_error. */
+/* Replaces a rotation that is not precise to double by the nearest rotation, keeping the position. Sets rotation_error. */
 void glint_camera_make_rigid(struct glint_camera *camera);
-/* Whether the name belongs to glint (any `glint.` name). */
+/* Whether the name is glint's: it begins with `glint.` */
 bool glint_attribute_is_ours(const char *name);
 
 #endif

@@ -1,4 +1,4 @@
-/* EXR attributes to the structs of capture.h, by the rows of the registry, and their checks. */
+/* Converts EXR attributes to the structs of capture.h, by the rows of the registry, and checks them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -160,7 +160,7 @@ static bool decode_numbers(struct context *c, const struct glint_exr_attribute *
     case GLINT_KIND_CAMERA_VIEW:
         memcpy(member, n, 16 * sizeof *n);
         if (!check_view(c, n)) return false;
-        glint_camera_make_rigid(member); /* a camera's first member */
+        glint_camera_make_rigid(member); /* the member is the first of struct glint_camera */
         return true;
     case GLINT_KIND_CAMERA_CLIP:
         memcpy(member, n, 16 * sizeof *n);
@@ -215,7 +215,7 @@ bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_p
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
     struct context c = {.check = check, .part = part};
-    /* A group is there as soon as one of its attributes is: the others are then missing. */
+    /* A group exists if one of its attributes does; others that are required are then missing. */
     for (size_t i = 0; i < count; i++)
         if (rows[i].scope == scope && rows[i].group != GLINT_NO_GROUP && glint_exr_attribute(part, rows[i].name))
             *(bool *)((char *)to + rows[i].group) = true;

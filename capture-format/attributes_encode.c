@@ -1,4 +1,4 @@
-/* The structs of capture.h to EXR attributes, by the rows of the registry. */
+/* Converts the structs of capture.h to EXR attributes, by the rows of the registry. */
 #include <stdio.h>
 #include <string.h>
 
@@ -56,7 +56,7 @@ static bool push_classes(struct glint_arena *arena, struct glint_attribute_list 
     return true;
 }
 
-/* Four planes to a matrix keep every bit; there is no attribute type for a list of doubles. */
+/* EXR has no attribute type for a list of doubles, so four planes are stored in a matrix. */
 static bool push_planes(struct glint_arena *arena, struct glint_attribute_list *list, const char *name,
                         const struct glint_cubemap *cubemap) {
     if (cubemap->inner != GLINT_VOLUME_HULL) return true;

@@ -1,11 +1,11 @@
-/* Where a camera stands, and rotations that engines kept in floats. */
+/* Camera positions, and repair of rotations that engines store as floats. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "attributes.h"
 
-/* A rotation off by e leaves e times the residual: rule `matrices` grants 1e-3, so six steps are past a double's digits. */
+/* Each step multiplies the residual by the rotation's error e. Rule `matrices` allows 1e-3, so six steps exceed double precision. */
 void glint_camera_position(const struct glint_camera *camera, double position[3]) {
     const double *m = camera->world_to_view;
     memset(position, 0, 3 * sizeof *position);
@@ -28,7 +28,7 @@ static double product_with_transpose(const double *m, double out[3][3]) {
     return largest;
 }
 
-/* R ← (3 I - R·Rᵀ)·R / 2 goes to the nearest rotation (the polar decomposition's), the error to its square each time. */
+/* The iteration R ← (3 I - R·Rᵀ)·R / 2 converges quadratically to the nearest rotation (that of the polar decomposition). */
 static void towards_rotation(double *m, double product[3][3]) {
     double rows[3][3] = {{0}};
     for (int i = 0; i < 3; i++)
@@ -38,7 +38,7 @@ static void towards_rotation(double *m, double product[3][3]) {
 }
 
 void glint_camera_make_rigid(struct glint_camera *camera) {
-    /* What a rotation computed in double is off by; at 1,000 km it moves nothing by more than a micrometre. */
+    /* The error of a rotation computed in double, which moves nothing by more than a micrometre at 1,000 km. */
     static const double precise = 1e-12;
     double product[3][3], position[3], *m = camera->world_to_view;
     const double error = product_with_transpose(m, product);
@@ -53,7 +53,7 @@ void glint_camera_make_rigid(struct glint_camera *camera) {
         m[4 * i + 3] = -(m[4 * i] * position[0] + m[4 * i + 1] * position[1] + m[4 * i + 2] * position[2]);
 }
 
-/* By so much the camera is moved by an engine that transposes where it should invert, or the other way round. */
+/* The distance by which the camera moves if an engine transposes the matrix instead of inverting it, or vice versa. */
 static double doubt_m(const struct glint_camera *camera, double metres, double *away_m) {
     double p[3];
     glint_camera_position(camera, p);
@@ -62,14 +62,14 @@ static double doubt_m(const struct glint_camera *camera, double metres, double *
 }
 
 size_t glint_frame_notes(const struct glint_frame *frame, char notes[GLINT_NOTES][GLINT_NOTE_LENGTH]) {
-    static const double worth_a_word_m = 1e-4; /* what a 24-bit depth buffer resolves at some 20 m */
+    static const double significant_m = 1e-4; /* the resolution of a 24-bit depth buffer at about 20 m */
     static const char *const names[] = {"glint.worldToView", "glint.previousWorldToView"};
     const struct glint_camera *const cameras[] = {&frame->camera, frame->has_previous ? &frame->previous : NULL};
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     size_t count = 0;
     for (int i = 0; i < 2; i++) {
         double away_m, off_m = cameras[i] ? doubt_m(cameras[i], metres, &away_m) : 0;
-        if (!(off_m >= worth_a_word_m)) continue;
+        if (!(off_m >= significant_m)) continue;
         snprintf(
             notes[count++], GLINT_NOTE_LENGTH,
             "gbuffer: %s: expected a rotation in double precision, found one that is orthonormal to %.2g; %.4g km from "

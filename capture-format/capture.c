@@ -6,13 +6,13 @@
 #include "capture_internal.h"
 #include "hash.h"
 
-static bool memory(const struct glint_check *check) {
+static bool fail_memory(const struct glint_check *check) {
     return glint_fail(check->err, GLINT_ERROR_MEMORY, "%s: out of memory", check->file);
 }
 
 /* ---- siblings ---- */
 
-/* A shot shares one; with GLINT_SIBLING_SHARE this bounds what they take together. */
+/* The captures of a shot share one sibling. Together with GLINT_SIBLING_SHARE this bounds the memory of all siblings. */
 #define MAX_SIBLINGS 8
 
 static struct glint_sibling *open_sibling(struct glint_capture *capture, struct glint_check *check,
@@ -32,7 +32,7 @@ static struct glint_sibling *open_sibling(struct glint_capture *capture, struct 
     sibling->name = glint_arena_string(&capture->arena, part->sibling);
     if (!path || !sibling->name) {
         free(path);
-        memory(check);
+        fail_memory(check);
         return NULL;
     }
     sibling->exr = glint_exr_open(path, &limits, &err);
@@ -45,8 +45,8 @@ static struct glint_sibling *open_sibling(struct glint_capture *capture, struct 
 }
 
 /* Sizes, channels and encodings come from the part of the same name in the sibling; the cube map's own attributes stay. */
-static bool adopt(struct glint_capture *capture, struct glint_check *check, struct glint_part_info *part,
-                  const char *expected, const struct glint_sibling *sibling, struct glint_source *source) {
+static bool adopt_sibling_part(struct glint_capture *capture, struct glint_check *check, struct glint_part_info *part,
+                               const char *expected, const struct glint_sibling *sibling, struct glint_source *source) {
     if (strcmp(sibling->hex, expected))
         return glint_violation(check, GLINT_RULE_SIBLING, part->name, NULL, "%s: expected the hash %s, found %s",
                                part->sibling, expected, sibling->hex);
@@ -80,18 +80,18 @@ static bool resolve_sibling(struct glint_capture *capture, struct glint_check *c
     if (!sibling || !sibling->exr) return sibling && check->report;
     const struct glint_exr_attribute *hash =
         glint_exr_attribute(&capture->exr->parts[i].info, GLINT_SIBLING_HASH_ATTRIBUTE);
-    return adopt(capture, check, part, hash->string, sibling, &capture->sources[i]);
+    return adopt_sibling_part(capture, check, part, hash->string, sibling, &capture->sources[i]);
 }
 
 /* ---- open ---- */
 
-static bool parse(struct glint_capture *capture, struct glint_check *check) {
+static bool parse_headers(struct glint_capture *capture, struct glint_check *check) {
     const size_t count = capture->count = capture->exr->part_count;
     const struct glint_exr_part_info **files = glint_arena_take(&capture->arena, count * sizeof *files);
     capture->parts = glint_arena_take(&capture->arena, count * sizeof *capture->parts);
     capture->sources = glint_arena_take(&capture->arena, count * sizeof *capture->sources);
     capture->siblings = glint_arena_take(&capture->arena, count * sizeof *capture->siblings);
-    if (!files || !capture->parts || !capture->sources || !capture->siblings) return memory(check);
+    if (!files || !capture->parts || !capture->sources || !capture->siblings) return fail_memory(check);
     for (size_t i = 0; i < count; i++) {
         files[i] = &capture->exr->parts[i].info;
         capture->sources[i] = (struct glint_source){.exr = capture->exr, .part = i};
@@ -100,7 +100,7 @@ static bool parse(struct glint_capture *capture, struct glint_check *check) {
             return false;
     }
     if (!glint_parts_check(check, files, capture->parts, count, &capture->frame, &capture->has_frame)) return false;
-    if (!capture->has_frame) /* cube maps alone are measured in units, their colours not exposed */
+    if (!capture->has_frame) /* in a file of cube maps only, lengths are in units and colours are not pre-exposed */
         capture->frame.metres_per_unit = capture->frame.pre_exposure = 1;
     return true;
 }
@@ -109,11 +109,11 @@ struct glint_capture *glint_capture_open_checked(const char *path, const struct 
                                                  struct glint_check *check) {
     struct glint_capture *capture = calloc(1, sizeof *capture);
     if (!capture) {
-        memory(check);
+        fail_memory(check);
         return NULL;
     }
     capture->exr = glint_exr_open(path, limits, check->err);
-    if (!capture->exr || !parse(capture, check)) glint_capture_close(&capture);
+    if (!capture->exr || !parse_headers(capture, check)) glint_capture_close(&capture);
     return capture;
 }
 

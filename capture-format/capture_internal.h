@@ -6,14 +6,14 @@
 #include "part.h"
 #include "perturb.h"
 
-/* Another file in the capture's folder that holds pixels of its cube maps. */
+/* A file in the capture's folder that holds the pixels of its cube maps. */
 struct glint_sibling {
     char *name;
     char hex[33];
     struct glint_exr *exr;
 };
 
-/* Where a part's pixels are. */
+/* The location of a part's pixels. */
 struct glint_source {
     struct glint_exr *exr;
     size_t part;
@@ -32,15 +32,15 @@ struct glint_capture {
     struct glint_perturbation perturbation; /* of what glint_capture_read returns */
 };
 
-/* The reader's open, and validate's: the check decides whether a broken rule ends it. */
+/* Opens a capture for the reader and for validation; `check` decides whether a violated rule is fatal. */
 struct glint_capture *glint_capture_open_checked(const char *path, const struct glint_limits *limits,
                                                  struct glint_check *check);
 
-/* Reports the pixel rules that the part breaks. False: it cannot be read. */
+/* Reports the pixel rules that a part violates. False if it cannot be read. */
 bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capture, size_t part,
                            struct glint_error *err);
 
-/* What decoding needs to know about the frame that a part belongs to. */
+/* Properties of the frame that decoding needs. */
 struct glint_decoder {
     const struct glint_frame *frame;
     const struct glint_camera *camera; /* the one that depth and view-space normals refer to */
@@ -52,16 +52,16 @@ struct glint_decoder glint_decoder_of(const struct glint_capture *capture, const
 
 /* Half or float as stored, which need not be aligned, to float; `count` <= GLINT_BLOCK. */
 void glint_decode_widen(enum glint_stored stored, const uint8_t *in, size_t count, float *out);
-/* In place, `count` <= GLINT_BLOCK values as stored (widened to float) to canonical ones. */
+/* Decodes stored values, widened to float, to canonical ones in place; `count` <= GLINT_BLOCK. */
 void glint_decode_depth(const struct glint_decoder *d, float *v, size_t count);
 void glint_decode_roughness(const struct glint_decoder *d, float *v, size_t count);
 void glint_decode_motion(const struct glint_decoder *d, int axis, float *v, size_t count);
-/* From uint channels. */
+/* The same from uint channels. */
 void glint_decode_motion_packed(const struct glint_decoder *d, int axis, const uint32_t *in, float *v, size_t count);
 void glint_decode_color(const struct glint_decoder *d, float *v, size_t count);
 void glint_decode_length(const struct glint_decoder *d, float *v, size_t count);
-/* n[0], n[1], n[2] to unit world normals; n[2] is not read when Z is not stored. `lengths` receives their
-   lengths before they were made unit, or NULL. */
+/* Decodes n[0], n[1], n[2] to unit world-space normals; n[2] is not read if Z is not stored. `lengths` (may be NULL) receives their
+   lengths before normalisation. */
 void glint_decode_normal(const struct glint_decoder *d, enum glint_normal_encoding encoding, float *const n[3],
                          float *lengths, size_t count);
 

@@ -7,7 +7,7 @@
 
 enum decoding { AS_STORED, LENGTH, DEPTH, NORMAL, ROUGHNESS, MOTION, PACKED, COLOR };
 
-/* One wanted channel: which planes of the file it comes from and what is done to them. */
+/* A wanted channel: the planes of the file that it is decoded from, and how. */
 struct output {
     enum decoding decoding;
     enum glint_normal_encoding normal;
@@ -30,7 +30,7 @@ struct job {
 };
 
 /* The index of a file channel among those to read; adds it once. -1 when the part has none or there is no room. */
-static int want(struct job *job, const struct glint_exr_part_info *part, const char *name) {
+static int want_channel(struct job *job, const struct glint_exr_part_info *part, const char *name) {
     for (size_t i = 0; i < job->planes; i++)
         if (!strcmp(job->names[i], name)) return (int)i;
     const int at = glint_exr_channel(part, name);
@@ -65,7 +65,7 @@ static bool plan_normal(struct job *job, const struct glint_part_info *part, con
     to->normal = (enum glint_normal_encoding)glint_part_encoding(part, row);
     for (int axis = 0; axis < 3; axis++) {
         name[strlen(name) - 1] = "XYZ"[axis];
-        to->plane[axis] = axis == 2 && !glint_normal_has_z(to->normal) ? -1 : want(job, file, name);
+        to->plane[axis] = axis == 2 && !glint_normal_has_z(to->normal) ? -1 : want_channel(job, file, name);
         if (to->plane[axis] < 0 && !(axis == 2 && !glint_normal_has_z(to->normal))) return false;
     }
     return true;
@@ -79,13 +79,13 @@ static bool plan_output(struct job *job, const struct glint_part_info *part, con
     to->decoding = decoding_of(part, row);
     to->axis = axis_of(name);
     if (to->decoding == NORMAL) return plan_normal(job, part, file, row, to);
-    to->plane[0] = want(job, file, name);
+    to->plane[0] = want_channel(job, file, name);
     return to->plane[0] >= 0;
 }
 
 /* ---- blocks ---- */
 
-static void put(const struct job *job, const float *values, size_t count, uint8_t *out) {
+static void store_values(const struct job *job, const float *values, size_t count, uint8_t *out) {
     if (job->type == GLINT_F32) {
         for (size_t i = 0; i < count; i++) memcpy(out + 4 * i * job->count, &values[i], 4);
         return;
@@ -95,7 +95,7 @@ static void put(const struct job *job, const float *values, size_t count, uint8_
     for (size_t i = 0; i < count; i++) memcpy(out + 2 * i * job->count, &half[i], 2);
 }
 
-/* Bits stay as they are where nothing is decoded and the types agree. */
+/* Values that are not decoded keep every bit if the types agree. */
 static bool put_as_stored(const struct job *job, const struct output *from, const uint8_t *in, size_t count,
                           uint8_t *out) {
     if (from->plane[0] < 0) {
@@ -119,7 +119,7 @@ struct block {
 };
 
 /* `pixel` is the first one's number. */
-static void load(const struct job *job, const uint8_t *in, uint64_t pixel, size_t count, int plane, float *out) {
+static void load_values(const struct job *job, const uint8_t *in, uint64_t pixel, size_t count, int plane, float *out) {
     glint_decode_widen(job->stored[plane], in, count, out);
     if (job->moves[plane]) glint_perturb(&job->precision[plane], &job->coins[plane], pixel, out, count);
 }
@@ -130,8 +130,8 @@ static const float *normal_of(const struct job *job, const struct output *from, 
         for (int axis = 0; axis < 3; axis++) {
             const int plane = from->plane[axis];
             if (plane >= 0)
-                load(job, planes[plane] + line + x * glint_stored_bytes(job->stored[plane]), pixel, count, plane,
-                     block->values[axis]);
+                load_values(job, planes[plane] + line + x * glint_stored_bytes(job->stored[plane]), pixel, count, plane,
+                            block->values[axis]);
         }
         float *const n[3] = {block->values[0], block->values[1], block->values[2]};
         glint_decode_normal(&job->decoder, from->normal, n, NULL, count);
@@ -141,7 +141,7 @@ static const float *normal_of(const struct job *job, const struct output *from, 
     return block->values[from->axis];
 }
 
-/* Packed values are whole numbers, of which half a step is a half; they are decoded by a straight line. */
+/* Packed values are integers, whose half step is 0.5, and are decoded linearly. */
 static void decode_packed(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,
                           size_t count) {
     uint32_t words[GLINT_BLOCK];
@@ -155,13 +155,13 @@ static void decode_packed(const struct job *job, const struct output *from, cons
         v[i] += (float)(0.5 * glint_perturbation_sign(&job->coins[from->plane[0]], pixel + i)) * (line[1] - line[0]);
 }
 
-static void decode(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,
-                   size_t count) {
+static void decode_values(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,
+                          size_t count) {
     if (from->decoding == PACKED) {
         decode_packed(job, from, in, pixel, v, count);
         return;
     }
-    load(job, in, pixel, count, from->plane[0], v);
+    load_values(job, in, pixel, count, from->plane[0], v);
     switch (from->decoding) {
     case LENGTH:
         glint_decode_length(&job->decoder, v, count);
@@ -206,17 +206,17 @@ static bool decode_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *c
                                                              x * glint_stored_bytes(job->stored[from->plane[0]]);
                 if (put_as_stored(job, from, in, count, out)) continue;
                 if (from->decoding == NORMAL) {
-                    put(job, normal_of(job, from, planes, line, x, pixel, count, &block), count, out);
+                    store_values(job, normal_of(job, from, planes, line, x, pixel, count, &block), count, out);
                 } else {
-                    decode(job, from, in, pixel, values, count);
-                    put(job, values, count, out);
+                    decode_values(job, from, in, pixel, values, count);
+                    store_values(job, values, count, out);
                 }
             }
         }
     return true;
 }
 
-/* What is perturbed of the planes. Depth that stands for sky is at an end of the range of its encoding. */
+/* Sets which planes are perturbed. The depth of sky is at an end of its encoding's range and stays. */
 static void plan_perturbation(const struct glint_capture *capture, const struct glint_part_info *part,
                               const struct glint_exr_part_info *file, struct job *job) {
     const struct glint_perturbation *p = &capture->perturbation;
@@ -272,7 +272,7 @@ bool glint_capture_read(struct glint_capture *capture, const struct glint_part_i
             return glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: %s: expected half or float, found uint",
                               capture->exr->path, part->name, channels[i]);
     }
-    if (!job.planes) { /* nothing but zeros was asked for */
+    if (!job.planes) { /* only zeros are wanted */
         memset(out, 0, (size_t)part->width * part->height * count * (type == GLINT_F16 ? 2 : 4));
         return true;
     }

@@ -1,4 +1,4 @@
-/* How a broken rule is answered. */
+/* Handles violated rules. */
 #include "check.h"
 
 #include <stdarg.h>

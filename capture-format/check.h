@@ -1,4 +1,4 @@
-/* How a broken rule is answered: the reader and the writer stop at the first, validate reports them all. */
+/* Handles violated rules: reader and writer stop at the first one, validation reports all. */
 #ifndef GLINT_CHECK_H
 #define GLINT_CHECK_H
 
@@ -12,7 +12,7 @@ struct glint_check {
     struct glint_error *err;
 };
 
-/* Part and channel may be NULL. True when the check goes on. */
+/* `part` and `channel` may be NULL. True if checking continues. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 5, 6)))
 #endif

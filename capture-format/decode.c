@@ -1,4 +1,4 @@
-/* From each encoding to the canonical values. FORMAT.md states the formulas and how precise they are. */
+/* Decodes each encoding to canonical values. FORMAT.md states the formulas and their precision. */
 #include <Imath/half.h>
 #include <math.h>
 #include <string.h>
@@ -23,12 +23,12 @@ static void decode_device(const struct glint_decoder *d, bool sky_at_zero, float
     for (size_t i = 0; i < count; i++) {
         const double value = (double)v[i], t = b / (value * scale + bias);
         const bool sky = sky_at_zero ? value <= 0 : value >= 1;
-        /* Past infinity the distance would come back from behind. */
+        /* Beyond infinity the distance would be negative. */
         v[i] = sky || t <= 0 ? INFINITY : (float)t;
     }
 }
 
-/* From the end that is stored as 0: next to it a float has the digits that one less it has not. */
+/* Computed from the end that is stored as 0, where a float is precise; 1 minus the value would not be. */
 static void decode_logarithmic(const struct glint_decoder *d, bool reversed, float *v, size_t count) {
     const double near = d->frame->depth_near, far = d->frame->depth_far, span = log(far / near);
     const double start = (reversed ? far : near) * d->frame->metres_per_unit, factor = reversed ? -span : span;
@@ -99,7 +99,7 @@ void glint_decode_motion_packed(const struct glint_decoder *d, int axis, const u
     for (size_t i = 0; i < count; i++) v[i] = (float)(((double)in[i] - 32768) * scale);
 }
 
-/* To the power of 2.4, of which a float has no more than 2.4 ± 1e-7: too little where it is taken of thousands. */
+/* x to the power of 2.4. The rounding of 2.4 to float would be noticeable for x in the thousands. */
 static float from_srgb(float value) {
     const float magnitude = fabsf(value), base = (magnitude + 0.055f) / 1.055f;
     const float linear = magnitude <= 0.04045f ? magnitude / 12.92f : base * base * powf(base, 0.4f);
@@ -125,7 +125,7 @@ static void from_octahedral(float *const n[3], size_t count) {
     }
 }
 
-/* Towards the camera is the side of view space that is not in front of it. */
+/* The direction towards the camera is the side of view space that is behind it. */
 static void from_view_xy(const struct glint_decoder *d, float *const n[3], size_t count) {
     const float side = d->camera->view_to_clip[14] < 0 ? 1 : -1;
     for (size_t i = 0; i < count; i++) {

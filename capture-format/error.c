@@ -1,4 +1,4 @@
-/* The one place where error values are made. */
+/* Creates error values. */
 #include "glint/common.h"
 
 #include <stdarg.h>
@@ -11,7 +11,7 @@ bool glint_fail(struct glint_error *err, enum glint_code code, const char *forma
     va_start(args, format);
     vsnprintf(err->message, sizeof err->message, format, args);
     va_end(args);
-    /* Names come from files: a message stays one line whatever they hold. */
+    /* Names come from files and may contain newlines, but a message is one line. */
     for (char *c = err->message; *c; c++)
         if ((unsigned char)*c < 32 || *c == 127) *c = '?';
     return false;

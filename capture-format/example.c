@@ -14,7 +14,7 @@ static uint8_t material[HEIGHT][WIDTH][4], albedo[HEIGHT][WIDTH][4];
 static uint16_t color[HEIGHT][WIDTH][4];
 
 /* A floor seen from two metres above, under an empty sky. */
-static void render(void) {
+static void render_floor(void) {
     const uint8_t floor_material[4] = {64, 0, 128, 0}, floor_albedo[4] = {90, 80, 70, 255};
     const uint16_t half_sky[4] = {0x3400, 0x3800, 0x3c00, 0x3c00}, half_floor[4] = {0x3000, 0x3000, 0x3000, 0x3c00};
     for (int y = 0; y < HEIGHT; y++)
@@ -31,7 +31,7 @@ static void render(void) {
         }
 }
 
-static bool dump(const char *path, struct glint_error *err) {
+static bool dump_frame(const char *path, struct glint_error *err) {
     const struct glint_frame frame = {
         .camera = {.world_to_view = {1, 0, 0, 0, 0, 1, 0, -2, 0, 0, 1, 0, 0, 0, 0, 1},
                    .view_to_clip = {(double)HEIGHT / WIDTH, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0.1, 0, 0, -1, 0}},
@@ -74,8 +74,8 @@ int main(int argc, char **argv) {
         return 2;
     }
     struct glint_error err = {0};
-    render();
-    if (!dump(argv[1], &err)) {
+    render_floor();
+    if (!dump_frame(argv[1], &err)) {
         fprintf(stderr, "%s\n", err.message);
         return 1;
     }

@@ -1,9 +1,9 @@
-/* Attributes between OpenEXRCore's shape and glint's. Types that glint gives no meaning travel as bytes. */
+/* Converts attributes between OpenEXRCore and glint. Types unknown to glint are passed on as bytes. */
 #include <string.h>
 
 #include "exr_internal.h"
 
-/* OpenEXR's own, which describe the part to OpenEXR and are written anew with it. */
+/* Attributes that OpenEXR itself uses, which are written with each part. */
 static const char *const own[] = {"channels",
                                   "chunkCount",
                                   "compression",
@@ -19,7 +19,7 @@ static const char *const own[] = {"channels",
                                   "type",
                                   "version"};
 
-/* Sizes of the plain types whose bytes are passed on as they are. */
+/* Sizes of plain types whose bytes are passed on. */
 static size_t plain_bytes(exr_attribute_type_t type) {
     switch (type) {
     case EXR_ATTR_BOX2I:
@@ -169,7 +169,7 @@ bool glint_exr_attributes_get(struct glint_exr *exr, size_t part, struct glint_e
 
 static exr_result_t set_opaque(exr_context_t context, int part, const struct glint_exr_attribute *a) {
     exr_attribute_t *made = NULL;
-    if (!strcmp(a->type_name, "preview")) return EXR_ERR_SUCCESS; /* a picture of the old pixels */
+    if (!strcmp(a->type_name, "preview")) return EXR_ERR_SUCCESS; /* it would show the old pixels */
     if (!strcmp(a->type_name, "envmap"))
         return exr_attr_set_envmap(context, part, a->name, (exr_envmap_t) * (const uint8_t *)a->bytes);
     exr_result_t rv = exr_attr_declare_by_type(context, part, a->name, a->type_name, &made);

@@ -1,4 +1,4 @@
-/* What the EXR reader, the EXR writer and the capture reader share. */
+/* Shared by the EXR reader, the EXR writer and the capture reader. */
 #ifndef GLINT_EXR_INTERNAL_H
 #define GLINT_EXR_INTERNAL_H
 
@@ -8,12 +8,12 @@
 #include "arena.h"
 #include "glint/exr.h"
 
-/* What OpenEXRCore needs to know about a file that glint opened for it, and what it last complained about. */
+/* A file that glint opened for OpenEXRCore, and the last error of OpenEXRCore. */
 struct glint_exr_stream {
     int fd;
-    uint64_t bytes;     /* of the file */
-    uint64_t allowance; /* bytes that may still be read through the stream; chunks do not pass through it */
-    bool exceeded;      /* more was asked for */
+    uint64_t bytes;     /* size of the file */
+    uint64_t allowance; /* bytes that may still be read through the stream, which chunks bypass */
+    bool exceeded;      /* more than the allowance was requested */
     const char *path;
     pthread_mutex_t lock;
     char complaint[256];
@@ -54,13 +54,13 @@ typedef bool (*glint_exr_rows_fn)(void *user, uint32_t y, uint32_t lines, const 
 #define GLINT_EXR_MAX_WANTED 64
 bool glint_exr_rows(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, uint32_t threads,
                     glint_exr_rows_fn rows, void *user, struct glint_error *err);
-/* -1 when the part has no such channel. */
+/* -1 if the part has no such channel. */
 int glint_exr_channel(const struct glint_exr_part_info *part, const char *name);
 static inline size_t glint_stored_bytes(enum glint_stored stored) {
     return stored == GLINT_STORED_HALF ? 2 : 4;
 }
 
-/* Attributes between OpenEXRCore's shape and glint's. */
+/* Convert attributes between OpenEXRCore and glint. */
 bool glint_exr_attributes_get(struct glint_exr *exr, size_t part, struct glint_error *err);
 bool glint_exr_attribute_set(exr_context_t context, int part, const struct glint_exr_attribute *attribute);
 
@@ -68,7 +68,7 @@ bool glint_exr_attribute_set(exr_context_t context, int part, const struct glint
    many bytes as the unpacked chunk. */
 struct libdeflate_compressor;
 struct libdeflate_decompressor;
-/* The compressed size, or 0 when it would not be smaller than `bytes`. `out` holds `bytes`. */
+/* The compressed size, or 0 if it would not be smaller than `bytes`, which is the size of `out`. */
 size_t glint_zip_pack(struct libdeflate_compressor *zip, const uint8_t *in, size_t bytes, uint8_t *scratch,
                       uint8_t *out);
 bool glint_zip_unpack(struct libdeflate_decompressor *zip, const uint8_t *in, size_t in_bytes, uint8_t *scratch,

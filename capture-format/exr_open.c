@@ -11,7 +11,7 @@
 #include "registry.h"
 
 #define MAX_CHANNELS 1024
-/* Headers are text-sized. */
+/* The maximum size of headers. */
 #define HEADER_BYTES ((uint64_t)16 << 20)
 
 static int64_t stream_read(exr_const_context_t context, void *user, void *buffer, uint64_t size, uint64_t offset,
@@ -41,7 +41,7 @@ static int64_t stream_size(exr_const_context_t context, void *user) {
 }
 
 /* OpenEXRCore's default prints to stderr. */
-static void complain(exr_const_context_t context, exr_result_t code, const char *message) {
+static void store_complaint(exr_const_context_t context, exr_result_t code, const char *message) {
     (void)code;
     void *user = NULL;
     if (!context || exr_get_user_data(context, &user) || !user) return;
@@ -66,13 +66,13 @@ static bool open_file(struct glint_exr *exr, struct glint_error *err) {
     return true;
 }
 
-static bool start(struct glint_exr *exr, struct glint_error *err) {
+static bool start_reading(struct glint_exr *exr, struct glint_error *err) {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    init.error_handler_fn = complain;
+    init.error_handler_fn = store_complaint;
     init.user_data = &exr->stream;
     init.read_fn = stream_read;
     init.size_fn = stream_size;
-    init.max_image_width = init.max_image_height = 1 << 28; /* what no limit allows; read_layout says the real one */
+    init.max_image_width = init.max_image_height = 1 << 28; /* larger than any limit, which read_layout checks */
     init.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     const uint64_t share = exr->limits.memory_bytes / GLINT_HEADER_SHARE;
     const uint64_t allowance = HEADER_BYTES < share ? HEADER_BYTES : share;
@@ -143,7 +143,7 @@ static bool read_layout(struct glint_exr *exr, size_t p, struct glint_error *err
             exr_get_chunk_count(exr->context, (int)p, &chunks) || lines < 1)
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: header is not complete", exr->path,
                               part->info.name);
-        /* OpenEXRCore counts for itself; what the file says must agree. */
+        /* The file must state the number of chunks that OpenEXRCore computes. */
         exr_attr_get_int(exr->context, (int)p, "chunkCount", &stated);
         if (chunks != (height + lines - 1) / lines || (stated != -1 && stated != chunks))
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %lld chunks, found %d", exr->path,
@@ -154,7 +154,7 @@ static bool read_layout(struct glint_exr *exr, size_t p, struct glint_error *err
     return true;
 }
 
-/* Every chunk must lie inside the file, so that a cut-off file is refused before a pixel of it is used. */
+/* Every chunk must lie inside the file, so that a truncated file is rejected before any pixel is read. */
 static bool check_chunks(struct glint_exr *exr, size_t p, struct glint_error *err) {
     const struct glint_exr_part_file *part = &exr->parts[p];
     if (!part->readable) return true;
@@ -212,7 +212,7 @@ struct glint_exr *glint_exr_open(const char *path, const struct glint_limits *li
     exr->stream.fd = -1;
     exr->path = glint_arena_string(&exr->arena, path);
     if (!exr->path) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    if (!exr->path || !open_file(exr, err) || !start(exr, err) || !read_parts(exr, err)) glint_exr_close(&exr);
+    if (!exr->path || !open_file(exr, err) || !start_reading(exr, err) || !read_parts(exr, err)) glint_exr_close(&exr);
     return exr;
 }
 

@@ -51,7 +51,7 @@ static bool unpack_foreign(struct job *job, struct worker *worker, const exr_chu
     exr_decode_pipeline_t pipe = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_const_context_t context = job->exr->context;
     if (exr_decoding_initialize(context, (int)job->part, chunk, &pipe)) return false;
-    /* The default routines want to see channel pointers; the unpacking that would use them is replaced. */
+    /* The default routines require channel pointers, although the unpacking that would use them is replaced. */
     for (int i = 0; i < pipe.channel_count; i++) {
         pipe.channels[i].decode_to_ptr = worker->unpacked;
         pipe.channels[i].user_pixel_stride = pipe.channels[i].bytes_per_element;
@@ -142,7 +142,7 @@ bool glint_exr_rows(struct glint_exr *exr, size_t p, const char *const *channels
             exr->path, part->info.name);
     struct job job = {.exr = exr, .part = p, .count = count, .rows = rows, .user = user};
     if (!find_channels(&job, channels, err)) return false;
-    /* Packed, unpacked, and up to three more inside OpenEXRCore's PIZ. */
+    /* The packed and the unpacked chunk, and up to three more buffers in OpenEXRCore's PIZ. */
     const uint64_t chunk_bytes = (uint64_t)part->line_bytes * part->chunk_lines, worker_bytes = 6 * chunk_bytes;
     const uint64_t fit = exr->limits.memory_bytes / GLINT_CHUNK_SHARE / worker_bytes;
     if (fit == 0)
@@ -187,7 +187,7 @@ static size_t type_bytes(enum glint_type type) {
     return type == GLINT_F32 || type == GLINT_U32 ? 4 : type == GLINT_U8 ? 1 : 2;
 }
 
-/* One line of one channel to every `count`-th place of `out`; the count of values that did not fit. */
+/* Writes a line of a channel to every `count`-th element of `out`; returns the number of values that do not fit the type. */
 static size_t put_line(const uint8_t *from, enum glint_stored stored, enum glint_type type, uint32_t width,
                        size_t count, uint8_t *out) {
     size_t misfits = 0;
@@ -252,7 +252,7 @@ bool glint_exr_read(struct glint_exr *exr, size_t p, const char *const *channels
     const bool integer = type != GLINT_F16 && type != GLINT_F32;
     for (size_t i = 0; i < count; i++) {
         const int at = channels[i] ? glint_exr_channel(part, channels[i]) : -1;
-        if (at < 0) continue; /* glint_exr_rows says what is missing */
+        if (at < 0) continue; /* glint_exr_rows reports the missing channel */
         to.stored[i] = part->channels[at].stored;
         if ((to.stored[i] == GLINT_STORED_UINT) != integer)
             return glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: %s: expected %s, found %s", exr->path, part->name,

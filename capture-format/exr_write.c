@@ -10,7 +10,7 @@
 #include "exr_internal.h"
 #include "threads.h"
 
-/* Of libdeflate: level 1 packs noisy half-float images to within a few percent of what the slow levels reach. */
+/* libdeflate's level 1 compresses noisy half images to within a few percent of the slow levels. */
 #define ZIP_LEVEL 1
 
 struct worker {
@@ -35,7 +35,7 @@ struct job {
     struct worker workers[GLINT_MAX_WORKERS];
     pthread_mutex_t lock;
     pthread_cond_t turn;
-    size_t next; /* the chunk whose turn it is to be written */
+    size_t next; /* the chunk to be written next */
     bool failed;
     struct glint_error first;
 };
@@ -66,7 +66,7 @@ static int64_t stream_write(exr_const_context_t context, void *user, const void 
     return (int64_t)done;
 }
 
-static void complain(exr_const_context_t context, exr_result_t code, const char *message) {
+static void store_complaint(exr_const_context_t context, exr_result_t code, const char *message) {
     (void)code;
     void *user = NULL;
     if (!context || exr_get_user_data(context, &user) || !user) return;
@@ -92,7 +92,7 @@ static exr_compression_t compression_of(enum glint_compression compression) {
     return EXR_COMPRESSION_ZIP;
 }
 
-static void pack(const struct target *target, uint32_t y, uint32_t lines, uint8_t *out) {
+static void pack_lines(const struct target *target, uint32_t y, uint32_t lines, uint8_t *out) {
     for (uint32_t l = 0; l < lines; l++)
         for (size_t c = 0; c < target->part->channel_count; c++) {
             const struct glint_exr_channel *channel = target->sorted[c];
@@ -144,7 +144,7 @@ static bool compress_foreign(struct job *job, int part, uint32_t y, struct forei
     exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
     if (exr_write_scanline_chunk_info(job->context, part, (int)y, &chunk)) return false;
     if (exr_encoding_initialize(job->context, part, &chunk, &pipe)) return false;
-    /* The default routines want to see channel pointers; the packing that would use them is replaced. */
+    /* The default routines require channel pointers, although the packing that would use them is replaced. */
     for (int i = 0; i < pipe.channel_count; i++) {
         pipe.channels[i].encode_from_ptr = foreign->pixels;
         pipe.channels[i].user_pixel_stride = pipe.channels[i].bytes_per_element;
@@ -189,7 +189,7 @@ static bool write_chunk(void *user, uint32_t w, size_t index) {
     const exr_compression_t compression = compression_of(target->part->compression);
     const uint8_t *data = worker->pixels;
     size_t data_bytes = bytes;
-    pack(target, y, lines, worker->pixels);
+    pack_lines(target, y, lines, worker->pixels);
     if (compression == EXR_COMPRESSION_ZIP || compression == EXR_COMPRESSION_ZIPS) {
         const size_t packed = glint_zip_pack(worker->zip, worker->pixels, bytes, worker->scratch, worker->packed);
         if (packed) data = worker->packed, data_bytes = packed;
@@ -209,11 +209,11 @@ static int by_name(const void *a, const void *b) {
     return strcmp((*left)->name, (*right)->name);
 }
 
-static exr_result_t declare(struct job *job, size_t i, const struct glint_exr_part *first, const char **what) {
+static exr_result_t declare_part(struct job *job, size_t i, const struct glint_exr_part *first, const char **what) {
     static const exr_pixel_type_t types[] = {EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, EXR_PIXEL_UINT};
     const struct target *target = &job->targets[i];
     const struct glint_exr_part *part = target->part;
-    /* Multi-part files have one display window; the first part's picture is what is shown. */
+    /* A multi-part file has a single display window, that of the first part. */
     const exr_attr_box2i_t display = {.max = {.x = (int)first->width - 1, .y = (int)first->height - 1}};
     const exr_attr_box2i_t data = {.max = {.x = (int)part->width - 1, .y = (int)part->height - 1}};
     const exr_attr_v2f_t center = {.x = 0};
@@ -237,7 +237,7 @@ static exr_result_t declare(struct job *job, size_t i, const struct glint_exr_pa
 
 static bool write_headers(struct job *job) {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    init.error_handler_fn = complain;
+    init.error_handler_fn = store_complaint;
     init.user_data = &job->stream;
     init.write_fn = stream_write;
     const char *what = "header", *name = job->targets[0].part->name;
@@ -245,7 +245,7 @@ static bool write_headers(struct job *job) {
     if (!rv) rv = exr_set_longname_support(job->context, 1);
     for (size_t i = 0; !rv && i < job->target_count; i++) {
         name = job->targets[i].part->name;
-        rv = declare(job, i, job->targets[0].part, &what);
+        rv = declare_part(job, i, job->targets[0].part, &what);
     }
     if (!rv) what = "header", rv = exr_write_header(job->context);
     if (!rv) return true;
@@ -255,8 +255,8 @@ static bool write_headers(struct job *job) {
     return job_fail(job, rv == EXR_ERR_WRITE_IO ? GLINT_ERROR_IO : GLINT_ERROR_USAGE, name, text);
 }
 
-static bool plan(struct job *job, const struct glint_exr_part *parts, size_t count, struct glint_arena *arena,
-                 size_t *chunk_bytes, struct glint_error *err) {
+static bool plan_chunks(struct job *job, const struct glint_exr_part *parts, size_t count, struct glint_arena *arena,
+                        size_t *chunk_bytes, struct glint_error *err) {
     job->targets = glint_arena_take(arena, count * sizeof *job->targets);
     if (!job->targets) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     for (size_t i = 0; i < count; i++) {
@@ -333,7 +333,7 @@ bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_
         glint_fail(err, GLINT_ERROR_USAGE, "%s: expected at least one part, found none", path);
         goto done;
     }
-    if (!plan(&job, parts, count, &arena, &chunk_bytes, err)) goto done;
+    if (!plan_chunks(&job, parts, count, &arena, &chunk_bytes, err)) goto done;
     snprintf(temporary, length, "%s.tmp-%ld", path, (long)getpid());
     job.stream.fd = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (job.stream.fd < 0) {

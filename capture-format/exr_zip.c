@@ -1,4 +1,4 @@
-/* OpenEXR's ZIP chunks through libdeflate, which does in a third of the time what zlib does. */
+/* OpenEXR's ZIP chunks through libdeflate, which is three times as fast as zlib. */
 #include <libdeflate.h>
 
 #include "exr_internal.h"
@@ -7,7 +7,7 @@
 #include <emmintrin.h>
 #endif
 
-static void split(const uint8_t *in, size_t bytes, uint8_t *out) {
+static void split_parity(const uint8_t *in, size_t bytes, uint8_t *out) {
     const size_t even = (bytes + 1) / 2, odd = bytes / 2;
     uint8_t *second = out + even;
     for (size_t i = 0; i < odd; i++) {
@@ -17,7 +17,7 @@ static void split(const uint8_t *in, size_t bytes, uint8_t *out) {
     if (even > odd) out[odd] = in[2 * odd];
 }
 
-static void join(const uint8_t *in, size_t bytes, uint8_t *out) {
+static void join_parity(const uint8_t *in, size_t bytes, uint8_t *out) {
     const size_t even = (bytes + 1) / 2, odd = bytes / 2;
     const uint8_t *second = in + even;
     for (size_t i = 0; i < odd; i++) {
@@ -28,12 +28,13 @@ static void join(const uint8_t *in, size_t bytes, uint8_t *out) {
 }
 
 /* From differences (biased by 128) back to bytes: a running sum, 16 at a time where the machine can. */
-static void integrate(uint8_t *data, size_t bytes) {
+static void sum_differences(uint8_t *data, size_t bytes) {
     size_t i = 1;
 #ifdef __SSE2__
     const __m128i bias = _mm_set1_epi8(-128);
     __m128i before = _mm_setzero_si128();
-    data[0] = (uint8_t)(data[0] + 128); /* the first byte is none; the loop takes the bias from all */
+    data[0] =
+        (uint8_t)(data[0] + 128); /* the first byte is not a difference, but the loop subtracts the bias from all */
     for (i = 0; i + 16 <= bytes; i += 16) {
         __m128i sum = _mm_sub_epi8(_mm_loadu_si128((const __m128i *)(const void *)(data + i)), bias);
         sum = _mm_add_epi8(sum, _mm_slli_si128(sum, 1));
@@ -51,7 +52,7 @@ static void integrate(uint8_t *data, size_t bytes) {
 
 size_t glint_zip_pack(struct libdeflate_compressor *zip, const uint8_t *in, size_t bytes, uint8_t *scratch,
                       uint8_t *out) {
-    split(in, bytes, scratch);
+    split_parity(in, bytes, scratch);
     uint8_t before = scratch[0];
     for (size_t i = 1; i < bytes; i++) {
         const uint8_t now = scratch[i];
@@ -66,7 +67,7 @@ bool glint_zip_unpack(struct libdeflate_decompressor *zip, const uint8_t *in, si
     size_t got = 0;
     if (libdeflate_zlib_decompress(zip, in, in_bytes, scratch, bytes, &got) != LIBDEFLATE_SUCCESS) return false;
     if (got != bytes) return false;
-    integrate(scratch, bytes);
-    join(scratch, bytes, out);
+    sum_differences(scratch, bytes);
+    join_parity(scratch, bytes, out);
     return true;
 }

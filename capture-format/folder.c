@@ -1,4 +1,4 @@
-/* Folders that results go to. */
+/* Creates folders. */
 #include "glint/common.h"
 
 #include <errno.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static bool make(const char *path, struct glint_error *err) {
+static bool make_one_folder(const char *path, struct glint_error *err) {
     struct stat found;
     if (mkdir(path, 0777) == 0 || errno == EEXIST) {
         if (stat(path, &found) == 0 && S_ISDIR(found.st_mode)) return true;
@@ -20,10 +20,10 @@ bool glint_make_folder(const char *folder, struct glint_error *err) {
     bool ok = path || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
     for (char *slash = path; ok && *slash && (slash = strchr(slash + 1, '/'));) {
         *slash = 0;
-        ok = make(path, err);
+        ok = make_one_folder(path, err);
         *slash = '/';
     }
-    ok = ok && make(folder, err);
+    ok = ok && make_one_folder(folder, err);
     free(path);
     return ok;
 }

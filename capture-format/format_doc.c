@@ -11,7 +11,7 @@ static const char *or_dash(const char *text) {
     return text[0] ? text : "–";
 }
 
-static void roles(FILE *out) {
+static void write_roles(FILE *out) {
     static const char *const shapes[] = {"frame", "cube", "any"};
     size_t count = 0;
     const struct glint_role *all = glint_roles(&count);
@@ -28,7 +28,7 @@ static void roles(FILE *out) {
     }
 }
 
-static void channels(FILE *out) {
+static void write_channels(FILE *out) {
     size_t count = 0;
     const struct glint_role *all = glint_roles(&count);
     fprintf(
@@ -42,7 +42,7 @@ static void channels(FILE *out) {
         }
 }
 
-static void encodings(FILE *out) {
+static void write_encodings(FILE *out) {
     size_t count = 0;
     const struct glint_encoding_row *rows = glint_encoding_rows(&count);
     fprintf(out, "| encoding | attribute | value | what is stored |\n| --- | --- | --- | --- |\n");
@@ -52,7 +52,7 @@ static void encodings(FILE *out) {
                     v ? "" : rows[i].attribute, v ? "" : "`", rows[i].values[v].name, rows[i].values[v].meaning);
 }
 
-static void attributes(FILE *out) {
+static void write_attributes(FILE *out) {
     static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]"};
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
@@ -75,24 +75,24 @@ static void attributes(FILE *out) {
     }
 }
 
-static void rules(FILE *out) {
+static void write_rules(FILE *out) {
     const struct glint_rule_row *rows = glint_rule_rows();
     fprintf(out, "| rule | what must hold |\n| --- | --- |\n");
     for (int i = 0; i < GLINT_RULE_COUNT; i++) fprintf(out, "| `%s` | %s |\n", rows[i].name, rows[i].text);
 }
 
-static void version(FILE *out) {
+static void write_version(FILE *out) {
     fprintf(out, "This is version **%d**.\n", GLINT_FORMAT_VERSION);
 }
 
 static const struct {
     const char *name;
     void (*print)(FILE *out);
-} tables[] = {{"version", version},     {"roles", roles},           {"channels", channels},
-              {"encodings", encodings}, {"attributes", attributes}, {"rules", rules}};
+} tables[] = {{"version", write_version},     {"roles", write_roles},           {"channels", write_channels},
+              {"encodings", write_encodings}, {"attributes", write_attributes}, {"rules", write_rules}};
 
-/* Copies the text; between `<!-- table NAME -->` and `<!-- end -->` stands the table instead of what was there. */
-static bool renew(const char *text, FILE *out) {
+/* Copies the text and replaces what is between `<!-- table NAME -->` and `<!-- end -->` by the table. */
+static bool renew_tables(const char *text, FILE *out) {
     size_t found = 0;
     for (const char *line = text; *line;) {
         const char *end = strchr(line, '\n');
@@ -130,7 +130,7 @@ int main(int argc, char **argv) {
     char *text = read_text(path), *fresh = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&fresh, &size);
-    bool ok = text && memory && renew(text, memory);
+    bool ok = text && memory && renew_tables(text, memory);
     if (memory) fclose(memory);
     if (!ok) fprintf(stderr, "%s: expected a text with every table's marks\n", path);
     if (ok && check && strcmp(text, fresh)) {

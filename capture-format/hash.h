@@ -4,11 +4,11 @@
 
 #include "glint/common.h"
 
-/* From the file's first byte, whatever the descriptor's position. `path` is for the message. */
+/* Hashes the whole file regardless of the descriptor's position. `path` is for error messages. */
 bool glint_hash_fd(int fd, const char *path, char hex[33], struct glint_error *err);
 /* The file `sibling` in the folder of `path`. */
 bool glint_hash_sibling(const char *path, const char *sibling, char hex[33], struct glint_error *err);
-/* The sibling's path, to be freed; NULL when memory is out. */
+/* The sibling's path, to be freed; NULL if memory is exhausted. */
 char *glint_sibling_path(const char *path, const char *sibling);
 
 #endif

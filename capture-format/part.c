@@ -1,4 +1,4 @@
-/* A part of an EXR file as a part of a capture, and the rules that bind it. */
+/* Interprets parts of an EXR file as parts of a capture, and checks the rules for them. */
 #include "part.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ static bool ends_in(const char *name, const char *end) {
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel) {
     for (size_t i = 0; i < part->channel_count; i++)
         if (!strcmp(part->channels[i].name, channel)) return true;
-    /* The Z of some normals follows from its X and Y. */
+    /* The Z of some normals is reconstructed from X and Y. */
     const struct glint_role_channel *row = glint_role_channel_find(part->role, channel);
     if (!row || !is_normal(row) || !ends_in(channel, ".Z")) return false;
     if (glint_normal_has_z((enum glint_normal_encoding)glint_part_encoding(part, row))) return false;
@@ -101,7 +101,7 @@ static bool parse_sibling(struct glint_check *check, const struct glint_exr_part
     return true;
 }
 
-/* Attributes that are not glint's, of the types that the public header knows. */
+/* Attributes unknown to glint, of the types of the public header. */
 static bool keep_foreign(struct glint_arena *arena, const struct glint_exr_part_info *from,
                          struct glint_part_info *out) {
     struct glint_attribute *kept = glint_arena_take(arena, (from->attribute_count + 1) * sizeof *kept);
@@ -125,13 +125,13 @@ static bool keep_foreign(struct glint_arena *arena, const struct glint_exr_part_
 
 /* ---- channels ---- */
 
-/* The ends of a vector's channels; NULL of a scalar. */
+/* The suffixes of a vector's channels; NULL for a scalar. */
 static const char *axes_of(const struct glint_role_channel *row) {
     if (is_normal(row) || !strcmp(row->encoding, "motion")) return "XYZ";
     return ends_in(row->name, ".R") || ends_in(row->name, ".G") || ends_in(row->name, ".B") ? "RGB" : NULL;
 }
 
-/* Of a previous G-buffer depth suffices: it says what was hidden then. */
+/* A previous G-buffer only needs depth, which shows what was occluded then. */
 static bool is_required(const struct glint_part_info *out, const struct glint_role_channel *row) {
     return row->required && (!out->previous || strcmp(out->role->name, "gbuffer") || !strcmp(row->encoding, "depth"));
 }
@@ -142,7 +142,7 @@ static bool check_required(struct glint_check *check, const struct glint_part_in
         bool wanted = is_required(out, row);
         char other[64];
         snprintf(other, sizeof other, "%s", row->name);
-        /* Optional vectors come whole: one of X, Y, Z asks for the others; motion.Z stays optional. */
+        /* Optional vectors must be complete: one of X, Y, Z requires the others; motion.Z remains optional. */
         for (const char *axis = axes_of(row); axis && *axis; axis++) {
             other[strlen(other) - 1] = *axis;
             wanted = wanted || glint_part_has_channel(out, other);
@@ -234,7 +234,7 @@ static bool check_depth(struct glint_check *check, const struct glint_part_info 
 
 static bool check_shape(struct glint_check *check, const struct glint_part_info *out,
                         const struct glint_part_info *gbuffer) {
-    if (!out->width || !out->height) return true; /* in a sibling not looked at yet */
+    if (!out->width || !out->height) return true; /* its size is that of a sibling, which is not open yet */
     if (out->role->shape == GLINT_SHAPE_CUBE && (uint64_t)out->height != 6 * (uint64_t)out->width)
         return BROKEN(SHAPE, NULL, "expected N x 6N pixels, found %u x %u", out->width, out->height);
     if (out->role->shape == GLINT_SHAPE_FRAME && gbuffer &&

@@ -1,4 +1,4 @@
-/* What a declared storage format says of how precise a value was, and values within that. */
+/* The precision of declared storage formats, and perturbation of values within it. */
 #include "perturb.h"
 
 #include <math.h>
@@ -12,22 +12,22 @@
 
 /* ---- Formats by name ---- */
 
-static struct glint_precision floating(int digits, int lowest, int highest) {
+static struct glint_precision floating_precision(int digits, int lowest, int highest) {
     const double high = ldexp(2 - ldexp(1, -digits), highest);
     return (struct glint_precision){.digits = digits, .lowest = lowest, .low = -high, .high = high};
 }
 
-static struct glint_precision fixed(int bits, bool is_signed) {
+static struct glint_precision fixed_precision(int bits, bool is_signed) {
     const double steps = is_signed ? ldexp(1, bits - 1) - 1 : ldexp(1, bits) - 1;
     return (struct glint_precision){
         .fixed = true, .half_step = 0.5 / steps, .low = is_signed ? -1 : 0, .high = 1, .ends_stay = true};
 }
 
 static struct glint_precision floating_of(int bits) {
-    if (bits >= 32) return floating(23, -126, 127);
+    if (bits >= 32) return floating_precision(23, -126, 127);
     /* 16, 11 and 10 bits have five of exponent; 9 share them, and each is taken for itself. */
     const int digits = bits >= 16 ? 10 : bits == 11 ? 6 : bits == 10 ? 5 : 8;
-    return floating(digits, -14, 15);
+    return floating_precision(digits, -14, 15);
 }
 
 /* "R11G11B10…": the bits of the component that holds the channel, 0 when this is no such name. *rest: what follows. */
@@ -55,8 +55,8 @@ struct glint_precision glint_precision_of(const char *storage, const char *chann
     static const char *const prefixes[] = {"VK_FORMAT_", "DXGI_FORMAT_", "PF_", ""};
     const struct glint_precision own = stored == GLINT_STORED_HALF ? floating_of(16) : floating_of(32);
     int bits;
-    if (sscanf(storage, "unorm%d", &bits) == 1 && bits > 0 && bits <= 32) return fixed(bits, false);
-    if (sscanf(storage, "snorm%d", &bits) == 1 && bits > 1 && bits <= 32) return fixed(bits, true);
+    if (sscanf(storage, "unorm%d", &bits) == 1 && bits > 0 && bits <= 32) return fixed_precision(bits, false);
+    if (sscanf(storage, "snorm%d", &bits) == 1 && bits > 1 && bits <= 32) return fixed_precision(bits, true);
     if (!strcmp(storage, "half")) return floating_of(16);
     if (!strcmp(storage, "float")) return floating_of(32);
     size_t i = 0;
@@ -65,10 +65,10 @@ struct glint_precision glint_precision_of(const char *storage, const char *chann
     bits = bits_of(storage + strlen(prefixes[i]), channel, &rest);
     const bool exponent = strstr(storage, "E5") != NULL;
     if (!bits || strstr(rest, "UINT") || strstr(rest, "SINT")) return own;
-    if (strstr(rest, "SNORM")) return fixed(bits, true);
+    if (strstr(rest, "SNORM")) return fixed_precision(bits, true);
     if (*rest == 'F' || strstr(rest, "FLOAT") || bits >= 32 || exponent || !strncmp(storage, "R11G11B10", 9))
         return floating_of(bits);
-    struct glint_precision precision = fixed(bits, false);
+    struct glint_precision precision = fixed_precision(bits, false);
     precision.srgb = strstr(rest, "SRGB") != NULL;
     return precision;
 }
@@ -98,10 +98,10 @@ double glint_half_step(const struct glint_precision *p, double value) {
     return ldexp(1, (exponent - 1 < p->lowest || value == 0 ? p->lowest : exponent - 1) - p->digits - 1);
 }
 
-/* ---- Moving values ---- */
+/* ---- Perturbing values ---- */
 
 /* "gbuffer", "gbuffer:depth", "cubemap:distance.Z": a part's name or its role's, then a channel or its layer. */
-static bool names(const char *entry, const struct glint_part_info *part, const char *channel) {
+static bool entry_matches(const char *entry, const struct glint_part_info *part, const char *channel) {
     const size_t length = strcspn(entry, ":");
     const char *role = part->role ? part->role->name : "";
     if ((strncmp(entry, part->name, length) != 0 || part->name[length]) &&
@@ -116,7 +116,7 @@ static bool names(const char *entry, const struct glint_part_info *part, const c
 bool glint_perturbation_moves(const struct glint_perturbation *p, const struct glint_part_info *part,
                               const char *channel) {
     for (size_t i = 0; p->seed && i < p->only_count; i++)
-        if (names(p->only[i], part, channel)) return true;
+        if (entry_matches(p->only[i], part, channel)) return true;
     return p->seed && !p->only_count;
 }
 
@@ -172,7 +172,7 @@ bool glint_capture_perturb(struct glint_capture *capture, uint32_t seed, const c
         snprintf(entry, sizeof *p->only, "%s", only[p->only_count - 1]);
         for (size_t i = 0; i < capture->count; i++)
             for (size_t c = 0; c < capture->parts[i].channel_count; c++)
-                known |= names(entry, &capture->parts[i], capture->parts[i].channels[c].name);
+                known |= entry_matches(entry, &capture->parts[i], capture->parts[i].channels[c].name);
         if (known) continue;
         p->seed = 0;
         return glint_fail(err, GLINT_ERROR_USAGE,

@@ -1,4 +1,4 @@
-/* From the caller's memory to the type that the file stores. */
+/* Converts channels from the caller's type to the stored type. */
 #include "pixels.h"
 
 #include <Imath/half.h>
@@ -64,8 +64,8 @@ const char *glint_pixels_storage(enum glint_type type) {
     return "";
 }
 
-/* Both ends of an snorm's range mean -1, as in Vulkan and Direct3D. */
-static float snorm(int value, int top) {
+/* The two lowest values of an snorm both mean -1, as in Vulkan and Direct3D. */
+static float decode_snorm(int value, int top) {
     return value < -top ? -1.0f : (float)value / (float)top;
 }
 
@@ -94,7 +94,7 @@ static void copy_line(enum glint_type type, const uint8_t *in, size_t step, uint
         break;
     case GLINT_SNORM8:
         for (uint32_t x = 0; x < width; x++)
-            memcpy(out + 2 * x, &(uint16_t){imath_float_to_half(snorm((int8_t)in[x * step], 127))}, 2);
+            memcpy(out + 2 * x, &(uint16_t){imath_float_to_half(decode_snorm((int8_t)in[x * step], 127))}, 2);
         break;
     case GLINT_UNORM16:
         for (uint32_t x = 0; x < width; x++) {
@@ -105,7 +105,7 @@ static void copy_line(enum glint_type type, const uint8_t *in, size_t step, uint
     case GLINT_SNORM16:
         for (uint32_t x = 0; x < width; x++) {
             memcpy(&wide, in + x * step, 2);
-            memcpy(out + 4 * x, &(float){snorm((int16_t)wide, 32767)}, 4);
+            memcpy(out + 4 * x, &(float){decode_snorm((int16_t)wide, 32767)}, 4);
         }
         break;
     }

@@ -1,4 +1,4 @@
-/* The registry as C tables, made from rows/. */
+/* The registry as C tables, generated from rows/. */
 #include "registry.h"
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)
 
-/* ---- roles: a flat list of channels, and where each role's begin and end in it ---- */
+/* ---- roles: a list of all channels, and the range of each role in it ---- */
 
 enum {
 #define ROLE(id, ...) ROLE_FIRST_##id, ROLE_BEFORE_##id = ROLE_FIRST_##id - 1,
@@ -45,7 +45,7 @@ const struct glint_role *glint_roles(size_t *count) {
     return roles;
 }
 
-/* Whether `name` is the role's, with its number or free rest. */
+/* Whether `name` belongs to the role, with its number or free suffix. */
 static bool role_matches(const struct glint_role *role, const char *name, int32_t *index) {
     const size_t length = strlen(role->name);
     *index = -1;

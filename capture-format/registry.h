@@ -6,7 +6,7 @@
 
 /* ---- roles ---- */
 
-/* The role that a part's name stands for, its number (or -1) and whether it is previous.ROLE; NULL when unknown. */
+/* The role of a part's name, its number (or -1) and whether it is previous.ROLE; NULL if unknown. */
 const struct glint_role *glint_role_find(const char *part, int32_t *index, bool *previous);
 const struct glint_role_channel *glint_role_channel_find(const struct glint_role *role, const char *channel);
 

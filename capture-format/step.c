@@ -1,4 +1,4 @@
-/* What the format that held a value can tell apart. */
+/* The resolution of storage formats. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ double glint_channel_step(const struct glint_capture *capture, const struct glin
         const struct glint_channel_info *c = &part->channels[i];
         if (strcmp(c->name, channel) != 0 || c->stored == GLINT_STORED_UINT) continue;
         struct glint_precision declared = glint_precision_of(c->storage, channel, c->stored);
-        /* no entry of glint.storage makes the file finer than its own type */
+        /* a declared storage format is never finer than the type in the file */
         const struct glint_precision own = glint_precision_of("", channel, c->stored);
         const struct glint_role_channel *row = glint_role_channel_find(part->role, channel);
         const struct glint_decoder decoder = glint_decoder_of(capture, part);

@@ -1,7 +1,7 @@
-/* Checks every rule of FORMAT.md and reports all that are broken. */
+/* Checks every rule of FORMAT.md and reports all violations. */
 #include "capture_internal.h"
 
-/* What is wrong with the file is a violation; what is wrong with the machine or the limits is a failure. */
+/* Faults of the file are violations; faults of the machine and exceeded limits are failures. */
 static bool is_violation(const struct glint_error *err) {
     return err->code == GLINT_ERROR_FORMAT || err->code == GLINT_ERROR_UNSUPPORTED;
 }
@@ -12,7 +12,7 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
     struct glint_check check = {.file = path, .report = report, .user = user, .err = &fault};
     struct glint_capture *capture = glint_capture_open_checked(path, limits, &check);
     bool ok = capture != NULL;
-    /* What pixels mean depends on the headers: they are looked at when those keep every rule. */
+    /* Headers say how to decode pixels, so these are only checked if the headers are valid. */
     for (size_t i = 0; ok && !check.violations && i < capture->count; i++)
         ok = glint_validate_pixels(&check, capture, i, &fault);
     glint_capture_close(&capture);

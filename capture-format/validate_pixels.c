@@ -8,7 +8,7 @@
 /* A value of exactly 1 may come back from a half or a square root a little above. */
 #define RANGE_TOLERANCE 0.001f
 
-/* How often one rule is broken in one channel, and where first. */
+/* Violations of a rule in a channel, and the first of them. */
 struct tally {
     size_t count, first; /* y · width + x */
     float value;
@@ -29,26 +29,26 @@ struct job {
     const char *names[GLINT_EXR_MAX_WANTED];
     struct channel channels[GLINT_EXR_MAX_WANTED];
     size_t count;
-    int depth; /* the plane that says where there is nothing; -1 for none */
-    int alpha; /* the plane that says where a cube map sees sky; -1 for none */
+    int depth; /* the plane of depth, which marks sky; -1 for none */
+    int alpha; /* the plane of alpha, which marks sky in a cube map; -1 for none */
     uint32_t width;
     pthread_mutex_t lock;
     struct tallies found[GLINT_EXR_MAX_WANTED]; /* under the lock */
 };
 
-static void note(struct tally *tally, size_t at, float value) {
+static void note_violation(struct tally *tally, size_t at, float value) {
     if (tally->count++ && tally->first <= at) return;
     tally->first = at;
     tally->value = value;
 }
 
-static void merge(struct tally *to, const struct tally *from) {
+static void merge_tallies(struct tally *to, const struct tally *from) {
     if (from->count && (!to->count || from->first < to->first)) to->first = from->first, to->value = from->value;
     to->count += from->count;
 }
 
-static void load(const struct job *job, const uint8_t *const *planes, int plane, size_t offset, uint32_t x,
-                 size_t count, float *out) {
+static void load_values(const struct job *job, const uint8_t *const *planes, int plane, size_t offset, uint32_t x,
+                        size_t count, float *out) {
     const enum glint_stored stored = job->channels[plane].stored;
     glint_decode_widen(stored, planes[plane] + offset + x * glint_stored_bytes(stored), count, out);
 }
@@ -61,14 +61,14 @@ static enum glint_normal_encoding normal_encoding(const struct job *job, const s
     return !strcmp(row->encoding, "normal") ? job->decoder.encodings.normal : job->decoder.encodings.vertex_normal;
 }
 
-/* Whether the stored numbers themselves are bound to [0, 1]. */
+/* Whether stored values must be in [0, 1]. */
 static bool stored_in_unit(const struct job *job, const struct glint_role_channel *row) {
     if (!strcmp(row->encoding, "depth")) return job->decoder.encodings.depth != GLINT_DEPTH_VIEW_LINEAR;
     return is_normal(row) && normal_encoding(job, row) != GLINT_NORMAL_SIGNED;
 }
 
 /* The bounds of the decoded value. */
-static void bounds(const struct glint_role_channel *row, float *low, float *high) {
+static void find_bounds(const struct glint_role_channel *row, float *low, float *high) {
     *low = -INFINITY;
     *high = INFINITY;
     const bool bare = !row->encoding[0];
@@ -85,7 +85,7 @@ static bool may_be_infinite(const struct job *job, const struct glint_role_chann
     return !strcmp(row->name, "distance.Z");
 }
 
-static void decode(const struct job *job, const struct glint_role_channel *row, float *v, size_t count) {
+static void decode_values(const struct job *job, const struct glint_role_channel *row, float *v, size_t count) {
     if (!strcmp(row->encoding, "depth")) glint_decode_depth(&job->decoder, v, count);
     if (!strcmp(row->encoding, "roughness")) glint_decode_roughness(&job->decoder, v, count);
     if (!strcmp(row->encoding, "color")) glint_decode_color(&job->decoder, v, count);
@@ -96,15 +96,15 @@ static void check_values(const struct job *job, const struct channel *channel, s
     const struct glint_role_channel *row = channel->row;
     const bool infinite = may_be_infinite(job, row), unit = stored_in_unit(job, row);
     float low, high;
-    bounds(row, &low, &high);
+    find_bounds(row, &low, &high);
     for (size_t i = 0; i < count; i++) {
         if (nothing[i]) continue;
-        if (isnan(v[i]) || (isinf(v[i]) && !(infinite && v[i] > 0))) note(&found->not_finite, at + i, v[i]);
-        else if (unit && !(v[i] >= 0 && v[i] <= 1)) note(&found->out_of_range, at + i, v[i]);
+        if (isnan(v[i]) || (isinf(v[i]) && !(infinite && v[i] > 0))) note_violation(&found->not_finite, at + i, v[i]);
+        else if (unit && !(v[i] >= 0 && v[i] <= 1)) note_violation(&found->out_of_range, at + i, v[i]);
     }
-    decode(job, row, v, count);
+    decode_values(job, row, v, count);
     for (size_t i = 0; i < count; i++)
-        if (!nothing[i] && (v[i] < low || v[i] > high)) note(&found->out_of_range, at + i, v[i]);
+        if (!nothing[i] && (v[i] < low || v[i] > high)) note_violation(&found->out_of_range, at + i, v[i]);
 }
 
 static void check_lengths(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t i,
@@ -114,28 +114,29 @@ static void check_lengths(const struct job *job, struct tallies *found, const ui
     const int axes[3] = {(int)i, x_axis->axes[0], x_axis->axes[1]};
     for (int a = 0; a < 3; a++) {
         if (axes[a] < 0) continue;
-        load(job, planes, axes[a], offset, x, count, n[a]);
+        load_values(job, planes, axes[a], offset, x, count, n[a]);
     }
     float *const pointers[3] = {n[0], n[1], n[2]};
     glint_decode_normal(&job->decoder, normal_encoding(job, x_axis->row), pointers, lengths, count);
     for (size_t p = 0; p < count; p++)
-        if (!nothing[p] && !(fabsf(lengths[p] - 1) <= NORMAL_TOLERANCE)) note(&found->not_unit, at + p, lengths[p]);
+        if (!nothing[p] && !(fabsf(lengths[p] - 1) <= NORMAL_TOLERANCE))
+            note_violation(&found->not_unit, at + p, lengths[p]);
 }
 
-/* What a cube map holds where it sees sky, and that it has a distance where it does not. */
+/* Checks the values of a cube map at sky, and that it has a distance elsewhere. */
 static void check_sky(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t offset,
                       uint32_t x, size_t count, size_t at) {
     float alpha[GLINT_BLOCK], v[GLINT_BLOCK];
-    load(job, planes, job->alpha, offset, x, count, alpha);
+    load_values(job, planes, job->alpha, offset, x, count, alpha);
     for (size_t c = 0; c < job->count; c++) {
         const bool distance = !strcmp(job->names[c], "distance.Z");
         if ((int)c == job->alpha) continue;
-        load(job, planes, (int)c, offset, x, count, v);
+        load_values(job, planes, (int)c, offset, x, count, v);
         for (size_t i = 0; i < count; i++) {
-            if (isnan(v[i])) continue; /* told of already */
+            if (isnan(v[i])) continue; /* already reported */
             const bool broken =
                 alpha[i] == 0 ? (distance ? !isinf(v[i]) : v[i] != 0) : alpha[i] == 1 && distance && isinf(v[i]);
-            if (broken) note(&found[c].against_sky, at + i, v[i]);
+            if (broken) note_violation(&found[c].against_sky, at + i, v[i]);
         }
     }
 }
@@ -146,14 +147,14 @@ static void check_block(const struct job *job, struct tallies *found, const uint
     const bool none[GLINT_BLOCK] = {false};
     float v[GLINT_BLOCK];
     if (job->depth >= 0) {
-        load(job, planes, job->depth, offset, x, count, v);
+        load_values(job, planes, job->depth, offset, x, count, v);
         glint_decode_depth(&job->decoder, v, count);
         for (size_t i = 0; i < count; i++) nothing[i] = v[i] == INFINITY;
     }
     for (size_t c = 0; c < job->count; c++) {
         const struct channel *channel = &job->channels[c];
         if (channel->stored == GLINT_STORED_UINT) continue;
-        load(job, planes, (int)c, offset, x, count, v);
+        load_values(job, planes, (int)c, offset, x, count, v);
         check_values(job, channel, &found[c], v, (int)c == job->depth ? none : nothing, count, at);
         if (channel->axes[0] >= 0) check_lengths(job, &found[c], planes, c, offset, x, nothing, count, at);
     }
@@ -172,22 +173,22 @@ static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *co
         }
     pthread_mutex_lock(&job->lock);
     for (size_t c = 0; c < job->count; c++) {
-        merge(&job->found[c].not_finite, &found[c].not_finite);
-        merge(&job->found[c].out_of_range, &found[c].out_of_range);
-        merge(&job->found[c].not_unit, &found[c].not_unit);
-        merge(&job->found[c].against_sky, &found[c].against_sky);
+        merge_tallies(&job->found[c].not_finite, &found[c].not_finite);
+        merge_tallies(&job->found[c].out_of_range, &found[c].out_of_range);
+        merge_tallies(&job->found[c].not_unit, &found[c].not_unit);
+        merge_tallies(&job->found[c].against_sky, &found[c].against_sky);
     }
     pthread_mutex_unlock(&job->lock);
     return true;
 }
 
-static int find(const struct job *job, const char *name) {
+static int find_plane(const struct job *job, const char *name) {
     for (size_t i = 0; i < job->count; i++)
         if (!strcmp(job->names[i], name)) return (int)i;
     return -1;
 }
 
-static void plan(struct job *job, const struct glint_part_info *part) {
+static void plan_checks(struct job *job, const struct glint_part_info *part) {
     for (size_t i = 0; i < part->channel_count && job->count < GLINT_EXR_MAX_WANTED; i++) {
         const struct glint_role_channel *row = glint_role_channel_find(part->role, part->channels[i].name);
         if (!row) continue;
@@ -195,8 +196,8 @@ static void plan(struct job *job, const struct glint_part_info *part) {
         job->channels[job->count++] =
             (struct channel){.row = row, .stored = part->channels[i].stored, .axes = {-1, -1}};
     }
-    job->depth = find(job, "depth.Z");
-    job->alpha = part->has_cubemap ? find(job, "A") : -1;
+    job->depth = find_plane(job, "depth.Z");
+    job->alpha = part->has_cubemap ? find_plane(job, "A") : -1;
     for (size_t i = 0; i < job->count; i++) {
         const size_t length = strlen(job->names[i]);
         char other[64];
@@ -204,13 +205,13 @@ static void plan(struct job *job, const struct glint_part_info *part) {
         memcpy(other, job->names[i], length + 1);
         for (int a = 0; a < 2; a++) {
             other[length - 1] = "YZ"[a];
-            job->channels[i].axes[a] = find(job, other);
+            job->channels[i].axes[a] = find_plane(job, other);
         }
     }
 }
 
-static bool report(struct glint_check *check, const struct glint_part_info *part, const char *channel,
-                   enum glint_rule rule, const struct tally *tally, const char *expected) {
+static bool report_tally(struct glint_check *check, const struct glint_part_info *part, const char *channel,
+                         enum glint_rule rule, const struct tally *tally, const char *expected) {
     if (!tally->count) return true;
     return glint_violation(check, rule, part->name, channel, "expected %s, found %zu other%s, first %g at (%zu, %zu)",
                            expected, tally->count, tally->count == 1 ? "" : "s", (double)tally->value,
@@ -222,7 +223,7 @@ bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capt
     const struct glint_part_info *part = &capture->parts[p];
     if (!part->role || !part->role->channels) return true;
     struct job job = {.decoder = glint_decoder_of(capture, part), .width = part->width};
-    plan(&job, part);
+    plan_checks(&job, part);
     pthread_mutex_init(&job.lock, NULL);
     const bool ok = glint_exr_rows(capture->sources[p].exr, capture->sources[p].part, job.names, job.count, 0,
                                    check_rows, &job, err);
@@ -230,15 +231,17 @@ bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capt
     for (size_t c = 0; ok && c < job.count; c++) {
         const struct channel *channel = &job.channels[c];
         float low, high;
-        bounds(channel->row, &low, &high);
-        report(check, part, job.names[c], GLINT_RULE_PIXEL_FINITE, &job.found[c].not_finite,
-               may_be_infinite(&job, channel->row) ? "numbers or +inf" : "finite numbers");
-        report(check, part, job.names[c], GLINT_RULE_PIXEL_RANGE, &job.found[c].out_of_range,
-               stored_in_unit(&job, channel->row) || high < INFINITY ? "values in [0, 1]"
-                                                                     : "values that are not negative");
-        report(check, part, job.names[c], GLINT_RULE_PIXEL_NORMAL, &job.found[c].not_unit, "unit length within 0.02");
-        report(check, part, job.names[c], GLINT_RULE_PIXEL_SKY, &job.found[c].against_sky,
-               strcmp(job.names[c], "distance.Z") ? "0 where A is 0" : "+inf where A is 0, numbers where it is 1");
+        find_bounds(channel->row, &low, &high);
+        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_FINITE, &job.found[c].not_finite,
+                     may_be_infinite(&job, channel->row) ? "numbers or +inf" : "finite numbers");
+        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_RANGE, &job.found[c].out_of_range,
+                     stored_in_unit(&job, channel->row) || high < INFINITY ? "values in [0, 1]"
+                                                                           : "values that are not negative");
+        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_NORMAL, &job.found[c].not_unit,
+                     "unit length within 0.02");
+        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_SKY, &job.found[c].against_sky,
+                     strcmp(job.names[c], "distance.Z") ? "0 where A is 0"
+                                                        : "+inf where A is 0, numbers where it is 1");
     }
     return ok;
 }

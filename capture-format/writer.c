@@ -1,4 +1,4 @@
-/* The writer: copies what the engine hands over, checks it by the reader's own rules, and writes it now or on a worker. */
+/* The writer: copies the engine's data, checks it by the reader's rules, and writes it at once or on a worker thread. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,7 +111,7 @@ static int gbuffer_first(const void *a, const void *b) {
     return l != r ? l - r : strcmp((*left)->name, (*right)->name);
 }
 
-/* The rules between parts, on the headers as they will be read. */
+/* Checks the rules between parts on the headers as they will be read. */
 static bool check_all(struct glint_writer *writer, struct glint_error *err) {
     struct glint_arena arena = {0};
     struct glint_check check = {.file = writer->path, .err = err};
@@ -129,10 +129,10 @@ static bool check_all(struct glint_writer *writer, struct glint_error *err) {
     return ok;
 }
 
-/* Puts the frame's attributes on gbuffer. */
+/* Adds the frame's attributes to gbuffer. */
 static bool attach_frame(struct glint_writer *writer, struct glint_error *err) {
     struct glint_writer_part *gbuffer = writer->count ? writer->parts[0] : NULL;
-    if (!gbuffer || strcmp(gbuffer->name, "gbuffer")) return true; /* check_all says what is missing */
+    if (!gbuffer || strcmp(gbuffer->name, "gbuffer")) return true; /* check_all reports the missing part */
     if (!writer->has_frame)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: part gbuffer: expected glint_writer_set_frame before finish",
                           writer->path);
@@ -171,7 +171,7 @@ static bool write_now(struct glint_writer *writer, struct glint_error *err) {
     return ok;
 }
 
-static void *work(void *user) {
+static void *run_worker(void *user) {
     struct glint_writer *writer = user;
     writer->result = write_now(writer, &writer->error);
     return NULL;
@@ -183,7 +183,8 @@ bool glint_writer_finish(struct glint_writer *writer, struct glint_error *err) {
     writer->error = (struct glint_error){0};
     if (writer->count) qsort(writer->parts, writer->count, sizeof *writer->parts, gbuffer_first);
     if (!attach_frame(writer, &writer->error) || !check_all(writer, &writer->error)) writer->result = false;
-    else if (!writer->options.background || pthread_create(&writer->worker, NULL, work, writer)) work(writer);
+    else if (!writer->options.background || pthread_create(&writer->worker, NULL, run_worker, writer))
+        run_worker(writer);
     else writer->started = true;
     if (!writer->started && !writer->result && err) *err = writer->error;
     return writer->started || writer->result;

@@ -1,4 +1,4 @@
-/* A part that the writer holds until it is written. */
+/* A part that the writer keeps until it is written. */
 #include "writer_part.h"
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 #include "pixels.h"
 
-/* Headers as the reader will find them, so that the writer is bound by the very same checks. */
+/* Headers as the reader will find them, so that the writer can use the reader's checks. */
 static bool as_read(struct glint_arena *arena, const struct glint_exr_part *file, struct glint_exr_part_info *out) {
     struct glint_channel_info *channels = glint_arena_take(arena, file->channel_count * sizeof *channels);
     for (size_t i = 0; channels && i < file->channel_count; i++) {
@@ -157,8 +157,8 @@ static bool hold_pixels(struct glint_writer_part *held, const struct glint_part 
     return true;
 }
 
-static bool hold(const char *path, struct glint_writer_part *held, const struct glint_part *part,
-                 struct glint_error *err) {
+static bool hold_part(const char *path, struct glint_writer_part *held, const struct glint_part *part,
+                      struct glint_error *err) {
     int32_t index = -1;
     bool previous = false;
     const struct glint_role *role = glint_role_find(part->name, &index, &previous);
@@ -173,7 +173,7 @@ static bool hold(const char *path, struct glint_writer_part *held, const struct 
         return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
     struct glint_check check = {.file = path, .err = err};
     if (!glint_part_parse(&check, &held->arena, &held->as_read, true, &held->info)) return false;
-    if (part->sibling) held->info.width = held->info.height = 0; /* the sibling's */
+    if (part->sibling) held->info.width = held->info.height = 0; /* those of the sibling */
     else if (role->shape == GLINT_SHAPE_CUBE && (uint64_t)part->height != 6 * (uint64_t)part->width)
         return glint_violation(&check, GLINT_RULE_SHAPE, part->name, NULL, "expected N x 6N pixels, found %u x %u",
                                part->width, part->height);
@@ -188,7 +188,7 @@ struct glint_writer_part *glint_writer_part_create(const char *path, const struc
         return NULL;
     }
     held->file.compression = compression;
-    if (!hold(path, held, part, err)) glint_writer_part_destroy(&held);
+    if (!hold_part(path, held, part, err)) glint_writer_part_destroy(&held);
     return held;
 }
 

@@ -1,4 +1,4 @@
-/* A part that the writer holds until it is written: a copy of the pixels, and the headers as the reader will find them. */
+/* A part that the writer keeps until it is written: a copy of the pixels, and the headers as the reader will find them. */
 #ifndef GLINT_WRITER_PART_H
 #define GLINT_WRITER_PART_H
 
@@ -14,7 +14,7 @@ struct glint_writer_part {
     struct glint_arena arena;
 };
 
-/* Copies, and checks by the reader's own rules. `path` is for messages. NULL on failure. */
+/* Copies a part and checks it by the reader's rules. `path` is for error messages. NULL on failure. */
 struct glint_writer_part *glint_writer_part_create(const char *path, const struct glint_part *part,
                                                    enum glint_compression compression, struct glint_error *err);
 void glint_writer_part_destroy(struct glint_writer_part **part);

@@ -1,5 +1,5 @@
 /* Images that come from the capture, decoded to canonical values. Rows only, read by C.
-   CAPTURE(name, format, unit, size, role, channels of the role, required, nothing, meaning) */
+   CAPTURE(name, format, unit, size, role, channels of the role, required, fallback, meaning) */
 CAPTURE(depth_full,       R32F,    "m",  FULL,     "gbuffer", "depth.Z", true, INFINITY, "view-linear depth; +inf where sky")
 CAPTURE(normal_full,      RGBA16F, "1",  FULL,     "gbuffer", "normal.X normal.Y normal.Z material.roughness", true, 0, "xyz: unit normal in world space; w: perceptual roughness")
 CAPTURE(vertex_normal_full, RGBA16F, "1", FULL,   "gbuffer", "vertexNormal.X vertexNormal.Y vertexNormal.Z -", false, 0, "xyz: unit geometric normal in world space")

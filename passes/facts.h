@@ -1,25 +1,26 @@
 /* The facts that rows NEEDS and FACT ask for, over the survey's figures. Rows only, read by C (replay/plan/facts.c):
    FACT(name, about, holds, the figure in words); FACT_BY where NEEDS_BY names a parameter, whose value is `limit`.
-   Every answer is conservative: a fact that does not hold leaves no pixel for which the pass could do anything.
-   s: the survey; shown: pixels whose reflection the picture shows; share: their part of all; faces: of active cube maps that were
-   looked at, 0 when none was; open, lets_sky: those of them without distance somewhere, and those that let the sky through. */
+   Every answer is conservative: if a fact is false, there is no pixel for which the pass could do anything.
+   s: the survey; shown: the pixels whose reflection is visible; share: their fraction of all pixels; faces: number of surveyed faces of
+   active cube maps, 0 if they were not surveyed; open: number of these with a texel without a finite distance; translucent: number of these
+   with a texel whose alpha lets the sky show. */
 FACT(reflecting, PIXELS, shown->count > 0, SAY("%llu of %llu pixels reflect", N(shown->count), N(s->pixels)))
 FACT(reflections, PIXELS, shown->count > 0 || s->has_transparent,
      SAY("%llu of %llu pixels reflect%s", N(shown->count), N(s->pixels), s->has_transparent ? ", and a transparent surface" : ""))
 FACT_BY(sparse, PIXELS, share <= limit, SAY("%.3g %% of the pixels reflect, the limit is %.3g %%", 100 * share, 100 * limit))
 FACT_BY(smooth, PIXELS, shown->count > 0 && shown->roughness[0] <= (float)limit, SAY_LIMIT("smoothest", 0, "at most"))
 FACT_BY(rough, PIXELS, shown->count > 0 && shown->roughness[1] >= (float)limit, SAY_LIMIT("roughest", 1, "at least"))
-/* A ray of a perfect mirror stands for no cone, so that only finest levels are looked up. */
+/* The ray of a perfect mirror has no cone, so that only the finest MIP levels are sampled. */
 FACT(cones, CONES, s->has_transparent || shown->roughness[1] > 0,
      s->has_transparent ? SAY("a transparent surface") : SAY_ROUGHNESS("roughest", 1))
 FACT(sky, PIXELS, s->sky > 0, SAY("%llu of %llu pixels are sky", N(s->sky), N(s->pixels)))
-/* Whether a distance cube map has texels without a surface. */
+/* Whether a cube map has texels without a surface. */
 FACT(cube_sky, FACES, open > 0 || faces == 0,
      faces ? SAY("%u of %u cube faces show the sky", open, faces) : SAY("the cube maps may show the sky"))
-/* Whether some ray may end in the sky, or is seen through fog that takes its colour. */
-FACT(sky_seen, FACES_AND_PIXELS, s->sky > 0 || faces == 0 || open > 0 || lets_sky > 0 || s->has_fog,
+/* Whether a ray may end in the sky, or is seen through fog that takes the sky's colour. */
+FACT(sky_seen, FACES_AND_PIXELS, s->sky > 0 || faces == 0 || open > 0 || translucent > 0 || s->has_fog,
      s->has_fog ? SAY("fog takes the colour of the sky")
-     : faces    ? SAY("%llu pixels and %u of %u cube faces show the sky", N(s->sky), open > lets_sky ? open : lets_sky, faces)
+     : faces    ? SAY("%llu pixels and %u of %u cube faces show the sky", N(s->sky), open > translucent ? open : translucent, faces)
      : s->sky   ? SAY("%llu pixels are sky", N(s->sky)) : SAY("the cube maps may show the sky"))
 FACT(cubemaps, CUBEMAPS, s->cubemaps > 0, SAY("%u cube map%s", s->cubemaps, s->cubemaps == 1 ? "" : "s"))
 FACT(volumes, PARTS, s->volumes > 0, SAY("%u cube map%s with an inner volume", s->volumes, s->volumes == 1 ? "" : "s"))

@@ -42,9 +42,9 @@ OPTIONAL = BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$i
 LIST = OPTIONAL.replace('$kind', 'utextureBuffer').replace('$image', '$list')
 # The second row that C gets of a DISPATCH_LIST.
 READ_LIST = ('}, {.kind = GLINT_ROW_READ, .id = __LINE__, .name = #$list, .glsl = "utextureBuffer", .optional = true, '
-             '.format = GLINT_FORMAT_R32UI, .size = GLINT_SIZE_LIST, .nothing = 0xFFFFFFFFu')
+             '.format = GLINT_FORMAT_R32UI, .size = GLINT_SIZE_LIST, .fallback = 0xFFFFFFFFu')
 IMAGE = ('.name = #$image, .glsl = #$kind, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, .unit = $unit, '
-         '.channels = $channels, .nothing = (double)($nothing), .help = $meaning')
+         '.channels = $channels, .fallback = (double)($fallback), .help = $meaning')
 VALUE = ('.name = #$name, .type = VALUE_##$type, .initial = (double)($initial), .lowest = (double)($lowest), '
          '.highest = (double)($highest), .unit = $unit, .source = $source, .help = $help')
 
@@ -74,29 +74,29 @@ KINDS = [
          'An image that another pass or the capture makes. All its levels are one texture. Cube maps are read as textureCube or '
          'textureCubeArray, or as texture2DArray (layers as for WRITE) where the texel is known and neither filter nor face selection is needed.',
          row='.name = #$image, .glsl = #$kind', bindings=BINDING),
-    Kind('OPTIONAL_READ', 'kind, image, format, size, nothing',
-         'A READ of an image that need not exist. has_NAME is false in the shader when no pass makes it, and its "nothing" value is bound.',
+    Kind('OPTIONAL_READ', 'kind, image, format, size, fallback',
+         'A READ of an image that need not exist. has_NAME is false in the shader when no pass makes it, and its fallback value is bound.',
          row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
-             '.nothing = (double)($nothing)',
+             '.fallback = (double)($fallback)',
          bindings=OPTIONAL, as_kind='READ'),
     Kind('READ_OWN', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
          row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
     Kind('HISTORY', 'kind, name, image',
-         'What an image of the pipeline, not of the capture, held at the end of the previous frame, where frame.flags.x is 1; the image\'s '
-         '"nothing" value if its pass had nothing to do in that frame. Otherwise a stand-in of one texel with that value. `name` is the binding\'s.',
+         'The contents of an image of the pipeline, not of the capture, at the end of the previous frame, valid where frame.flags.x is 1; the '
+         'image\'s fallback value if its pass was dropped in that frame. Otherwise one texel with that value. `name` is the binding\'s.',
          row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
-    Kind('WRITE', 'kind, image, format, unit, size, channels, nothing, meaning',
+    Kind('WRITE', 'kind, image, format, unit, size, channels, fallback, meaning',
          'An image that this pass makes. An image with levels (a size class ..._MIPS) is written one level at a time: dispatch_level, whose size '
          'imageSize() gives. Cube maps are written as image2DArray: layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), which is '
          'gl_GlobalInvocationID.z. A LIST is a buffer of uints (uimageBuffer, read as utextureBuffer) of tiles, laid out as in '
          'shared/work_list.h. Nothing clears it; what lies behind the items is the maker\'s own.',
          row=IMAGE, bindings=WRITTEN),
-    Kind('DIAGNOSTIC', 'kind, image, format, unit, size, channels, nothing, meaning',
+    Kind('DIAGNOSTIC', 'kind, image, format, unit, size, channels, fallback, meaning',
          'A WRITE that is made only when diagnostics are on; a stand-in of 1 x 1 is bound otherwise.', row=IMAGE, bindings=WRITTEN),
-    Kind('CAPTURE', 'image, format, unit, size, role, channels, required, nothing, meaning',
+    Kind('CAPTURE', 'image, format, unit, size, role, channels, required, fallback, meaning',
          'An image that comes from the capture (passes/capture_images.h); role and channels are those of capture-format/FORMAT.md.',
          row='.name = #$image, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, .unit = $unit, .role = $role, '
-             '.source = $channels, .required = $required, .nothing = (double)($nothing), .help = $meaning'),
+             '.source = $channels, .required = $required, .fallback = (double)($fallback), .help = $meaning'),
 
     # ---- Parameters ----
     Kind('SPEC', 'type, name, initial, lowest, highest, unit, source, help',

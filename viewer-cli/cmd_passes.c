@@ -93,7 +93,7 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
         table_cell(table, "%s", size_name(row->size));
         table_cell(table, "%s", format_name(row->format));
         table_cell(table, "%s", row->channels);
-        table_cell(table, "%s", value_text(row, row->nothing));
+        table_cell(table, "%s", value_text(row, row->fallback));
         table_cell(table, "%s", row->unit);
         table_cell(table, "%s%s", row->help, row->kind == GLINT_ROW_DIAGNOSTIC ? " (with --diagnostics)" : "");
     }

@@ -188,10 +188,10 @@ static bool compare_with_truth(const struct glint_reference *reference, struct g
     uint8_t *surfaces = NULL;
     missing->known = glint_study_truth(capture, pipeline, &truth, &truth_error, &no_truth);
     missing->fog = glint_capture_frame(capture)->has_fog && fades(pipeline);
-    bool ok =
-        !missing->known || ((surfaces = glint_study_surfaces(capture, err)) != NULL &&
-                            glint_reference_pixels(reference, &own, &own_error, err) &&
-                            glint_study_missing(&own, own_error, &truth, truth_error, surfaces, &missing->errors, err));
+    bool ok = !missing->known ||
+              ((surfaces = glint_study_surfaces(capture, err)) != NULL &&
+               glint_reference_pixels(reference, &own, &own_error, err) &&
+               glint_study_reference_bias(&own, own_error, &truth, truth_error, surfaces, &missing->errors, err));
     free(surfaces);
     free(truth_error);
     free(own_error);

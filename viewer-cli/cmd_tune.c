@@ -237,7 +237,7 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
 /* An interrupted search writes the best preset so far. */
 static enum status report_interrupted_tune(const struct tune *tune) {
     struct glint_error err = {0};
-    const bool some = tune->found.count && tune->found.within;
+    const bool some = tune->found.count && tune->found.feasible;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
     command_note(&cmd_tune, "%s%sthe evaluations are kept in %s; the same command resumes the search",
                  some ? tune->out : "", some ? " is the best preset so far, without final timing; " : "", tune->folder);
@@ -245,7 +245,7 @@ static enum status report_interrupted_tune(const struct tune *tune) {
 }
 
 static bool search_and_write(struct tune *tune, struct glint_error *err) {
-    return tune_search(tune, err) && (tune->found.within || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
+    return tune_search(tune, err) && (tune->found.feasible || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
            tune_confirm(tune, err) && tune_write_preset(tune, err) && tune_write_page(tune, err);
 }
 

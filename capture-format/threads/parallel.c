@@ -1,4 +1,4 @@
-/* Work on ranges of rows, spread over the processor's cores. */
+/* Processes ranges of rows on all cores. */
 #include "parallel.h"
 
 #include "threads.h"

@@ -1,4 +1,4 @@
-/* Work on ranges of rows, spread over the processor's cores. */
+/* Processes ranges of rows on all cores. */
 #ifndef GLINT_PARALLEL_H
 #define GLINT_PARALLEL_H
 

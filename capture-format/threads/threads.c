@@ -1,4 +1,4 @@
-/* A loop over indices spread on threads. */
+/* A parallel loop over indices. */
 #include "threads.h"
 
 #include <pthread.h>
@@ -19,7 +19,7 @@ struct worker {
     pthread_t thread;
 };
 
-static void *work(void *user) {
+static void *run_worker(void *user) {
     struct worker *worker = user;
     struct loop *loop = worker->loop;
     while (!atomic_load(&loop->failed)) {
@@ -43,10 +43,10 @@ bool glint_loop(size_t count, uint32_t workers, glint_loop_fn fn, void *user) {
     uint32_t started = 1;
     for (; started < workers && started < GLINT_MAX_WORKERS; started++) {
         all[started] = (struct worker){.loop = &loop, .index = started};
-        if (pthread_create(&all[started].thread, NULL, work, &all[started])) break;
+        if (pthread_create(&all[started].thread, NULL, run_worker, &all[started])) break;
     }
     all[0] = (struct worker){.loop = &loop};
-    work(&all[0]);
+    run_worker(&all[0]);
     for (uint32_t i = 1; i < started; i++) pthread_join(all[i].thread, NULL);
     return !atomic_load(&loop.failed);
 }

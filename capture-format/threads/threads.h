@@ -1,4 +1,4 @@
-/* A loop over indices spread on threads. */
+/* A parallel loop over indices. */
 #ifndef GLINT_THREADS_H
 #define GLINT_THREADS_H
 
@@ -11,9 +11,9 @@
 typedef bool (*glint_loop_fn)(void *user, uint32_t worker, size_t index);
 
 #define GLINT_MAX_WORKERS 64
-/* How many workers a loop of `count` runs on; `threads` 0 means one for each core. */
+/* The number of workers of a loop over `count` indices; `threads` 0 means one for each core. */
 uint32_t glint_loop_workers(size_t count, uint32_t threads);
-/* Runs on the calling thread and workers - 1 others (fewer when the system refuses them). True when no call failed. */
+/* Runs on the calling thread and workers - 1 others, or fewer if threads cannot be created. True if no call failed. */
 bool glint_loop(size_t count, uint32_t workers, glint_loop_fn fn, void *user);
 
 #endif

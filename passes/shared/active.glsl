@@ -1,4 +1,4 @@
-// The active cube maps' centres, w: their fade, in shared memory: every invocation looks at several of them. Call
+// The active cube maps' centres, w: their fade, in shared memory, since every invocation reads several of them. Call
 // load_active_centers() before any invocation returns.
 #include "shared/constants.glsl"
 
@@ -11,7 +11,7 @@ void load_active_centers() {
     barrier();
 }
 
-// The one whose centre is nearest to a point; 255: there is none.
+// The active cube map whose centre is nearest to a point; 255 if there is none.
 uint nearest_active(vec3 point) {
     uint best = 255u;
     float best_distance2 = INFINITE;

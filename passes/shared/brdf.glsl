@@ -1,4 +1,4 @@
-// What compose needs of the material.
+// Material functions for compose.
 #ifndef GLINT_BRDF
 #define GLINT_BRDF
 
@@ -12,7 +12,7 @@ vec3 reflectance_at_normal(vec3 albedo, float metalness, float specular) {
 // Deviation: the largest component stands for F0.
 float reflectance_at_grazing(vec3 f0) { return min(50.0 * max(f0.r, max(f0.g, f0.b)), 1.0); }
 
-// Share of unpolarised light that a smooth dielectric face reflects, from outside (Fresnel); cosine: to its normal.
+// Fraction of unpolarised light that a smooth dielectric face reflects, from outside (Fresnel); cosine: to its normal.
 float face_reflectance(float cosine, float index) {
     float within = sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
     float s = (cosine - index * within) / (cosine + index * within), p = (within - index * cosine) / (within + index * cosine);
@@ -43,7 +43,7 @@ vec2 environment_brdf(float roughness, float cosine) {
     return vec2(kept - grazing, grazing);
 }
 
-// fresnel: what a material makes of the rise towards grazing angles (GTA V article, Specular map: fresnel intensity); 0: none.
+// fresnel: the material's scale of the rise towards grazing angles (GTA V article, Specular map: fresnel intensity); 0: none.
 vec3 environment_reflectance(vec3 f0, float roughness, float cosine, float fresnel) {
     vec2 scale = environment_brdf(roughness, cosine);
     vec3 grazing = vec3(reflectance_at_grazing(f0));

@@ -20,8 +20,8 @@ float cocoon_gauge(texture2DArray cocoon, vec3 v, uint place) {
     return major > 0.0 ? major * found : 0.0;
 }
 
-// Where the ray from_center + t · direction leaves the cocoon for the first time; < 0: never. A start outside of it goes
-// on to where the ray comes in, unless it comes in for less than a step.
+// Where the ray from_center + t · direction leaves the cocoon for the first time; < 0: never. A ray that
+// starts outside first enters the cocoon, unless it is inside for less than a step.
 //
 // Samples are even in w, t = reach · w/(1 - w): with reach = |from_center| their directions from the centre turn evenly,
 // and the last is the ray's own. Times 1 - w, the place along the ray is mix(from_center, reach · direction, w), so that
@@ -30,7 +30,7 @@ float leaves_cocoon(texture2DArray cocoon, vec3 from_center, vec3 direction, uin
     float reach = max(length(from_center), 0.1), low = 0.0, high = 2.0, low_gap = 0.0, high_gap = 0.0;
     vec3 far = reach * direction;
     bool inside = false;
-    for (int i = 0; i <= steps; ++i) { // no early end: the fetches do not wait for each other
+    for (int i = 0; i <= steps; ++i) { // no early exit, so that the fetches are independent
         float w = float(i) / float(steps), gap = cocoon_gauge(cocoon, mix(from_center, far, w), place) - (1.0 - w);
         if (high <= 1.0) continue;
         if (gap <= 0.0) {

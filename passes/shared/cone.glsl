@@ -27,7 +27,7 @@ float cone_level_cube(float angle, float travelled_m, float from_center_m, float
 }
 
 // Level of the picture at the end of a ray. depth_m: of the end, along the view axis; pixels_at_1m: how many pixels a
-// metre spans at a depth of one; for a ray without end give its unit direction's length and depth, 1 and its cosine.
+// metre spans at a depth of one; for a ray without end pass the length and depth of its unit direction, 1 and its cosine.
 float cone_level_screen(float angle, float travelled_m, float depth_m, float pixels_at_1m, float texel_scale, float last) {
     float spread = min(travelled_m / max(depth_m, 1e-12), 1e12);
     float pixels = cone_tangent(angle) * spread * pixels_at_1m / texel_scale;

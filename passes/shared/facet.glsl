@@ -4,7 +4,7 @@
 #define GLINT_FACET
 #include "shared/camera.glsl"
 
-const float STEEPEST = 1.0; // a facet that would reach infinity within two texels is the rim of something
+const float STEEPEST = 1.0; // a facet that would reach infinity within two texels is a silhouette
 
 // The slopes that a plane with this normal (view space) has. texel: its extent in uv. Large when the normal is unusable.
 vec2 slopes_of_normal(vec3 normal, vec2 uv, vec2 texel, vec4 view_from_uv, float front) {
@@ -16,7 +16,7 @@ vec2 slopes_of_normal(vec3 normal, vec2 uv, vec2 texel, vec4 view_from_uv, float
 float fall(float depth_m, float other_m) { return depth_m == other_m ? 0.0 : 1.0 - depth_m / other_m; }
 
 // One axis: the flatter of the two sides continues the surface, because a step to another one is steeper. Where both
-// are far steeper than the normal says, the surface is no wider than the texel, and the normal is all there is.
+// are far steeper than the normal implies, the surface is no wider than the texel, and only the normal is used.
 float facet_slope(float depth_m, float before_m, float after_m, float by_normal) {
     float before = fall(depth_m, before_m), after = -fall(depth_m, after_m);
     float flatter = abs(after) < abs(before) ? after : before;

@@ -1,7 +1,7 @@
 // The facet of a texel of depth_half, its neighbours fetched. Next include of a pass that reads depth_half and normal_half.
 #include "shared/facet.glsl"
 
-// A texel and the one next to it; at the border the one on the other side, turned about the texel.
+// A neighbour of a texel; at the border the opposite neighbour, mirrored at the texel.
 vec2 neighbours(ivec2 at, ivec2 axis, float depth_m) {
     ivec2 last = textureSize(depth_half, 0) - 1;
     bool first_texel = any(lessThan(at - axis, ivec2(0))), last_texel = any(greaterThan(at + axis, last));

@@ -1,13 +1,13 @@
-// What every pass has beside its declaration: constants that the host sets, the frame, the samplers. The generated
+// The interface of every pass besides its declaration: constants that the host sets, the frame, the samplers. The generated
 // shared/bindings.glsl includes it. Other bindings of set 0 and other constants are rows of the declaration (passes/row_kinds.py).
 layout(constant_id = 0) const bool diagnostics = false;
-layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/tell.glsl)
+layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/record.glsl)
 layout(constant_id = 3) const bool halves = true; // false: images declared as half floats are full floats
 layout(constant_id = 4) const uint dispatch_phase = 0u; // the number of this dispatch among the pass's rows DISPATCH…
 const uint ALL_TILES = 0xFFFFFFFFu; // no list: the dispatch covers the whole image
 layout(constant_id = 995) const bool filter_by_hand = false; // cube maps are filtered by shared/cube_filter.glsl, not by a sampler
 layout(constant_id = 997) const uint tile_range = ALL_TILES; // the range of a list that the dispatch covers (shared/work_list.h)
-layout(constant_id = 998) const bool tile_works = true; // false: the dispatch covers the other tiles, where the pass has nothing to do
+layout(constant_id = 998) const bool tile_works = true; // false: the dispatch covers the other tiles, where the pass only writes fallback values
 
 // Ids 1 and 2 are the workgroup's size, from the row WORKGROUP.
 layout(local_size_x = 8, local_size_y = 8, local_size_x_id = 1, local_size_y_id = 2) in;

@@ -13,7 +13,7 @@ Reprojection reproject(vec2 uv, vec3 position, ivec2 full_pixel, float travelled
     Reprojection r;
     float front = frame.depth_range.w;
     r.expected = (frame.previous_view_from_world * vec4(position, 1.0)).xyz;
-    // Both views in the axes of now; below 1e-6 the matrices' own rounding.
+    // Both view vectors in the current axes; below 1e-6 lies the rounding of the matrices.
     vec3 then = transpose(mat3(frame.previous_view_from_world)) * normalize(r.expected);
     r.turned = max(distance(then, normalize(position)) - 1e-6, 0.0);
     vec4 seen = vec4(position, 1.0);
@@ -26,7 +26,7 @@ Reprojection reproject(vec2 uv, vec3 position, ivec2 full_pixel, float travelled
     r.uv = view.z * front > 0.0 ? project(view, frame.previous_uv_from_view, front) : vec2(-1.0);
     if (motion && reprojection == reprojection_surface && textureSize(motion_full, 0) == ivec2(frame.size.xy)) {
         vec2 moved = texelFetch(motion_full, full_pixel, 0).xy;
-        // A moving surface keeps its depth here, for its own motion along the view is not in the vectors.
+        // A moving surface keeps its depth here, since the vectors do not contain its motion along the view.
         vec4 from_view = frame.previous_uv_from_view;
         r.uv = uv + moved;
         r.expected.xy = (r.uv - from_view.zw) / from_view.xy * r.expected.z * front;

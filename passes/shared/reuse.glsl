@@ -1,4 +1,4 @@
-// What a surface may take of a neighbour's reflection.
+// Weights for reusing a neighbour's reflection.
 #ifndef GLINT_REUSE
 #define GLINT_REUSE
 #include "shared/constants.glsl"

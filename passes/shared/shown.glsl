@@ -1,6 +1,6 @@
-// Whether the picture shows a pixel's reflection: compose gives none to a material without specular and metal. Next include
-// of a pass with the rows of shown_rows.h. Only what is shown is shared: neither a neighbour nor the next frame takes
-// anything of other surfaces, so that whether their rays were traced makes no difference to the picture.
+// Whether a pixel's reflection is visible: compose adds none to a material without specular and metalness. Next include
+// of a pass with the rows of shown_rows.h. Only visible reflections are shared: neither neighbours nor the
+// next frame use those of other surfaces, so that culling their rays does not change the picture.
 bool is_shown(ivec2 pixel) {
     return frame.work.y != 0u || !(texelFetch(albedo_full, pixel, 0).a == 0.0 && texelFetch(specular_full, pixel, 0).x == 0.0);
 }

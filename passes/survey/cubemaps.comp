@@ -9,14 +9,14 @@
 #include "shared/cocoon.glsl"
 #include "shared/constants.glsl"
 
-// Whether the sky is seen in one of the four texels that meet at a corner.
+// Whether one of the four texels that meet at a corner shows the sky.
 bool has_sky(vec3 corner) {
     if (dispatch_phase == 0u)
         return any(not(lessThan(textureGather(sampler2DArray(cubemap_distance, nearest_clamp), corner), vec4(LARGEST))));
     return any(not(greaterThanEqual(textureGather(sampler2DArray(cubemap_color, nearest_clamp), corner, 3), vec4(1.0))));
 }
 
-// Of an odd square the last texels' neighbours are looked at, too: they are of the same face.
+// A square of odd size also tests neighbours of its last texels, which belong to the same face.
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at.xy, ivec2(COCOON_SIZE)))) return;

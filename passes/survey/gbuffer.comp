@@ -21,9 +21,9 @@
 #undef MAXIMUM
 #line 24
 const int ALL_FIGURES = 512;
-const int FIGURES = whole ? ALL_FIGURES : 128; // words of a workgroup: plans go by the first lines of figures.h alone
+const int FIGURES = whole ? ALL_FIGURES : 128; // words of a workgroup: plans only need the first lines of figures.h
 shared uint figures[ALL_FIGURES];
-// Bits of floats that are not negative are ordered as they are.
+// The bits of floats that are not negative are ordered like their values.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
 uint kind_of(int figure) {
 #define COUNT(name, bins, meaning)
@@ -33,7 +33,7 @@ uint kind_of(int figure) {
     return COUNTED;
 }
 
-// Pixels of a kind lie together: how often the same figure came in a row is added when another one comes.
+// Similar pixels are adjacent, so repetitions of a figure are counted and added when it changes.
 struct Row {
     int figure;
     uint count;
@@ -49,7 +49,7 @@ void bin(inout Row row, int figure, int number, int most) {
     row.count++;
 }
 
-// Of one pixel after the other, kept by the invocation until all are counted.
+// The figures of an invocation, accumulated over its pixels.
 struct Sums {
     Row by_surface_roughness, by_reflecting_roughness, by_metalness, by_weight;
     uvec2 stencil; // an id, and how often it came in a row
@@ -75,7 +75,7 @@ float weight_of(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specu
     return max(weight.r, max(weight.g, weight.b));
 }
 
-// How far a surface was from here in the frame before, and how far from where a still one would have been, in pixels.
+// How far the surface moved since the previous frame, and how far from where a static one would be, in pixels.
 vec2 moved_px(ivec2 pixel, float depth_m, vec2 moved) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy), size = vec2(frame.size.xy);
     if (textureSize(motion_full, 0) != ivec2(frame.size.xy)) return vec2(0.0);
@@ -87,7 +87,7 @@ vec2 moved_px(ivec2 pixel, float depth_m, vec2 moved) {
     return vec2(length((moved - jitter) * size), length((moved - still) * size));
 }
 
-// What nobody but people asks for.
+// Figures that no plan depends on.
 void count_more(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specular, inout Sums sums) {
     float roughness = held(surface.w);
     widen(sums.depth, max(depth_m, 0.0));
@@ -120,7 +120,7 @@ void count_picture(ivec2 pixel, inout Sums sums) {
     }
 }
 
-// Everything is fetched before anything is looked at, so that no fetch waits for another one.
+// All texels are fetched before any is used, so that the fetches are independent.
 void count_pixel(ivec2 pixel, inout Sums sums) {
     float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0), base = texelFetch(albedo_full, pixel, 0);

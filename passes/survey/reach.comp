@@ -12,14 +12,14 @@
 #define LIST_WORD(place) texelFetch(partial, place).x
 #include "shared/work_list.glsl"
 
-// How much larger a face is taken than it is: what of its neighbours lies within a texel of it, and within a tenth of its width,
-// counts as its own (replay/frame/faces.c). Of a part e of the half width that is 1 / (1 - e) - 1, and something for rounded normals.
+// Margins around a face: directions within a texel of it, or within a tenth of its width, count as reaching it (replay/frame/faces.c). For a
+// fraction e of the half width the margin is 1 / (1 - e) - 1, plus some for rounded normals.
 const float ROUNDED = 0.0035, NEARBY = 0.26;
 float margin_of(float e) { return 1.0 / (1.0 - min(e, 0.9)) - 1.0 + ROUNDED; }
 shared uint faces[8];
 
-// The way of a ray from its surface to infinity, as a centre sees it: (1 - x) · from + x · towards, x from 0 to 1. It crosses
-// a face where its part along the face's axis is the largest one: between bounds on x, one for each border.
+// The path of a ray from its surface to infinity as seen from a centre: (1 - x) · from + x · towards, x from 0 to 1. It crosses a face where
+// its component along the face's axis is the largest, which bounds x at each border.
 bool crosses(vec3 from, vec3 towards, int face, float margin) {
     int axis = face >> 1;
     float front = (face & 1) == 0 ? 1.0 + margin : -1.0 - margin;
@@ -39,7 +39,7 @@ void follow(vec3 origin, vec3 direction) {
     float beside = margin_of(2.0 / float(frame.counts.z));
     for (int place = 0; place < int(min(frame.counts.x, ACTIVE_MOST)); ++place) {
         vec3 from = origin - active_centers[place].xyz;
-        bool all = !(length(from) > 1e-3 * (1.0 + length(origin))); // its direction is not known
+        bool all = !(length(from) > 1e-3 * (1.0 + length(origin))); // its direction is undefined
         from = normalize(from);
         for (int face = 0; face < 6; ++face) {
             int bit = 6 * place + face, word = bit >> 5;
@@ -58,11 +58,11 @@ void follow_pixel(ivec2 pixel) {
     if (!reflects(depth_m, surface.xyz)) return;
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-    if (surface.w > 0.0) for (int word = 0; word < 8; ++word) faces[word] = 0xFFFFFFFFu; // from a lobe: anywhere
+    if (surface.w > 0.0) for (int word = 0; word < 8; ++word) faces[word] = 0xFFFFFFFFu; // rays of a lobe may reach any face
     else follow(origin, mirror_direction(origin, surface.xyz));
 }
 
-// The rays of those of a block's pixels whose reflection the picture shows.
+// The rays of those pixels of a block that have a visible reflection.
 void follow_block(ivec2 block) {
     if (any(greaterThanEqual(block, ivec2(frame.size.xy)))) return;
     uint shown = BLOCK == 1 ? uint(is_shown(block)) : shown_in_block(block);
@@ -72,7 +72,7 @@ void follow_block(ivec2 block) {
     }
 }
 
-// Each workgroup joins one word of all tiles.
+// Each workgroup combines one word of all tiles.
 void join_tiles(uvec2 tiles) {
     uint own = 0u, word = workgroup_index(), lanes = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
     if (word >= 8u) return;

@@ -8,17 +8,17 @@ struct faults {
     size_t count;
     enum glint_code code; /* of the first */
     char text[900];
-    size_t left_out; /* how many did not fit */
+    size_t left_out; /* number of faults that did not fit into the text */
 };
 
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
 void faults_add(struct faults *faults, enum glint_code code, const char *format, ...);
-/* True when there was none; otherwise fails with all of them. */
+/* True if there are none; otherwise fails with a message that lists all of them. */
 bool faults_none(const struct faults *faults, const char *where, struct glint_error *err);
 
-/* Appends to a list in a fixed buffer: "a, b, c"; what does not fit ends in "…". */
+/* Appends to a list in a fixed buffer: "a, b, c". If items do not fit, the list ends in "…". */
 void text_list(char *text, size_t size, const char *item);
 
 #endif

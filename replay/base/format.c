@@ -1,4 +1,4 @@
-/* Image formats and what describes an image, without a device. */
+/* Image formats and descriptions, independent of a device. */
 #include "format.h"
 
 #include "glint/replay.h"

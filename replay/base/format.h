@@ -1,4 +1,4 @@
-/* Image formats and what describes an image, without a device. */
+/* Image formats and descriptions, independent of a device. */
 #ifndef GLINT_REPLAY_FORMAT_H
 #define GLINT_REPLAY_FORMAT_H
 
@@ -9,16 +9,16 @@
 uint32_t format_components(enum glint_format format);
 size_t format_bytes(enum glint_format format); /* of one texel */
 const char *format_name(enum glint_format format);
-/* The same image with float in place of half. */
+/* The format with float instead of half. */
 enum glint_format format_widened(enum glint_format format);
 
-/* What an image has to be; equal descriptions can reuse an image. */
+/* The description of an image. An image can be reused wherever the description is equal. */
 struct image_desc {
     enum glint_format format;
-    uint32_t width, height, layers; /* of one layer; 0: a plain 2D image */
-    bool cube;                      /* the layers are six faces for each cube map */
-    uint32_t levels;                /* each half as large as the one before it, at least 1 × 1 */
-    bool buffer;                    /* of the texels of a plain 2D image, row by row */
+    uint32_t width, height, layers; /* layers: 0 for a plain 2D image */
+    bool cube;                      /* the layers are faces of cube maps */
+    uint32_t levels;                /* MIP levels */
+    bool buffer;                    /* a texel buffer that holds a plain 2D image row by row */
 };
 enum { LEVELS_MAX = 17 };
 
@@ -30,7 +30,7 @@ uint32_t image_layers(const struct image_desc *desc); /* at least 1 */
 struct extent image_extent(const struct image_desc *desc, uint32_t level);
 size_t image_bytes(const struct image_desc *desc, uint32_t level); /* tightly packed */
 size_t image_values(const struct image_desc *desc, uint32_t level);
-/* How many levels there are down to 1 × 1. */
+/* The number of MIP levels down to 1 × 1. */
 uint32_t level_count(uint32_t width, uint32_t height);
 
 #endif

@@ -1,4 +1,4 @@
-/* Look-ups in declarations. */
+/* Queries on declarations. */
 #include "row.h"
 
 #include <stdio.h>
@@ -86,12 +86,6 @@ void channel_names(struct channel_names *names, const char *channels) {
         names->list[names->count++] = word;
 }
 
-const char *channel_word(const char *channels, size_t place, size_t *length) {
-    for (; place > 0 && strchr(channels, ' '); place--) channels = strchr(channels, ' ') + 1;
-    *length = strcspn(channels, " ");
-    return channels;
-}
-
 const struct glint_row *glint_pass_role(const struct glint_pass *pass, enum glint_pass_role role) {
     for (size_t r = 0; r < pass->row_count; r++)
         if (pass->rows[r].kind == GLINT_ROW_ROLE && pass->rows[r].first == (int)role) return &pass->rows[r];
@@ -117,7 +111,7 @@ const char *cubemap_order_image(void) {
     return name;
 }
 
-/* Cube-map arrays hold the active cube maps in the order of one table, so whoever reads an array depends on that. */
+/* An array of cube maps holds the active ones in the order of a table, so a pass that reads the array depends on the table, too. */
 size_t glint_row_reads(const struct glint_row *row, const char *names[2]) {
     if (row->kind != GLINT_ROW_READ) return 0;
     const struct glint_row *captured = capture_row(row->name);

@@ -12,21 +12,16 @@ char *file_text(const char *path, size_t limit, struct glint_error *err) {
         glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
         return NULL;
     }
-    size_t size = 0, capacity = 1 << 16;
-    char *text = malloc(capacity + 1);
-    while (text) {
-        size += fread(text + size, 1, capacity - size, file);
-        if (size < capacity) break;
-        capacity *= 2;
-        char *larger = capacity <= 2 * limit ? realloc(text, capacity + 1) : NULL;
-        if (!larger) free(text);
-        text = larger;
-    }
+    char *text = malloc(limit + 2); /* pages that are not written cost nothing */
+    const size_t size = text ? fread(text, 1, limit + 1, file) : 0;
     bool failed = ferror(file) != 0;
     fclose(file);
     if (text && !failed && size <= limit) {
         text[size] = 0;
-        if (strlen(text) == size) return text;
+        if (strlen(text) == size) {
+            char *fitted = realloc(text, size + 1);
+            return fitted ? fitted : text;
+        }
         glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected text, found a NUL byte at %zu", path, strlen(text));
     } else if (failed) glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
     else glint_fail(err, GLINT_ERROR_LIMIT, "%s: expected at most %zu bytes of text", path, limit);

@@ -1,4 +1,4 @@
-/* Clocks and statistics of times. */
+/* Clocks, statistics of times and progress reports. */
 #include "timing.h"
 
 #include <stdlib.h>
@@ -11,14 +11,14 @@ double glint_now_seconds(void) {
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-static int ascending(const void *a, const void *b) {
+static int compare_ns(const void *a, const void *b) {
     const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
     return (x > y) - (x < y);
 }
 
 struct glint_time glint_time_statistics(uint64_t *ns, size_t count) {
     if (!count) return (struct glint_time){0};
-    qsort(ns, count, sizeof *ns, ascending);
+    qsort(ns, count, sizeof *ns, compare_ns);
     uint64_t low = ns[(count - 1) / 2], high = ns[count / 2];
     return (struct glint_time){(uint32_t)count, ns[0], low + (high - low) / 2, ns[count - 1]};
 }

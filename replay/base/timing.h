@@ -1,4 +1,4 @@
-/* Clocks, and where a replay's time goes. */
+/* Phases of a replay that are timed, and memory use. */
 #ifndef GLINT_REPLAY_TIMING_H
 #define GLINT_REPLAY_TIMING_H
 
@@ -6,7 +6,7 @@
 
 enum phase { PHASE_READ, PHASE_UPLOAD, PHASE_PASSES, PHASE_READBACK, PHASE_WRITE, PHASES };
 
-/* The most memory this process has held, 0 when unknown. */
+/* The peak resident memory of this process, 0 if unknown. */
 uint64_t peak_memory_bytes(void);
 
 #endif

@@ -1,9 +1,9 @@
-/* A step's descriptors, barriers and commands. */
+/* Writes a step's descriptors and records its barriers and dispatches. */
 #include <string.h>
 
 #include "run.h"
 
-/* Cube maps can be sampled by direction, or fetched as an array of faces. */
+/* Cube maps can be sampled by direction or fetched as an array of faces. */
 static VkImageView sampled_view(const struct image *image, const char *kind) {
     if (strstr(kind, "2DArray")) return image->faces_view;
     return strstr(kind, "CubeArray") ? image->array_view : image->view;
@@ -35,7 +35,7 @@ bool step_describe(const struct run *run, struct step *step, struct glint_error 
     return true;
 }
 
-/* Barriers before a dispatch: an image that the pass writes may also be read by it, at other levels. */
+/* Barriers before a dispatch. An image that the pass writes may also be read by it, at other MIP levels. */
 static void access_images(const struct run *run, const struct glint_pass *pass, struct barriers *barriers) {
     for (size_t r = 0; r < pass->row_count; r++) {
         const struct glint_row *row = &pass->rows[r];
@@ -59,11 +59,11 @@ void step_record(const struct run *run, struct step *step) {
         const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
         const VkPipelineLayout layout = dispatch->program->layout;
         uint32_t *push = step->constants.push;
-        push[0] = dispatch->level; /* how push_begin.glsl opens the block */
+        push[0] = dispatch->level; /* the first member of push_begin.glsl */
         struct barriers barriers = {0};
         if (dispatch->list) image_access(&dispatch->list->image, IMAGE_GROUPS, &barriers);
-        if (!dispatch->rest ||
-            glint_pass_row(step->pass->pass, GLINT_ROW_READ_OWN, NULL)) /* else it only writes other tiles */
+        if (!dispatch->rest || glint_pass_row(step->pass->pass, GLINT_ROW_READ_OWN,
+                                              NULL)) /* otherwise it writes other tiles than the dispatch before */
             access_images(run, step->pass->pass, &barriers);
         probes_access(step, &barriers);
         barriers_record(&barriers, gpu);

@@ -1,4 +1,4 @@
-/* One run of a plan, from its images to its last pass. */
+/* Runs a plan: allocates images, decides what must execute, uploads, executes. */
 #include "run.h"
 
 #include <stdlib.h>
@@ -21,9 +21,9 @@ static bool allocate_run(struct run *run, struct glint_error *err) {
     run->images = calloc(images, sizeof *run->images);
     run->keys = calloc(images, sizeof *run->keys);
     run->needed = calloc(images, sizeof *run->needed);
-    run->given = calloc(images, sizeof *run->given);
+    run->stored = calloc(images, sizeof *run->stored);
     run->steps = calloc(passes, sizeof *run->steps);
-    return (run->images && run->keys && run->needed && run->given && run->steps) ||
+    return (run->images && run->keys && run->needed && run->stored && run->steps) ||
            glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
@@ -67,7 +67,7 @@ bool engine_run(struct run *run, struct engine *engine, const struct frame_plan 
     struct glint_error own = {0};
     if (compute_frame(run, &own)) return true;
     if (run->touched && own.code != GLINT_ERROR_INTERRUPTED)
-        pool_drop(engine->pool, true); /* what the device did to them is not known */
+        pool_drop(engine->pool, true); /* their contents are undefined now */
     return glint_fail(err, own.code, "%s", own.message);
 }
 
@@ -81,11 +81,11 @@ void engine_release(struct run *run) {
         for (size_t d = 0; d < run->steps[p].dispatch_count; d++) free(run->steps[p].dispatches[d].layers);
         free(run->steps[p].dispatches);
     }
-    for (size_t i = 0; run->given && i < run->graph->image_count; i++) free(run->given[i]);
+    for (size_t i = 0; run->stored && i < run->graph->image_count; i++) free(run->stored[i]);
     free(run->steps);
     free(run->images);
     free(run->keys);
-    free(run->given);
+    free(run->stored);
     free(run->needed);
     *run = (struct run){0};
 }

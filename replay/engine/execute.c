@@ -1,4 +1,4 @@
-/* Rounds of all passes, timed. */
+/* Executes rounds of all passes and measures them. */
 #include "run.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@ static void write_stamp(struct run *run) {
         vkCmdWriteTimestamp2(run->gpu->commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, run->queries, run->stamps++);
 }
 
-/* One timestamp before the first pass and one after each: a pass's time is what passed since the one before it ended. */
+/* There is a timestamp before the first pass and one after each pass. The time of a pass is the difference to the timestamp before. */
 static bool begin_commands(struct run *run, struct glint_error *err) {
     struct gpu *gpu = run->gpu;
     if (!device_begin(gpu, err)) return false;
@@ -52,9 +52,9 @@ static bool submit_commands(struct run *run, const char *what, struct glint_erro
     return device_submit(run->gpu, what, err) && read_times(run, err);
 }
 
-/* Some of the passes, for one ray. `apart`: each is submitted by itself, so that who follows the progress can stop between
-   two; otherwise they are one command buffer, as a timed one has to be: a device that waits for the next submission
-   starts its first pass cold. `done` is how far the run is at the first pass, `share` their part. */
+/* Executes passes first … end - 1 for one ray. With `apart` each is submitted on its own, so that the progress callback can stop the run
+   between two passes. Otherwise they are submitted together, which timing requires since a device that has been idle runs the first pass
+   slowly. `done` and `share` are the fractions of the run's progress before these passes and for them. */
 static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t ray, bool apart, double done,
                            double share, struct glint_error *err) {
     struct frame_block block = run->plan->block;
@@ -80,7 +80,7 @@ static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t r
     return !recording || submit_commands(run, "running the passes", err);
 }
 
-/* All passes; those that run for each ray in a loop, each ray submitted by itself. */
+/* Executes all passes, those of the loop once for each ray, with a submission for each ray. */
 static bool execute_round(struct run *run, bool apart, double done, double share, struct glint_error *err) {
     const struct graph *graph = run->graph;
     const size_t first = graph->loop_first, end = graph->loop_end;
@@ -103,7 +103,7 @@ bool run_execute(struct run *run, struct glint_error *err) {
         struct step *step = &run->steps[p];
         if (!step->execute) continue;
         if (!(step->ns = calloc(rounds, sizeof *step->ns))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        for (size_t i = 0; i < run->graph->image_count; i++) /* until the new contents are complete */
+        for (size_t i = 0; i < run->graph->image_count; i++) /* undefined until the new contents are complete */
             if (run->graph->images[i].source == SOURCE_MADE && run->graph->images[i].maker == p)
                 run->images[i]->key = 0;
     }

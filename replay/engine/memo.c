@@ -70,10 +70,10 @@ static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct g
 }
 
 /* Of an image that no shader of this run makes. Images of a run folder are read, and told apart by their pixels. */
-static bool given_key(struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
+static bool input_key(struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->image.desc.format), image->name);
-    if (image->source == SOURCE_NOTHING) *key = mix_bytes(*key, &image->row->nothing, sizeof image->row->nothing);
+    if (image->source == SOURCE_FALLBACK) *key = mix_bytes(*key, &image->row->fallback, sizeof image->row->fallback);
     else if (image->source != SOURCE_RUN && !capture_key(run, i, key, err)) return false;
     if (size_is_array(image->row->size) && run->plan->active)
         *key = mix_bytes(*key, run->plan->active, run->sizes->active * sizeof *run->plan->active);
@@ -81,8 +81,8 @@ static bool given_key(struct run *run, size_t i, uint64_t *key, struct glint_err
     if (plan_captured_faces(run->plan, i, faces)) *key = mix_bytes(*key, faces, run->sizes->active);
     if (image->source != SOURCE_RUN) return true;
     size_t bytes = 0;
-    if (!run_read_given(run, i, &bytes, err)) return false;
-    *key = mix_bytes(*key, run->given[i], bytes);
+    if (!run_read_stored(run, i, &bytes, err)) return false;
+    *key = mix_bytes(*key, run->stored[i], bytes);
     return true;
 }
 
@@ -155,7 +155,7 @@ bool run_keys(struct run *run, struct glint_error *err) {
         if (image->source == SOURCE_MADE && image->pass->host)
             run->keys[i] = table_key(tables_find(run->plan->tables, image->name));
         else if (image->source == SOURCE_HISTORY) run->keys[i] = run->images[i]->key;
-        else if (image->source != SOURCE_MADE && !given_key(run, i, &run->keys[i], err)) return false;
+        else if (image->source != SOURCE_MADE && !input_key(run, i, &run->keys[i], err)) return false;
         if (image->source == SOURCE_RUN && !image->history) run->needed[i] = true; /* it is among the run's images */
     }
     for (size_t p = 0; p < graph->pass_count; p++) {

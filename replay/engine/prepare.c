@@ -1,4 +1,4 @@
-/* What a run needs before its passes can be recorded: programs, descriptors, queries. */
+/* Creates what is needed before passes can be recorded: programs, descriptors, queries. */
 #include "run.h"
 
 #include <stdlib.h>

@@ -1,5 +1,4 @@
-/* Several rays a frame: images that passes accumulate are summed up after each ray and become the mean after the last,
-   by a program of our own. */
+/* Several rays a pixel: images that passes accumulate are summed after each ray, and after the last ray they become the mean. */
 #include "run.h"
 
 #include <stdlib.h>
@@ -21,7 +20,7 @@ struct rays {
 
 enum { BINDING_IMAGE, BINDING_SUM, BINDING_MEAN, BINDINGS };
 
-/* Declared as a pass is, so that its program is made as theirs are. */
+/* Declared like a pass, so that its program can be created like theirs. */
 static const struct glint_row rows[BINDINGS] = {
     {.kind = GLINT_ROW_READ, .id = BINDING_IMAGE, .name = "image", .glsl = "texture2D"},
     {.kind = GLINT_ROW_WRITE, .id = BINDING_SUM, .name = "sum", .glsl = "image2D", .format = GLINT_FORMAT_RGBA32F},
@@ -50,12 +49,12 @@ static bool add_sum(struct run *run, struct image *of, struct glint_error *err) 
         .format = GLINT_FORMAT_RGBA32F, .width = of->desc.width, .height = of->desc.height, .levels = 1};
     sum->of = of;
     if (!image_init(&sum->sum, gpu, "sum", &desc, err)) return false;
-    run->rays->count++; /* it is released from here on */
+    run->rays->count++; /* from here on rays_release frees it */
     return image_own_memory(&sum->sum, gpu, err) && describe_sum(run, sum, err);
 }
 
-/* The k-th image that passes of the loop accumulate; NULL: no more. */
-static const char *accumulated(const struct run *run, uint32_t k) {
+/* The name of the k-th image that executing passes of the loop accumulate; NULL past the last. */
+static const char *accumulated_image(const struct run *run, uint32_t k) {
     const struct graph *graph = run->graph;
     for (size_t p = graph->loop_first; p < graph->loop_end; p++)
         for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++) {
@@ -67,7 +66,7 @@ static const char *accumulated(const struct run *run, uint32_t k) {
 
 uint32_t rays_sums(const struct run *run) {
     uint32_t count = 0;
-    while (accumulated(run, count)) count++;
+    while (accumulated_image(run, count)) count++;
     return count;
 }
 
@@ -82,7 +81,7 @@ bool rays_prepare(struct run *run, uint32_t sums, struct glint_error *err) {
     if (!spirv_find(&spirv, &run->engine->device->shaders, &entry, err)) return false;
     run->rays->program = programs_get(&run->engine->device->programs, run->gpu, &accumulate, &spirv, &constants, err);
     bool ok = run->rays->program != NULL;
-    for (uint32_t k = 0; ok && k < sums; k++) ok = add_sum(run, &run_image(run, accumulated(run, k))->image, err);
+    for (uint32_t k = 0; ok && k < sums; k++) ok = add_sum(run, &run_image(run, accumulated_image(run, k))->image, err);
     return ok;
 }
 

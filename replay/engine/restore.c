@@ -1,4 +1,4 @@
-/* Work on cube maps that an earlier process left in the cache folder, as the run's EXR file of the pass. */
+/* Restores images that depend on cube maps alone from the cache folder, which holds the pass's EXR file from an earlier run. */
 #include "run.h"
 
 #include <stdio.h>
@@ -14,8 +14,7 @@ static void add_text(XXH3_state_t *state, const char *text) {
     if (text) XXH3_128bits_update(state, text, strlen(text) + 1);
 }
 
-/* All that the file depends on: inputs, shader and values, which the step's key holds, the device, and what the file says
-   of its images. */
+/* The key covers everything that the file depends on: the step's key (inputs, shader, values), the device, and the metadata of the images. */
 static bool find_cache_key(const struct run *run, const struct step *step, char key[CACHE_KEY_SIZE]) {
     const struct glint_pass *pass = step->pass->pass;
     const struct glint_device_info *device = &run->gpu->info;
@@ -42,7 +41,7 @@ static bool find_cache_key(const struct run *run, const struct step *step, char 
     return true;
 }
 
-static enum glint_type type_of(enum glint_format format) {
+static enum glint_type stored_type(enum glint_format format) {
     const size_t bytes = format_bytes(format) / format_components(format);
     if (glint_format_is_uint(format)) return bytes == 1 ? GLINT_U8 : GLINT_U32;
     return bytes == 2 ? GLINT_F16 : GLINT_F32;
@@ -60,7 +59,7 @@ static bool read_level(struct run *run, struct pooled *image, uint32_t l, struct
         glint_exr_part(exr, p)->width != level->width || glint_exr_part(exr, p)->height != level->height)
         return false;
     if (!pool_stage(pool, image_bytes(&image->image.desc, l), err) ||
-        !glint_exr_read(exr, p, names.list, names.count, type_of(image->image.desc.format), pool->staging.map, 0,
+        !glint_exr_read(exr, p, names.list, names.count, stored_type(image->image.desc.format), pool->staging.map, 0,
                         err) ||
         !device_begin(run->gpu, err))
         return false;
@@ -75,7 +74,7 @@ bool run_restore(struct run *run, struct step *step) {
     char path[4096];
     const bool keeps = step->pass->cached_work && step->pass->rank != RANK_RAY && run->plan->content[0];
     if (!keeps || !find_cache_key(run, step, step->cache_key) || !step->execute) return false;
-    if (options->no_cache || options->repeat) return false; /* what is measured is executed */
+    if (options->no_cache || options->repeat) return false; /* execution is to be measured */
     if (!cache_find(options->cache, step->cache_key, path, sizeof path)) return false;
     const double start = glint_now_seconds();
     struct glint_exr *exr = glint_exr_open(path, NULL, &ignored);

@@ -1,4 +1,4 @@
-/* Runs a plan on the device. It never plans: what runs, of which size and over which faces stands in the plan. */
+/* Runs a plan on the device. All decisions about passes, sizes and cube-map faces are in the plan. */
 #ifndef GLINT_REPLAY_RUN_H
 #define GLINT_REPLAY_RUN_H
 
@@ -8,16 +8,16 @@
 #include "glint/probe.h"
 #include "pool.h"
 
-/* What stays from run to run beside the pool's images. */
+/* What persists from run to run besides the images of the pool. */
 struct engine {
     struct glint_device *device;
     struct gpu *gpu;
     struct pool *pool;
     struct frame_source *source;
     struct host_buffer frame, probes;
-    uint32_t (*probed)[2]; /* the last run's probes; full-resolution pixels of a texel that they are in */
+    uint32_t (*probed)[2]; /* the probes of the last run */
     size_t probe_count;
-    uint32_t probe_reduction;
+    uint32_t probe_reduction; /* width in full-resolution pixels of a texel of the pipeline's resolution */
 };
 bool engine_init(struct engine *engine, struct glint_device *device, struct frame_source *source, struct pool *pool,
                  struct glint_error *err);
@@ -26,94 +26,95 @@ void engine_finish(struct engine *engine);
 /* One dispatch of a pass. */
 struct dispatch {
     uint32_t phase, level, groups[3];
-    struct program *program; /* of the phase and the range */
-    VkDescriptorSet set;     /* with this level of what the pass writes */
-    struct face_run *layers; /* that it works on; NULL: all */
+    struct program *program; /* specialised for the phase and the range of tiles */
+    VkDescriptorSet set;     /* binds this MIP level of the images that the pass writes */
+    struct face_run *layers; /* the layers that it runs over; NULL: all */
     uint32_t layer_runs;
-    struct pooled *list; /* that says how many groups, from this byte on; NULL: `groups` */
+    struct pooled *list; /* the list that holds the workgroup counts at byte `from`; NULL: they are `groups` */
     VkDeviceSize from;
-    uint32_t range;                /* of the list that it is over (passes/shared/work_list.h); ALL_TILES: no list */
-    const struct image_desc *over; /* and the image */
-    bool rest;                     /* where the pass has nothing to do; beside the dispatch before it */
+    uint32_t range;                /* the range of the list (passes/shared/work_list.h), or ALL_TILES */
+    const struct image_desc *over; /* the image whose tiles it runs over */
+    bool rest;                     /* runs over the tiles where the pass only writes fallback values */
 };
 
 /* One pass of a run on the device. */
 struct step {
     const struct graph_pass *pass;
     struct spirv spirv;
-    struct constants constants;  /* but for what changes with the dispatch */
-    struct dispatch *dispatches; /* in order; the next one sees what this one wrote */
+    struct constants constants;  /* without those that depend on the dispatch */
+    struct dispatch *dispatches; /* in order; each sees what the one before wrote */
     size_t dispatch_count;
-    uint64_t texels; /* that they go over */
+    uint64_t texels; /* total texels of its dispatches; those of lists are added by run_count_lists */
     uint64_t key;
-    char cache_key[CACHE_KEY_SIZE]; /* of its file in the cache folder; "": none */
+    char cache_key[CACHE_KEY_SIZE]; /* key of its file in the cache folder; "": none */
     bool execute;
-    uint32_t stamp;    /* written when it ended, in the commands under way; 0: it is not in them */
-    uint64_t round_ns; /* so far */
-    uint64_t *ns;      /* one for each timed round */
+    uint32_t stamp;    /* query of the timestamp at its end; 0: it is not in the current command buffer */
+    uint64_t round_ns; /* time in the current round */
+    uint64_t *ns;      /* time of each timed round */
     size_t timed;
 };
 
-/* What is worked on while a plan is run. */
+/* The state of a run. */
 struct run {
     struct engine *engine;
     const struct frame_plan *plan;
-    const struct graph *graph; /* the plan's, as are sizes and options */
+    const struct graph *graph; /* graph, sizes and options are those of the plan */
     const struct frame_sizes *sizes;
     const struct glint_replay_options *options;
     struct frame_source *source;
     struct pool *pool;
     struct gpu *gpu;
-    struct pooled **images; /* beside the graph's */
-    uint64_t *keys;         /* what the images' contents will depend on */
-    bool *needed;           /* read or wanted by what will be executed */
-    void **given;           /* values read from the run folder, as float or uint; NULL for other images */
-    struct step *steps;     /* beside the graph's passes */
+    struct pooled **images; /* one for each image of the graph, as are keys, needed and stored */
+    uint64_t *keys;         /* hash of everything that the image's wanted contents depend on */
+    bool *needed;           /* whether an executing pass or the caller reads it */
+    void **stored;          /* values read from the run folder, as float or uint, or NULL */
+    struct step *steps;     /* one for each pass of the graph */
     VkDescriptorPool descriptors;
     VkDescriptorSet frame_set;
     VkQueryPool queries;
-    uint32_t stamps;   /* written in the commands under way */
-    struct rays *rays; /* NULL: one a frame */
+    uint32_t stamps;   /* timestamps in the current command buffer */
+    struct rays *rays; /* NULL with a single ray */
     glint_progress progress;
     void *user;
     bool touched; /* images may have changed */
 };
-/* Computes the frame. The run is to be released, whether it failed or not; until then it says what was done. */
+/* Computes the frame. Call engine_release in any case; until then the run tells what was done. */
 bool engine_run(struct run *run, struct engine *engine, const struct frame_plan *plan, glint_progress progress,
                 void *user, struct glint_error *err);
 void engine_release(struct run *run);
 
-/* given.c: reads an image's pixels from a run folder. */
-bool run_read_given(struct run *run, size_t image, size_t *bytes, struct glint_error *err);
+/* stored.c: reads all MIP levels of an image from its run folder into run->stored. */
+bool run_read_stored(struct run *run, size_t image, size_t *bytes, struct glint_error *err);
 
-/* memo.c: keys of images and steps, and which steps have to execute. */
+/* memo.c: computes keys of images and steps, and decides which steps must execute. */
 bool run_keys(struct run *run, struct glint_error *err);
 void run_decide(struct run *run);
-/* Whether this run will write the image: a pass that executes, or an upload. */
+/* Whether this run will write the image, by a pass that executes or an upload. */
 bool run_writes(const struct run *run, size_t i);
 
-/* restore.c: work that an earlier process left; false when the step has to execute. */
+/* restore.c: restores the images of a step from the cache folder; false if the step must execute. */
 bool run_restore(struct run *run, struct step *step);
 
-/* upload.c: fills the images that no shader makes. */
+/* upload.c: fills images that no shader writes. */
 bool run_upload(struct run *run, struct glint_error *err);
 
-/* dispatch.c: what a pass's rows dispatch. describe.c: its descriptors, its barriers and its commands. */
+/* dispatch.c: turns the rows of a pass into dispatches. describe.c: its descriptors, barriers and commands. */
 struct pooled *run_image(const struct run *run, const char *name);
 struct pooled *run_bound(const struct run *run, const struct glint_row *binding);
 bool step_plan(const struct run *run, struct step *step, struct glint_error *err);
 bool step_describe(const struct run *run, struct step *step, struct glint_error *err);
 void step_record(const struct run *run, struct step *step);
 
-/* lists.c: the first row DISPATCH_LIST behind row r whose list is made, when the shader, maybe a user's, knows of lists; its dispatches over
-   an image, one over the range and one over the rest; after a run, their texels. */
+/* lists.c: dispatches over tiles. step_list returns the first row DISPATCH_LIST after row `r` whose list is made, or NULL if there is none
+   or the shader, which may be a user's, does not support lists. step_add_list adds the dispatches over the tiles of its range and over
+   the rest. After a run, run_count_lists adds their texels to step.texels. */
 const struct glint_row *step_list(const struct run *run, const struct step *step, size_t r);
 bool step_add_list(const struct run *run, struct step *step, uint32_t phase, const struct image_desc *over,
                    const struct glint_row *row, struct glint_error *err);
 bool run_count_lists(struct run *run, struct glint_error *err);
 
-/* rays.c: sums and means over the rays of a frame. */
-uint32_t rays_sums(const struct run *run); /* how many */
+/* rays.c: accumulates images over the rays of a frame. */
+uint32_t rays_sums(const struct run *run); /* number of accumulated images */
 bool rays_prepare(struct run *run, uint32_t sums, struct glint_error *err);
 void rays_record(const struct run *run, uint32_t ray);
 void rays_release(struct run *run);
@@ -122,12 +123,12 @@ void rays_release(struct run *run);
 bool run_prepare(struct run *run, struct glint_error *err);
 bool run_execute(struct run *run, struct glint_error *err);
 
-/* probe.c: where shaders tell of probed pixels. Before a run, before a dispatch, after a run; and what they told of the last
-   run's probe i, whose passes in order are those. */
+/* probe.c: the records of probed pixels. Called before a run, before a dispatch and after a run; engine_probe returns the records of probe i
+   of the last run, whose results are passed. */
 bool probes_prepare(struct run *run, struct glint_error *err);
 void probes_access(const struct step *step, struct barriers *barriers);
 bool probes_finish(struct run *run, struct glint_error *err);
 bool engine_probe(const struct engine *engine, const struct glint_pass_result *results, size_t result_count, size_t i,
-                  struct glint_probe_story *story, struct glint_error *err);
+                  struct glint_probe_trace *trace, struct glint_error *err);
 
 #endif

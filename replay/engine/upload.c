@@ -26,7 +26,7 @@ static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, 
         image_record_upload(&image->image, run->gpu, &pool->staging, offset, 0, first, layers, first == 0);
         return;
     }
-    if (first == 0) image_record_clear(&image->image, run->gpu, run->graph->images[i].row->nothing);
+    if (first == 0) image_record_clear(&image->image, run->gpu, run->graph->images[i].row->fallback);
     for (uint32_t face = 0; face < 6; face++)
         if (faces[first / 6] >> face & 1)
             image_record_upload(&image->image, run->gpu, &pool->staging, offset + face * face_bytes, 0, first + face, 1,
@@ -69,7 +69,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         if (image->source != SOURCE_CAPTURE || !run_writes(run, i) || !comes_with(image, role, false)) continue;
         struct packing packing = {.from = (const uint32_t *)channels->data,
                                   .stride = channels->count,
-                                  .missing = (float)image->row->nothing,
+                                  .missing = (float)image->row->fallback,
                                   .format = run->images[i]->image.desc.format,
                                   .to = (char *)pool->staging.map + offset,
                                   .row = image->row};
@@ -160,15 +160,15 @@ static bool upload_from_engine(struct run *run, size_t i, struct glint_error *er
     return ok;
 }
 
-static bool upload_given(struct run *run, size_t i, struct glint_error *err) {
+static bool upload_input(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     const struct glint_table *table = tables_find(run->plan->tables, image->name);
-    if (image->source == SOURCE_RUN) return upload_values(run, i, run->given[i], err);
+    if (image->source == SOURCE_RUN) return upload_values(run, i, run->stored[i], err);
     if (image->source == SOURCE_ENGINE) return upload_from_engine(run, i, err);
     if (image->source == SOURCE_MADE && table && table->width && table->height)
         return upload_values(run, i, table->texels.u, err);
     if (!device_begin(run->gpu, err)) return false;
-    image_record_clear(&run->images[i]->image, run->gpu, image->row->nothing);
+    image_record_clear(&run->images[i]->image, run->gpu, image->row->fallback);
     return submit_upload(run, err);
 }
 
@@ -205,7 +205,7 @@ static bool clear_left_out(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     if (!plan_limits(run->plan, &run->graph->passes[image->maker])) return true;
     if (!device_begin(run->gpu, err)) return false;
-    image_record_clear(&run->images[i]->image, run->gpu, image->row->nothing);
+    image_record_clear(&run->images[i]->image, run->gpu, image->row->fallback);
     return submit_upload(run, err);
 }
 
@@ -229,7 +229,7 @@ bool run_upload(struct run *run, struct glint_error *err) {
                     run->images[j]->key = run->keys[j];
         } else {
             double start = glint_now_seconds();
-            ok = upload_given(run, i, err);
+            ok = upload_input(run, i, err);
             run->source->seconds[image->source == SOURCE_MADE ? PHASE_UPLOAD : PHASE_READ] +=
                 glint_now_seconds() - start;
             if (ok) run->images[i]->key = run->keys[i];

@@ -1,3 +1,4 @@
+/* The cache of files for later processes. */
 #include "cache.h"
 
 #include <dirent.h>
@@ -13,7 +14,7 @@
 #include <xxhash.h>
 
 enum { PATH_SIZE = 4096, CHUNK = 1 << 20, DIGITS = CACHE_KEY_SIZE - 1, NAME = 2 * DIGITS + 5 };
-static const char temporary[] = "tmp-"; /* how names of files begin that are not complete yet */
+static const char temporary[] = "tmp-"; /* prefix of the names of incomplete files */
 
 static bool is_entry(const char *name) {
     return strlen(name) == NAME && strspn(name, "0123456789abcdef") == DIGITS && name[DIGITS] == '-' &&
@@ -24,7 +25,7 @@ static bool join_path(char *path, size_t size, const char *folder, const char *n
     return snprintf(path, size, "%s/%s", folder, name) < (int)size;
 }
 
-/* Hashes all of a file, and copies it to `to` unless that is negative. */
+/* Hashes a file, and also copies it to the descriptor `to` unless that is negative. */
 static bool hash_file(const char *path, char hex[CACHE_KEY_SIZE], int to) {
     const int fd = open(path, O_RDONLY | O_CLOEXEC);
     XXH3_state_t *state = XXH3_createState();
@@ -45,8 +46,8 @@ static bool hash_file(const char *path, char hex[CACHE_KEY_SIZE], int to) {
     return ok;
 }
 
-/* The path of the key's entry, whatever its bytes are by now, and the hash that they had. */
-static bool look_up(const char *folder, const char *key, char *path, size_t size, char hash[CACHE_KEY_SIZE]) {
+/* The path of a key's entry and the hash that its name states. The file itself is not verified. */
+static bool find_entry(const char *folder, const char *key, char *path, size_t size, char hash[CACHE_KEY_SIZE]) {
     DIR *entries = opendir(folder);
     bool found = false;
     for (struct dirent *entry; entries && !found && (entry = readdir(entries));) {
@@ -60,13 +61,13 @@ static bool look_up(const char *folder, const char *key, char *path, size_t size
 
 bool cache_find(const char *folder, const char *key, char *path, size_t size) {
     char hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
-    if (!look_up(folder, key, path, size, hash)) return false;
+    if (!find_entry(folder, key, path, size, hash)) return false;
     if (hash_file(path, found, -1) && strcmp(found, hash) == 0) return utimensat(AT_FDCWD, path, NULL, 0) == 0;
     unlink(path);
     return false;
 }
 
-/* A copy beside `to`, which it is not called before it is whole. No link: a run's files are its owner's to change. */
+/* Copies a file to a temporary file in `folder`. A hard link would not do, since the user may modify the files of a run. */
 static bool copy_beside(const char *from, const char *folder, char path[PATH_SIZE], char hash[CACHE_KEY_SIZE]) {
     if (snprintf(path, PATH_SIZE, "%s/%s%ld", folder, temporary, (long)getpid()) >= PATH_SIZE) return false;
     unlink(path);
@@ -77,11 +78,11 @@ static bool copy_beside(const char *from, const char *folder, char path[PATH_SIZ
     return ok;
 }
 
-bool cache_give(const char *folder, const char *key, const char *to) {
+bool cache_copy(const char *folder, const char *key, const char *to) {
     char from[PATH_SIZE], path[PATH_SIZE], beside[PATH_SIZE], hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
     const char *slash = strrchr(to, '/');
     snprintf(beside, sizeof beside, "%.*s", slash ? (int)(slash - to) : 1, slash ? to : ".");
-    if (!look_up(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, path, found)) return false;
+    if (!find_entry(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, path, found)) return false;
     if (strcmp(found, hash) == 0 && rename(path, to) == 0) return true;
     unlink(path);
     return false;
@@ -110,8 +111,8 @@ static int oldest_first(const void *a, const void *b) {
     return (x->tv_nsec > y->tv_nsec) - (x->tv_nsec < y->tv_nsec);
 }
 
-/* Also removes what an interrupted process left behind. */
-static void trim_folder(const char *folder, uint64_t most) {
+/* Removes the least recently used entries, and temporary files that an interrupted process left behind. */
+static void trim_folder(const char *folder, uint64_t max_bytes) {
     enum { ENTRIES_MAX = 1 << 14, ABANDONED_SECONDS = 3600 };
     DIR *entries = opendir(folder);
     struct entry *list = calloc(ENTRIES_MAX, sizeof *list);
@@ -133,17 +134,17 @@ static void trim_folder(const char *folder, uint64_t most) {
     }
     if (entries) closedir(entries);
     if (list) qsort(list, count, sizeof *list, oldest_first);
-    for (size_t i = 0; i < count && bytes > most; i++)
+    for (size_t i = 0; i < count && bytes > max_bytes; i++)
         if (join_path(path, sizeof path, folder, list[i].name) && unlink(path) == 0) bytes -= list[i].bytes;
     free(list);
 }
 
-void cache_store(const char *folder, const char *key, const char *file, uint64_t most) {
+void cache_store(const char *folder, const char *key, const char *file, uint64_t max_bytes) {
     char hash[CACHE_KEY_SIZE], old[CACHE_KEY_SIZE], name[NAME + 1], copied[PATH_SIZE], path[PATH_SIZE];
     if (!make_folders(folder) || !copy_beside(file, folder, copied, hash)) return;
-    while (look_up(folder, key, path, sizeof path, old) && unlink(path) == 0) {
+    while (find_entry(folder, key, path, sizeof path, old) && unlink(path) == 0) {
     }
     snprintf(name, sizeof name, "%s-%s.exr", key, hash);
     if (!join_path(path, sizeof path, folder, name) || rename(copied, path) != 0) unlink(copied);
-    trim_folder(folder, most);
+    trim_folder(folder, max_bytes);
 }

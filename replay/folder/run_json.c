@@ -1,4 +1,4 @@
-/* run.json, which comes last and so says that a run folder is complete. */
+/* Writes and removes run.json, which is written last and so marks a run folder as complete. */
 #include "run_json.h"
 
 #include <errno.h>
@@ -22,7 +22,7 @@ bool glint_run_remove(const char *folder, struct glint_error *err) {
             size_t length = file ? strlen(file) : 0;
             if (!ok || length < 5 || strchr(file, '/') || strcmp(file + length - 4, ".exr") != 0) continue;
             snprintf(path, sizeof path, "%s/%s", folder, file);
-            unlink(path); /* listed once for each of its images */
+            unlink(path); /* fails harmlessly for the further images of a file */
         }
     }
     json_decref(root);

@@ -1,4 +1,4 @@
-/* run.json, which comes last and so says that a run folder is complete. */
+/* Writes run.json, which is written last and so marks a run folder as complete. */
 #ifndef GLINT_REPLAY_RUN_JSON_H
 #define GLINT_REPLAY_RUN_JSON_H
 
@@ -6,7 +6,7 @@
 
 #include "glint/common.h"
 
-/* The file, complete or as it was before. */
+/* Replaces the file atomically. */
 bool run_write_json(const char *folder, const json_t *root, struct glint_error *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* Run folders, read back. A run folder may come from a stranger: names are checked before they become paths. */
+/* Reads run folders. They may come from untrusted sources, so names are checked before they become paths. */
 #include "glint/replay.h"
 
 #include <errno.h>
@@ -33,7 +33,7 @@ static const char *text_of(const json_t *object, const char *key) {
     return text ? text : "";
 }
 
-/* Levels go by their image's name. What a pass made that is not known here can only be told by its shape. */
+/* The declaration of the image says so, also for its MIP levels. An image of an unknown pass is judged by its shape. */
 static bool holds_cubes(const struct glint_run_image *image) {
     const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
     const char *level = strstr(image->name, ".level");
@@ -102,7 +102,7 @@ static bool parse_run(struct glint_run *run, struct glint_error *err) {
     return true;
 }
 
-static bool is_run(const char *folder, const char *path, struct glint_error *err) {
+static bool check_is_run(const char *folder, const char *path, struct glint_error *err) {
     struct stat info;
     if (stat(folder, &info)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
     if (!S_ISDIR(info.st_mode))
@@ -120,7 +120,7 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err) {
         return NULL;
     }
     snprintf(path, sizeof path, "%s/run.json", folder);
-    if (!is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse_run(run, err))
+    if (!check_is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse_run(run, err))
         glint_run_close(&run);
     return run;
 }
@@ -168,7 +168,7 @@ bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, 
     const struct stored_image *stored = run->images;
     while (stored < run->images + run->count && &stored->info != image) stored++;
     if (stored == run->images + run->count)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: the image is not one of this run's", run->folder);
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: the image does not belong to this run", run->folder);
     if (!open_file(run, stored->file, err)) return false;
     struct channel_names names;
     channel_names(&names, image->channels);

@@ -1,4 +1,4 @@
-/* Channels of a capture's parts, decoded. */
+/* Decoded channels of a part of the capture. */
 #include "channels.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-/* Which faces of cube maps a run can leave out: those that no ray comes to, as the plan found them. */
+/* Culls cube-map faces that no ray reaches, according to the survey. */
 #include "frame_plan.h"
 
-/* survey/reach.comp takes a face as larger by a texel, or by a tenth of its width. */
+/* `crossed` of survey/reach.comp has a margin of a texel around each face, `nearby` one of a tenth of its width. */
 bool plan_faces(const struct frame_plan *plan, uint32_t level, int texels, uint8_t faces[GLINT_SURVEY_CUBEMAPS]) {
     const uint32_t width = plan->sizes.cube_face >> level;
     const bool crossed = texels == 0 || (texels == 1 && level == 0 && width >= 4);
@@ -20,9 +20,9 @@ bool plan_limits(const struct frame_plan *plan, const struct graph_pass *pass) {
 
 bool plan_dispatched_faces(const struct frame_plan *plan, const struct graph_pass *pass, const struct glint_row *row,
                            uint32_t level, uint8_t faces[GLINT_SURVEY_CUBEMAPS]) {
-    const struct glint_row *within = row + 1;
-    return within < pass->pass->rows + pass->pass->row_count && within->kind == GLINT_ROW_RAY_MARGIN &&
-           plan_limits(plan, pass) && plan_faces(plan, level, within->first, faces);
+    const struct glint_row *margin = row + 1;
+    return margin < pass->pass->rows + pass->pass->row_count && margin->kind == GLINT_ROW_RAY_MARGIN &&
+           plan_limits(plan, pass) && plan_faces(plan, level, margin->first, faces);
 }
 
 uint32_t count_faces(const uint8_t *faces, uint32_t active) {

@@ -1,4 +1,4 @@
-/* The uniform block that every pass sees. World positions meet the camera's in double, before they become floats. */
+/* Fills the uniform block. World positions are made relative to the camera in double before they become floats. */
 #include "frame_block.h"
 
 #include <math.h>
@@ -81,8 +81,8 @@ static void fill_fog(struct frame_block *block, const struct glint_frame *frame,
         (vec4){(float)((eye[axis] * sign - fog->base) * metres), (float)(fog->scale_height * metres), 0, 0};
 }
 
-/* uv · depth and depth along the mirrored camera's axis, of points p relative to this one's in metres: its
-   view = R'·(p/u + eye) + t', times u metres a unit. */
+/* The matrix maps a point p relative to this camera, in metres, to uv · depth and depth of the mirrored camera, whose view position is
+   R'·(p/u + eye) + t', times u metres a unit. */
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar) {
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     const struct projection p = projection_of(&planar->camera);
@@ -103,7 +103,7 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
                                  (float)(planar->plane[2] / length), (float)(offset / length * metres)};
 }
 
-/* A first person's weapon and the like: the world behind it was never drawn. */
+/* The stencil class of first-person foreground such as a weapon: what it hides was never rendered. */
 static uvec4 foreground_of(const struct glint_frame *frame) {
     for (uint32_t i = 0; i < frame->class_count; i++) {
         const struct glint_stencil_class *class = &frame->classes[i];
@@ -116,7 +116,7 @@ static uvec4 foreground_of(const struct glint_frame *frame) {
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes) {
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     double eye[3];
-    memset(block, 0, sizeof *block); /* padding and all: the block is hashed */
+    memset(block, 0, sizeof *block); /* padding included, since the block is hashed */
     glint_camera_position(&frame->camera, eye);
     fill_rotation(&block->view_from_world, &block->world_from_view, frame->camera.world_to_view);
     const struct projection p = projection_of(&frame->camera);

@@ -1,4 +1,4 @@
-/* The uniform block that every pass sees, filled from the capture's frame in double. */
+/* The uniform block of all passes, filled from the attributes of the capture's frame. */
 #ifndef GLINT_REPLAY_FRAME_BLOCK_H
 #define GLINT_REPLAY_FRAME_BLOCK_H
 
@@ -25,14 +25,14 @@ struct frame_block {
 struct frame_sizes {
     uint32_t full[2], half[2], planar[2];
     uint32_t active, chain, cube_face, sky_face;
-    bool is_cpu;  /* glint_device_info's */
-    bool history; /* what HISTORY rows name is there */
+    bool is_cpu;  /* that of struct glint_device_info */
+    bool history; /* images of the previous frame are available */
 };
 
 /* Index of the up axis and its sign. */
 int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
-/* The mirror of the one planar map that passes see; its fields stay 0 without. */
+/* Sets the fields of the planar reflection map, which stay 0 without one. */
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
 
 #endif

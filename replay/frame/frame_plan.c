@@ -1,4 +1,4 @@
-/* What the loaded frame and a plan own. */
+/* Memory of the loaded frame and of a plan. */
 #include "frame_plan.h"
 
 #include <stdlib.h>

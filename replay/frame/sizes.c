@@ -13,7 +13,7 @@ static bool existing_size(const struct frame_plan *plan, const struct graph_imag
     size[0] = size[1] = 0;
     if (image->source == SOURCE_MADE && table) size[0] = table->width, size[1] = table->height;
     else if (image->source == SOURCE_RUN) {
-        const struct glint_run_image *info = plan_given(plan, image, image->name);
+        const struct glint_run_image *info = plan_stored_image(plan, image, image->name);
         size[0] = info->width, size[1] = info->height;
     } else if (image->source == SOURCE_ENGINE) {
         char name[128];
@@ -99,7 +99,7 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
                                 .levels = 1,
                                 .buffer = size_is_buffer(row->size)};
     if (plan->options->float_precision) desc->format = format_widened(row->format);
-    if (image->source == SOURCE_NOTHING && !image->blank) {
+    if (image->source == SOURCE_FALLBACK && !image->blank) {
         if (desc->buffer) desc->width = LIST_WIDTH; /* the header is there */
         return true;
     }

@@ -1,4 +1,4 @@
-/* Host passes: small tables made from the capture's attributes. */
+/* Runs host passes, which fill small tables from the capture's attributes. */
 #include "frame_plan.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@ struct host_run {
     const struct pipeline_pass *entry;
 };
 
-static double value_of(const struct glint_host_context *context, const char *parameter) {
+static double host_value(const struct glint_host_context *context, const char *parameter) {
     const struct host_run *run = context->user;
     const double *value = pipeline_value(run->entry, parameter);
     return value ? *value : 0;
@@ -25,8 +25,8 @@ static struct glint_table *make_table(struct glint_host_context *context, const 
     struct tables *tables = run->tables;
     const struct glint_row *row = glint_pass_output(pass, image);
     if (!row || tables_find(tables, image) || tables->count == TABLES_MAX) {
-        glint_fail(err, GLINT_ERROR_USAGE, "%s/%s: cannot make table %s: not declared, or made already", pass->slot,
-                   pass->variant, image);
+        glint_fail(err, GLINT_ERROR_USAGE, "%s/%s: cannot make table %s: it is not declared or already made",
+                   pass->slot, pass->variant, image);
         return NULL;
     }
     if (width > 4096 || height > 4096) {
@@ -56,7 +56,7 @@ static bool check_all_made(const struct tables *tables, const struct glint_pass 
     return true;
 }
 
-static bool are_made(const struct tables *tables, const struct glint_pass *pass) {
+static bool has_run(const struct tables *tables, const struct glint_pass *pass) {
     for (size_t i = 0; i < tables->count; i++)
         if (tables->makers[i] == pass) return true;
     return false;
@@ -70,12 +70,12 @@ bool tables_fill(struct tables *tables, const struct graph *graph, const struct 
     for (size_t i = 0; ok && i < source->cubemap_count; i++) cubemaps[i] = source->cubemaps[i]->cubemap;
     for (size_t i = 0; ok && i < graph->pass_count; i++) {
         const struct graph_pass *pass = &graph->passes[i];
-        if (!pass->runs || !pass->pass->host || are_made(tables, pass->pass)) continue;
+        if (!pass->runs || !pass->pass->host || has_run(tables, pass->pass)) continue;
         struct host_run run = {tables, pass->entry};
         struct glint_host_context context = {.frame = frame,
                                              .cubemaps = cubemaps,
                                              .cubemap_count = source->cubemap_count,
-                                             .value = value_of,
+                                             .value = host_value,
                                              .table = make_table,
                                              .user = &run};
         glint_camera_position(&context.frame->camera, context.eye);

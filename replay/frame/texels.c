@@ -1,4 +1,4 @@
-/* From values to an image's texels, and which of the values no image should hold. */
+/* Packs values into an image's format and counts invalid values. */
 #include "texels.h"
 
 #include <math.h>
@@ -8,18 +8,18 @@
 
 #include "parallel.h"
 
-/* ---- Values that no image should hold ---- */
+/* ---- Invalid values ---- */
 
 float half_clamped(float value) {
     return isfinite(value) && fabsf(value) > HALF_LARGEST ? copysignf(HALF_LARGEST, value) : value;
 }
 
-/* +inf says how far the sky is. */
+/* In lengths +inf is the distance of the sky. */
 static bool may_be_infinite(const struct glint_row *row) {
     return row->unit[0] && row->unit[strlen(row->unit) - 1] == 'm';
 }
 
-static void found_at(struct bad_values *found, size_t index, float value) {
+static void note_first(struct bad_values *found, size_t index, float value) {
     if (found->not_finite + found->clamped > 1 && index > found->first) return;
     found->first = index;
     found->value = value;
@@ -29,7 +29,7 @@ void bad_value(struct bad_values *found, const struct glint_row *row, bool half,
     const bool infinite = isinf(value) != 0, beyond = half && !infinite && fabsf(value) > HALF_LARGEST;
     if (!isnan(value) && !beyond && (!infinite || may_be_infinite(row))) return;
     *(beyond ? &found->clamped : &found->not_finite) += 1;
-    found_at(found, index, value);
+    note_first(found, index, value);
 }
 
 void bad_values_add(struct bad_values *found, const struct bad_values *more) {
@@ -40,13 +40,13 @@ void bad_values_add(struct bad_values *found, const struct bad_values *more) {
     if (none || more->first < found->first) found->first = more->first, found->value = more->value;
 }
 
-/* What the device stored as half's largest was that or more. */
+/* Texels that the device stored as the largest half were at least that large, so they count as clamped. */
 struct bad_values bad_halves(const struct glint_row *row, const uint16_t *texels, size_t count) {
     struct bad_values found = {0};
     for (size_t i = 0; i < count; i++) {
         const uint16_t magnitude = texels[i] & 0x7FFF;
         if (magnitude < 0x7BFF) continue;
-        if (magnitude == 0x7BFF) found.clamped++, found_at(&found, i, imath_half_to_float(texels[i]));
+        if (magnitude == 0x7BFF) found.clamped++, note_first(&found, i, imath_half_to_float(texels[i]));
         else bad_value(&found, row, true, i, imath_half_to_float(texels[i]));
     }
     return found;
@@ -61,7 +61,7 @@ struct bad_values bad_floats(const struct glint_row *row, const float *texels, s
 
 /* ---- Packing ---- */
 
-/* Those of a component that the capture gives. */
+/* Counts invalid values of one component. */
 static void count_bad(struct packing *p, size_t c, const uint32_t *from, size_t stride, size_t begin, size_t end) {
     const size_t components = format_components(p->format);
     struct bad_values bad = {0};

@@ -1,4 +1,4 @@
-/* The barriers that follow from the use of images. */
+/* Derives barriers from how images are accessed. */
 #include "image.h"
 
 static const struct {
@@ -18,13 +18,13 @@ static const struct {
     [IMAGE_GROUPS] = {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false},
 };
 
-/* All images stay in the general layout: storage images must, and sampling from it costs nothing measurable here. So only
-   an image whose memory held another one before needs a barrier of its own, which gives it that layout. */
+/* All images stay in the general layout, which storage images need and in which sampling is not measurably slower. So only an image that
+   takes over memory of another one needs an image barrier, which sets its layout. */
 void image_access(struct image *image, enum image_access access, struct barriers *barriers) {
     struct block *block = image->block;
     const VkPipelineStageFlags2 stage = accesses[access].stage;
     const bool write = accesses[access].write, takes_over = block->owner != image;
-    const bool unseen_write = block->write_stage && !(block->read_stages & stage);
+    const bool pending_write = block->write_stage && !(block->read_stages & stage);
     const bool after_others = block->write_stage || block->read_stages;
     const VkPipelineStageFlags2 from =
         write || takes_over ? block->write_stage | block->read_stages : block->write_stage;
@@ -41,7 +41,7 @@ void image_access(struct image *image, enum image_access access, struct barriers
                                                                       .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                                                       .image = image->image,
                                                                       .subresourceRange = image_range(&image->desc)};
-    else if (takes_over || write ? after_others : unseen_write)
+    else if (takes_over || write ? after_others : pending_write)
         *memory = (VkMemoryBarrier2){.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                      .srcStageMask = memory->srcStageMask | from,
                                      .srcAccessMask = memory->srcAccessMask | block->write_access,

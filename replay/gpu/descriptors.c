@@ -1,4 +1,4 @@
-/* Descriptor pools, sets and what they point at. */
+/* Descriptor pools and sets. */
 #include "gpu.h"
 
 bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescriptorPool *pool,

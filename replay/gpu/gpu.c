@@ -1,4 +1,5 @@
-/* Choice and creation of the gpu, its memory and its one command buffer. */
+/* Chooses and creates the Vulkan device, allocates memory and submits the command buffer. */
+#define _GNU_SOURCE /* strcasestr */
 #include "gpu.h"
 
 #include <ctype.h>
@@ -6,17 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool name_contains(const char *text, const char *part) {
-    size_t length = strlen(part);
-    for (; *text; text++) {
-        size_t i = 0;
-        while (i < length && text[i] && tolower((unsigned char)text[i]) == tolower((unsigned char)part[i])) i++;
-        if (i == length) return true;
-    }
-    return length == 0;
-}
-
-/* The place of the chosen gpu, or `count` with an error that says why each one was passed over. */
+/* The index of the chosen device, or `count` with an error that says why each candidate was rejected. */
 static size_t choose_device(const struct glint_device_info *infos, size_t count, const char *select,
                             struct glint_error *err) {
     char why[768] = "";
@@ -24,7 +15,7 @@ static size_t choose_device(const struct glint_device_info *infos, size_t count,
     unsigned long index = select ? strtoul(select, &end, 10) : 0;
     bool by_index = select && isdigit((unsigned char)select[0]) && *end == 0;
     for (size_t i = 0; i < count; i++) {
-        if (by_index ? i != index : select && !name_contains(infos[i].name, select)) continue;
+        if (by_index ? i != index : select && !strcasestr(infos[i].name, select)) continue;
         if (infos[i].usable) return i;
         size_t used = strlen(why);
         snprintf(why + used, sizeof why - used, "; device %zu, %.120s, %.120s", i, infos[i].name, infos[i].reason);
@@ -215,7 +206,7 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
     VkMemoryRequirements need;
     vkGetBufferMemoryRequirements(gpu->device, buffer->buffer, &need);
     const VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    /* Reading uncached memory is slow for the host; what shaders read over the bus is slow for every pass. */
+    /* The host reads uncached memory slowly, and shaders read host memory slowly over the bus. */
     const VkMemoryPropertyFlags preferred = use == HOST_BUFFER_READBACK || use == HOST_BUFFER_STORAGE
                                                 ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                                             : use == HOST_BUFFER_UPLOAD ? 0

@@ -1,4 +1,4 @@
-/* The Vulkan device: memory, one command buffer at a time, object names. It knows no pass. */
+/* The Vulkan device: memory, a single command buffer, object names. It is independent of passes. */
 #ifndef GLINT_REPLAY_GPU_H
 #define GLINT_REPLAY_GPU_H
 
@@ -50,25 +50,26 @@ void instance_finish(struct instance *instance);
 /* Devices of an instance, best first. The caller frees both arrays. */
 bool instance_devices(VkInstance instance, VkPhysicalDevice **physical, struct glint_device_info **infos, size_t *count,
                       struct glint_error *err);
-/* The family that computes and copies; UINT32_MAX when there is none. */
+/* The queue family for compute and copies, one with timestamps if possible; UINT32_MAX if there is none. */
 uint32_t device_family(VkPhysicalDevice physical, uint32_t *timestamp_bits);
 
-/* Fails with what was tried and Vulkan's word for the result. */
+/* Fails with a message that names the operation and the result. */
 bool vk_fail(struct glint_error *err, const char *what, VkResult result);
-bool vk_ok(VkResult result, const char *what, struct glint_error *err); /* the same unless it is VK_SUCCESS */
+bool vk_ok(VkResult result, const char *what,
+           struct glint_error *err); /* fails alike unless the result is VK_SUCCESS */
 VkFormat format_vulkan(enum glint_format format);
 
-/* `select` as in struct glint_device_options; `validate`: the validation layer. Stays where it is. */
+/* `select` is that of struct glint_device_options; `validate` enables the validation layer. The struct must not be moved afterwards. */
 bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_error *err);
 void gpu_finish(struct gpu *gpu);
-/* Waits until nothing runs any more. */
+/* Waits until the device is idle. */
 void gpu_wait(struct gpu *gpu);
 
 bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemoryPropertyFlags wanted,
                      VkMemoryPropertyFlags preferred, const char *name, VkDeviceMemory *memory,
                      struct glint_error *err);
 
-/* One command buffer at a time: begin, record, submit and wait. */
+/* Begins the command buffer; submits it and waits for it. `what` is used in error messages. */
 bool device_begin(struct gpu *gpu, struct glint_error *err);
 bool device_submit(struct gpu *gpu, const char *what, struct glint_error *err);
 
@@ -76,7 +77,7 @@ void device_set_name(struct gpu *gpu, VkObjectType type, uint64_t handle, const 
 void device_begin_label(struct gpu *gpu, const char *text);
 void device_end_label(struct gpu *gpu);
 
-/* Memory that host and device see, mapped for its whole life. */
+/* A buffer in memory that host and device can access, which stays mapped. */
 struct host_buffer {
     VkBuffer buffer;
     VkDeviceMemory memory;
@@ -88,8 +89,8 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
                       const char *name, struct glint_error *err);
 void host_buffer_finish(struct host_buffer *buffer, struct gpu *gpu);
 
-/* descriptors.c. A pool for sets with so many images of each kind, and the frame's buffers; a set with a name; one of its bindings:
-   an image, or the texels of a buffer; a buffer. */
+/* descriptors.c: creates a pool for `sets` sets with at most `images` images of each kind and the buffers of the frame; allocates a set; binds
+   an image or texel buffer; binds a buffer. */
 bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescriptorPool *pool,
                         struct glint_error *err);
 bool descriptors_allocate(struct gpu *gpu, VkDescriptorPool pool, const VkDescriptorSetLayout *layout, const char *name,

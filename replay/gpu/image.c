@@ -9,32 +9,29 @@ VkImageSubresourceRange image_range(const struct image_desc *desc) {
     return (VkImageSubresourceRange){VK_IMAGE_ASPECT_COLOR_BIT, 0, desc->levels, 0, image_layers(desc)};
 }
 
-static VkResult create_buffer(struct image *image, struct gpu *gpu, struct glint_error *err) {
+static bool create_buffer(struct image *image, struct gpu *gpu, struct glint_error *err) {
     const uint64_t texels = image_bytes(&image->desc, 0) / format_bytes(image->desc.format);
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(gpu->physical, &properties);
-    if (texels > properties.limits.maxTexelBufferElements) {
-        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: %llu texels, but the device's limit is %u", image->name,
-                   (unsigned long long)texels, properties.limits.maxTexelBufferElements);
-        return VK_ERROR_FORMAT_NOT_SUPPORTED;
-    }
+    if (texels > properties.limits.maxTexelBufferElements)
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "image %s: %llu texels, but the device's limit is %u",
+                          image->name, (unsigned long long)texels, properties.limits.maxTexelBufferElements);
     const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                      .size = image_bytes(&image->desc, 0),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                                               VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
                                               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    VkResult result = vkCreateBuffer(gpu->device, &info, NULL, &image->buffer);
-    if (result != VK_SUCCESS) vk_fail(err, image->name, result);
-    else device_set_name(gpu, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)image->buffer, image->name);
-    return result;
+    if (!vk_ok(vkCreateBuffer(gpu->device, &info, NULL, &image->buffer), image->name, err)) return false;
+    device_set_name(gpu, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)image->buffer, image->name);
+    return true;
 }
 
 bool image_init(struct image *image, struct gpu *gpu, const char *name, const struct image_desc *desc,
                 struct glint_error *err) {
     *image = (struct image){.desc = *desc};
     snprintf(image->name, sizeof image->name, "%s", name);
-    if (desc->buffer) return create_buffer(image, gpu, err) == VK_SUCCESS;
+    if (desc->buffer) return create_buffer(image, gpu, err);
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                     .flags = desc->cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0,
                                     .imageType = VK_IMAGE_TYPE_2D,
@@ -101,8 +98,7 @@ static bool create_view(const struct image *image, struct gpu *gpu, VkImageViewT
         .format = format_vulkan(image->desc.format),
         .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, first, levels, 0,
                              type == VK_IMAGE_VIEW_TYPE_CUBE ? 6 : image_layers(&image->desc)}};
-    VkResult result = vkCreateImageView(gpu->device, &info, NULL, view);
-    if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
+    if (!vk_ok(vkCreateImageView(gpu->device, &info, NULL, view), image->name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_IMAGE_VIEW, (uint64_t)(uintptr_t)*view, image->name);
     return true;
 }
@@ -112,9 +108,9 @@ static bool bind_buffer(struct image *image, struct gpu *gpu, struct glint_error
                                          .buffer = image->buffer,
                                          .format = format_vulkan(image->desc.format),
                                          .range = VK_WHOLE_SIZE};
-    VkResult result = vkBindBufferMemory(gpu->device, image->buffer, image->block->memory, 0);
-    if (result == VK_SUCCESS) result = vkCreateBufferView(gpu->device, &info, NULL, &image->buffer_view);
-    if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
+    if (!vk_ok(vkBindBufferMemory(gpu->device, image->buffer, image->block->memory, 0), image->name, err) ||
+        !vk_ok(vkCreateBufferView(gpu->device, &info, NULL, &image->buffer_view), image->name, err))
+        return false;
     device_set_name(gpu, VK_OBJECT_TYPE_BUFFER_VIEW, (uint64_t)(uintptr_t)image->buffer_view, image->name);
     return true;
 }
@@ -125,8 +121,7 @@ bool image_bind(struct image *image, struct gpu *gpu, struct block *block, struc
     image->block = block;
     block->images++;
     if (!image->image) return bind_buffer(image, gpu, err);
-    VkResult result = vkBindImageMemory(gpu->device, image->image, block->memory, 0);
-    if (result != VK_SUCCESS) return vk_fail(err, image->name, result);
+    if (!vk_ok(vkBindImageMemory(gpu->device, image->image, block->memory, 0), image->name, err)) return false;
     for (uint32_t i = 0; i < image->desc.levels; i++)
         if (!create_view(image, gpu, kind, i, 1, &image->levels[i], err)) return false;
     return create_view(image, gpu, cube ? VK_IMAGE_VIEW_TYPE_CUBE : kind, 0, image->desc.levels, &image->view, err) &&

@@ -110,7 +110,7 @@ uint32_t device_family(VkPhysicalDevice physical, uint32_t *timestamp_bits) {
     return UINT32_MAX;
 }
 
-/* Names the first thing that the device lacks; true when it lacks nothing. */
+/* False with the reason if the device lacks a feature that passes need. */
 static bool check_usable(VkPhysicalDevice physical, uint32_t api_version, char *reason, size_t size) {
     if (api_version < VK_API_VERSION_1_3) {
         snprintf(reason, size, "offers Vulkan %u.%u, expected 1.3", VK_API_VERSION_MAJOR(api_version),
@@ -135,7 +135,7 @@ static bool check_usable(VkPhysicalDevice physical, uint32_t api_version, char *
             return false;
         }
     if (device_family(physical, NULL) == UINT32_MAX) {
-        snprintf(reason, size, "has no queue that computes");
+        snprintf(reason, size, "has no compute queue");
         return false;
     }
     const VkFormatFeatureFlags uses = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |

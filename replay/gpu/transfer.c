@@ -1,8 +1,8 @@
-/* Copies between images and host memory, and fills. */
+/* Copies between images and host memory, and clears. */
 #include "image.h"
 
-static VkBufferImageCopy some_layers(const struct image *image, VkDeviceSize offset, uint32_t level, uint32_t first,
-                                     uint32_t count) {
+static VkBufferImageCopy layer_copy(const struct image *image, VkDeviceSize offset, uint32_t level, uint32_t first,
+                                    uint32_t count) {
     const struct extent extent = image_extent(&image->desc, level);
     return (VkBufferImageCopy){.bufferOffset = offset,
                                .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, first, count},
@@ -20,7 +20,7 @@ void image_record_upload(struct image *image, struct gpu *gpu, const struct host
         vkCmdCopyBuffer(gpu->commands, from->buffer, image->buffer, 1, &all);
         return;
     }
-    const VkBufferImageCopy copy = some_layers(image, offset, level, first_layer, layers);
+    const VkBufferImageCopy copy = layer_copy(image, offset, level, first_layer, layers);
     vkCmdCopyBufferToImage(gpu->commands, from->buffer, image->image, VK_IMAGE_LAYOUT_GENERAL, 1, &copy);
 }
 
@@ -34,7 +34,7 @@ void image_record_readback(struct image *image, struct gpu *gpu, const struct ho
         vkCmdCopyBuffer(gpu->commands, image->buffer, to->buffer, 1, &all);
         return;
     }
-    const VkBufferImageCopy copy = some_layers(image, offset, level, 0, image_layers(&image->desc));
+    const VkBufferImageCopy copy = layer_copy(image, offset, level, 0, image_layers(&image->desc));
     vkCmdCopyImageToBuffer(gpu->commands, image->image, VK_IMAGE_LAYOUT_GENERAL, to->buffer, 1, &copy);
 }
 

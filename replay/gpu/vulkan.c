@@ -1,4 +1,4 @@
-/* Vulkan's results in words, and its names of formats. */
+/* Messages for Vulkan results, and Vulkan's formats. */
 #include "gpu.h"
 
 bool vk_fail(struct glint_error *err, const char *what, VkResult result) {

@@ -1,4 +1,4 @@
-/* Assignments to a pipeline, as --set, --use and --shader write them: each is parsed and checked here, once. */
+/* Parses and checks assignments to a pipeline, as --set, --use and --shader pass them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,9 +21,9 @@ bool glint_pipeline_set_value(struct glint_pipeline *pipeline, const struct glin
     return true;
 }
 
-/* What a parameter's text stands for; its range is not looked at. */
-static bool read_value(const char *slot, const struct glint_row *row, const char *text, double *value,
-                       struct glint_error *err) {
+/* Parses the text of a parameter's value without checking its range. */
+static bool parse_value(const char *slot, const struct glint_row *row, const char *text, double *value,
+                        struct glint_error *err) {
     char known[512] = "", *end;
     for (size_t c = 0; row->choices && row->choices[c]; c++) {
         *value = (double)c;
@@ -52,7 +52,7 @@ static bool set_in_slot(struct glint_pipeline *pipeline, const char *slot, const
         return glint_fail(err, GLINT_ERROR_USAGE, "slot %s is not part of the pipeline %s", slot, pipeline->name);
     const struct glint_row *row = glint_pass_parameter(pass, parameter);
     if (row)
-        return read_value(slot, row, text, &value, err) && glint_pipeline_set_value(pipeline, pass, row, value, err);
+        return parse_value(slot, row, text, &value, err) && glint_pipeline_set_value(pipeline, pass, row, value, err);
     for (size_t r = 0; r < pass->row_count; r++)
         if (glint_row_is_parameter(&pass->rows[r])) text_list(known, sizeof known, pass->rows[r].name);
     return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s has no parameter '%s'; known: %s", slot, pass->variant, parameter,
@@ -72,8 +72,8 @@ static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, con
     return true;
 }
 
-/* pipeline.rays and pipeline.first_ray are the pipeline's own. Any other name is set in each pass that has it, which may
-   be none of this pipeline: a switch that is off in all of them is off. */
+/* pipeline.rays and pipeline.first_ray belong to the pipeline itself. Any other parameter is set in each pass that has it. It is no error if
+   no pass of this pipeline has it, so that a switch can be turned off for all presets alike. */
 static bool set_everywhere(struct glint_pipeline *pipeline, const char *parameter, const char *text,
                            struct glint_error *err) {
     size_t count;

@@ -1,23 +1,20 @@
-/* Declarations that contradict themselves or one another. */
+/* Finds declarations that contradict themselves or one another. */
 #include "graph.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static bool is_uint(const struct glint_row *row) {
-    return row->format == GLINT_FORMAT_R8UI || row->format == GLINT_FORMAT_R32UI;
-}
-
 void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
                       struct faults *faults) {
-    const bool array = size_is_array(image->size), cube = size_is_cube(image->size), layered = array || cube;
+    const bool array = size_is_array(image->size), cube = size_is_cube(image->size), layered = array || cube,
+               is_uint = glint_format_is_uint(image->format);
     const char *kind = binding->glsl, *is = NULL;
     if (size_is_buffer(image->size)) {
         if (strcmp(kind, glint_row_is_output(binding) ? "uimageBuffer" : "utextureBuffer") != 0)
             is = glint_row_is_output(binding) ? "a list, to be written as uimageBuffer"
                                               : "a list, to be read as utextureBuffer";
-    } else if (strstr(kind, "Buffer")) is = "no list";
-    else if ((kind[0] == 'u') != is_uint(image)) is = is_uint(image) ? "a uint image" : "a float image";
+    } else if (strstr(kind, "Buffer")) is = "not a list";
+    else if ((kind[0] == 'u') != is_uint) is = is_uint ? "a uint image" : "a float image";
     else if (glint_row_is_output(binding) && strcmp(kind + (kind[0] == 'u'), layered ? "image2DArray" : "image2D") != 0)
         is = layered ? "cube maps, to be written as image2DArray" : "a plain image, to be written as image2D";
     else if (row_is_sampled(binding) && (strstr(kind, "Cube") || strstr(kind, "Array") ? !layered : layered))
@@ -28,53 +25,56 @@ void graph_check_kind(const struct glint_pass *pass, const struct glint_row *bin
                    glint_row_is_output(binding) ? "writes" : "reads", row_image(binding), kind, is);
 }
 
-/* Rows that speak of another row of the same pass. */
+static void expect(bool holds, const struct glint_pass *pass, const char *what, const char *name, const char *expected,
+                   struct faults *faults) {
+    if (!holds)
+        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: %s %s: expected %s", pass->slot, pass->variant, what, name,
+                   expected);
+}
+
+/* Rows that refer to another row of the same pass. `own`: the row with which the pass writes the image, or NULL. */
+static void check_row(const struct glint_pass *pass, const struct glint_row *row, const struct glint_row *own,
+                      bool after_dispatch, struct faults *faults) {
+    const struct glint_row *captured = row->kind == GLINT_ROW_ALIAS ? capture_row(row->name) : NULL;
+    const bool reads = glint_pass_row(pass, GLINT_ROW_READ, row->name),
+               spec = glint_pass_row(pass, GLINT_ROW_SPEC, row->name);
+    if ((glint_row_is_output(row) || row->optional) && size_is_buffer(row->size))
+        expect(row->fallback == UINT32_MAX && row->format == GLINT_FORMAT_R32UI, pass, "list", row->name,
+               "R32UI and a fallback value of 0xFFFFFFFF", faults);
+    if (glint_row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
+    if (row->kind == GLINT_ROW_DISPATCH_LIST)
+        expect(after_dispatch, pass, "DISPATCH_LIST", row->name, "a DISPATCH before it", faults);
+    else if (row->kind == GLINT_ROW_BYPASS)
+        expect(own && reads, pass, "BYPASS", row->image, "an image that the pass writes and one that it reads", faults);
+    else if (row->kind == GLINT_ROW_ALIAS)
+        expect(own && captured && own->format == captured->format && own->size == captured->size, pass, "ALIAS",
+               row->image, "an image that the pass writes and one of the capture with the same format and size",
+               faults);
+    else if (row->kind == GLINT_ROW_READ_OWN) {
+        expect(own, pass, "READ_OWN", row->image, "an image that the pass writes", faults);
+        if (own) graph_check_kind(pass, row, own, faults);
+    } else if (row->kind == GLINT_ROW_ACCUMULATE)
+        expect(own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) &&
+                   !glint_format_is_uint(own->format) && glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL),
+               pass, "ACCUMULATE", row->name, "a plain float image that the pass writes, and PER_RAY", faults);
+    else if (row->kind == GLINT_ROW_ASSUMED)
+        expect(spec || glint_pass_row(pass, GLINT_ROW_PUSH, row->name), pass, "ASSUMED", row->name,
+               "a numeric parameter of the pass", faults);
+    else if (row->kind == GLINT_ROW_DISPATCH_LEVELS) {
+        if (row->assigned)
+            expect(glint_pass_row(pass, GLINT_ROW_SPEC, row->assigned), pass, "DISPATCH_LEVELS_BY", row->assigned,
+                   "a numeric parameter of the pass", faults);
+        expect(own && size_has_levels(own->size), pass, "DISPATCH_LEVELS", row->name,
+               "an image with levels that the pass writes", faults);
+    }
+}
+
 static void check_rows(const struct glint_pass *pass, struct faults *faults) {
-    const struct glint_row *dispatch = NULL; /* the last one */
+    bool after_dispatch = false; /* the last row of these kinds was a DISPATCH */
     for (size_t r = 0; r < pass->row_count; r++) {
-        const struct glint_row *row = &pass->rows[r], *own = glint_pass_output(pass, row_image(row));
-        if ((glint_row_is_output(row) || row->optional) && size_is_buffer(row->size) &&
-            (row->nothing != UINT32_MAX || row->format != GLINT_FORMAT_R32UI))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: list %s: expected R32UI, and 0xFFFFFFFF for nothing",
-                       pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH_LIST && !dispatch)
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: DISPATCH_LIST %s: expected a DISPATCH before it", pass->slot,
-                       pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS)
-            dispatch = row->kind == GLINT_ROW_DISPATCH ? row : NULL;
-        if (glint_row_is_output(row) && !pass->host) graph_check_kind(pass, row, row, faults);
-        if (row->kind == GLINT_ROW_BYPASS && (!own || !glint_pass_row(pass, GLINT_ROW_READ, row->name)))
-            faults_add(faults, GLINT_ERROR_USAGE,
-                       "%s/%s: BYPASS %s: expected an image that the pass writes, made of one that it reads",
-                       pass->slot, pass->variant, row->image);
-        const struct glint_row *captured = row->kind == GLINT_ROW_ALIAS ? capture_row(row->name) : NULL;
-        if (row->kind == GLINT_ROW_ALIAS &&
-            (!own || !captured || own->format != captured->format || own->size != captured->size))
-            faults_add(
-                faults, GLINT_ERROR_USAGE,
-                "%s/%s: ALIAS %s: expected an image that the pass writes, and one of the capture that is like it",
-                pass->slot, pass->variant, row->image);
-        if (row->kind == GLINT_ROW_READ_OWN && !own)
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: READ_OWN %s: expected an image that the pass writes",
-                       pass->slot, pass->variant, row->image);
-        else if (row->kind == GLINT_ROW_READ_OWN) graph_check_kind(pass, row, own, faults);
-        const bool sums = own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) && !is_uint(own);
-        if (row->kind == GLINT_ROW_ACCUMULATE && (!sums || !glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL)))
-            faults_add(faults, GLINT_ERROR_USAGE,
-                       "%s/%s: ACCUMULATE %s: expected a plain float image that the pass writes, and PER_RAY",
-                       pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_ASSUMED && !glint_pass_row(pass, GLINT_ROW_SPEC, row->name) &&
-            !glint_pass_row(pass, GLINT_ROW_PUSH, row->name))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: ASSUMED %s: expected a number that the pass takes",
-                       pass->slot, pass->variant, row->name);
-        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && row->assigned &&
-            !glint_pass_row(pass, GLINT_ROW_SPEC, row->assigned))
-            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s: DISPATCH_LEVELS_BY %s: expected a number that the pass takes",
-                       pass->slot, pass->variant, row->assigned);
-        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && (!own || !size_has_levels(own->size)))
-            faults_add(faults, GLINT_ERROR_USAGE,
-                       "%s/%s: DISPATCH_LEVELS %s: expected an image with levels that the pass writes", pass->slot,
-                       pass->variant, row->name);
+        const struct glint_row *row = &pass->rows[r];
+        check_row(pass, row, glint_pass_output(pass, row_image(row)), after_dispatch, faults);
+        if (row_is_dispatch(row)) after_dispatch = row->kind == GLINT_ROW_DISPATCH;
     }
 }
 

@@ -1,4 +1,4 @@
-/* Which passes of a graph run, and why each other one does not. */
+/* Decides which passes of a graph run, with the reason for each. */
 #include "graph.h"
 
 #include <stdio.h>
@@ -22,22 +22,22 @@ static const double *value_of(const struct graph_pass *pass, const char *paramet
     return parameter_value(pass->pass, pass->entry->values, parameter);
 }
 
-/* A fact as the survey is asked for it: with that value. */
-static const char *fact_of(const struct graph_pass *pass, const struct glint_row *row, char text[128]) {
+/* The text of a fact, with the value of the parameter that it depends on. */
+static const char *fact_text(const struct graph_pass *pass, const struct glint_row *row, char text[128]) {
     const double *value = value_of(pass, row->image);
     if (!value) return row->name;
     snprintf(text, 128, "%.64s %.17g", row->name, *value);
     return text;
 }
 
-/* Whether the parameter has the pass read what the row READS_LEVELS names. */
+/* Whether the parameter of a row READS_LEVELS makes the pass read MIP levels of that image. A user's shader may always do so. */
 static bool reads_levels(const struct graph_pass *pass, const struct glint_row *row) {
     const double *value = value_of(pass, row->name);
     return !value || *value != 0 || pass->entry->shader;
 }
 
-/* A pass that runs and reads levels of what this one makes, though no ray has a cone. */
-static const struct graph_pass *reader_of_levels(const struct graph *graph, const struct glint_pass *maker) {
+/* A pass that runs and reads MIP levels of an image that `maker` makes, even if no ray has a cone. */
+static const struct graph_pass *find_level_reader(const struct graph *graph, const struct glint_pass *maker) {
     for (size_t i = 0; i < graph->pass_count; i++)
         for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++) {
             const struct glint_row *row = &graph->passes[i].pass->rows[r];
@@ -48,7 +48,7 @@ static const struct graph_pass *reader_of_levels(const struct graph *graph, cons
     return NULL;
 }
 
-/* Whether an image has to be made: a pass that runs reads it, or somebody asks for it; what a user's shader writes is not known. */
+/* Whether an image must be made: a pass that runs reads it or the caller asks for it. What a user's shader writes is unknown. */
 static bool is_read(const struct graph *graph, const struct graph_pass *maker, const char *image,
                     const struct glint_replay_options *options) {
     bool read = maker->entry->shader || list_has(options->outputs, image);
@@ -60,19 +60,20 @@ static bool is_read(const struct graph *graph, const struct graph_pass *maker, c
     return read;
 }
 
-/* A pass with nothing to do may leave an image as it is, unless its shader is the user's: what that makes is not known. */
-static void take_instead(struct graph_pass *pass) {
+/* A dropped pass with a row ALIAS leaves an image of the capture unchanged, so that its own image is an alias of that one. A user's
+   shader may change it, so that such a pass runs all the same. */
+static void use_alias(struct graph_pass *pass) {
     const struct glint_row *row = glint_pass_row(pass->pass, GLINT_ROW_ALIAS, NULL);
     char text[128];
     if (!row) return;
     pass->runs = pass->entry->shader != NULL;
-    pass->instead = pass->runs ? NULL : row;
+    pass->alias = pass->runs ? NULL : row;
     if (pass->runs) snprintf(text, sizeof text, "but the shader is the user's");
     else snprintf(text, sizeof text, "%s is %s", row->image, row->name);
     text_list(pass->reason, sizeof pass->reason, text);
 }
 
-/* Whether the frame gives the pass something to do, and which of its facts do not hold; the reason states the figures. */
+/* Decides by its rows NEEDS and FACT whether the pass runs and which facts are false. The reason states the figures. */
 static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct graph_inputs *inputs,
                             struct faults *faults, struct glint_error *err) {
     const struct facts *facts = &inputs->facts;
@@ -85,37 +86,37 @@ static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, 
         struct glint_error own = {0};
         if (row->kind == GLINT_ROW_FACT && glint_pass_output(pass->pass, row->name)) {
             const bool read = is_read(graph, pass, row->name, inputs->options);
-            pass->lacks |= (uint32_t)!read << fact++;
-            snprintf(reason, sizeof reason, "%s is read by none", row->name);
+            pass->false_facts |= (uint32_t)!read << fact++;
+            snprintf(reason, sizeof reason, "no pass reads %s", row->name);
             if (!read && pass->runs) text_list(pass->reason, sizeof pass->reason, reason);
             continue;
         }
-        const enum fact_about about = facts->about(fact_of(pass, row, text));
+        const enum fact_about about = facts->about(fact_text(pass, row, text));
         if (about == FACT_UNKNOWN) {
             faults_add(faults, GLINT_ERROR_USAGE, "%s/%s needs an unknown fact '%s'", pass->pass->slot,
                        pass->pass->variant, row->name);
             continue;
         }
-        bool holds = facts->holds(facts->user, fact_of(pass, row, text), reason, sizeof reason, &own);
+        bool holds = facts->holds(facts->user, fact_text(pass, row, text), reason, sizeof reason, &own);
         if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
-        const struct graph_pass *reader = !holds && about == FACT_CONES ? reader_of_levels(graph, pass->pass) : NULL;
+        const struct graph_pass *reader = !holds && about == FACT_CONES ? find_level_reader(graph, pass->pass) : NULL;
         if (reader) {
             snprintf(reason, sizeof reason, "%s/%s reads its levels", reader->pass->slot, reader->pass->variant);
             holds = true;
         }
-        if (row->kind == GLINT_ROW_FACT) pass->lacks |= (uint32_t)!holds << fact++;
+        if (row->kind == GLINT_ROW_FACT) pass->false_facts |= (uint32_t)!holds << fact++;
         else if (!holds && pass->runs) pass->reason[0] = 0, pass->runs = false;
-        const bool told = strstr(pass->reason, reason) != NULL; /* several facts may have the same figure */
-        if (row->kind == GLINT_ROW_NEEDS && holds == pass->runs && !told)
+        const bool repeated = strstr(pass->reason, reason) != NULL; /* several facts may state the same figure */
+        if (row->kind == GLINT_ROW_NEEDS && holds == pass->runs && !repeated)
             text_list(pass->reason, sizeof pass->reason, reason);
     }
-    if (!pass->runs) take_instead(pass);
+    if (!pass->runs) use_alias(pass);
     if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
     return true;
 }
 
-/* Whether the pass works on cube maps, which the capture has not. */
-static bool lacks_cubemaps(const struct glint_pass *pass, const struct facts *facts) {
+/* Whether the pass works on cube maps and the capture has none. */
+static bool has_no_cubemaps(const struct glint_pass *pass, const struct facts *facts) {
     char reason[192];
     for (size_t r = 0; r < pass->row_count; r++)
         if (pass->rows[r].kind == GLINT_ROW_NEEDS && facts->about(pass->rows[r].name) == FACT_CUBEMAPS)
@@ -129,7 +130,7 @@ static bool makes_list(const struct glint_pass *pass) {
     return false;
 }
 
-/* Readers before what they read, so that it is known which of them run. */
+/* Goes from the last pass to the first, since whether a pass runs may depend on which later passes read its images. */
 static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs, struct faults *faults,
                           struct glint_error *err) {
     const struct glint_replay_options *options = inputs->options;
@@ -139,9 +140,9 @@ static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs
         if (options->passes && !list_has(options->passes, slot)) why = GLINT_REASON_NOT_ASKED;
         else if (list_has(options->skip, slot)) why = GLINT_REASON_SKIPPED;
         else if (list_has(options->force, slot)) why = "forced on request", pass->runs = true;
-        else if (options->all && !options->passes && makes_list(pass->pass)) /* unless it was asked for by name */
+        else if (options->all && !options->passes && makes_list(pass->pass))
             why = "all pixels were asked for, and a list leaves some out";
-        else if (options->all && !lacks_cubemaps(pass->pass, &inputs->facts))
+        else if (options->all && !has_no_cubemaps(pass->pass, &inputs->facts))
             why = "all passes were asked for", pass->runs = true;
         else if (options->all) why = "the capture has no cube maps";
         else if (!decide_by_facts(graph, pass, inputs, faults, err)) return false;
@@ -150,8 +151,8 @@ static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs
     return true;
 }
 
-/* Drops what no wanted image depends on. */
-static void cull(struct graph *graph, const struct glint_replay_options *options, struct faults *faults) {
+/* Drops passes that no requested image depends on. */
+static void cull_passes(struct graph *graph, const struct glint_replay_options *options, struct faults *faults) {
     if (!options->outputs) return;
     bool *needed = calloc(graph->pass_count + 1, sizeof *needed);
     if (!needed) {
@@ -175,20 +176,19 @@ static void cull(struct graph *graph, const struct glint_replay_options *options
                        *name, graph->passes[maker].pass->slot);
         else needed[maker] = true;
     }
-    for (bool more = true; more;) { /* again for what history asks of passes further back */
+    for (bool more = true; more;) { /* repeated, since history leads back to passes that run later */
         more = false;
         for (size_t i = graph->pass_count; i-- > 0;)
             for (size_t j = 0; j < graph->pass_count && !needed[i]; j++)
                 more |= needed[i] = needed[j] && graph->passes[j].runs &&
                                     (glint_pass_depends(graph->passes[j].pass, graph->passes[i].pass) ||
-                                     pass_remembers(graph->passes[j].pass, graph->passes[i].pass));
+                                     pass_reads_history(graph->passes[j].pass, graph->passes[i].pass));
     }
     for (size_t i = graph->pass_count; i-- > 0;) {
-        if (!needed[i]) graph->passes[i].instead = NULL;
+        if (!needed[i]) graph->passes[i].alias = NULL;
         if (graph->passes[i].runs && !needed[i]) {
             graph->passes[i].runs = false;
-            snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason,
-                     "nothing that is wanted reads its images");
+            snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason, "no requested image depends on it");
         }
     }
     free(needed);
@@ -205,6 +205,6 @@ bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct
     check_slots(graph, "skip", options->skip, faults);
     check_slots(graph, "force", options->force, faults);
     if (!decide_passes(graph, inputs, faults, err)) return false;
-    cull(graph, options, faults);
+    cull_passes(graph, options, faults);
     return true;
 }

@@ -1,4 +1,4 @@
-/* The graph's memory, and look-ups in it. */
+/* Memory of a graph, and queries on it. */
 #include "graph.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 struct graph_image *graph_find(const struct graph *graph, const char *name) {
     for (size_t i = 0; i < graph->image_count; i++)
         if (strcmp(graph->images[i].name, name) == 0 ||
-            (graph->images[i].instead && strcmp(graph->images[i].instead->name, name) == 0))
+            (graph->images[i].alias && strcmp(graph->images[i].alias->name, name) == 0))
             return &graph->images[i];
     return NULL;
 }

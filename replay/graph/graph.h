@@ -1,5 +1,5 @@
-/* The graph of a pipeline: which passes run and why, in order, and where each image comes from. Host only: it is told what
-   the frame shows, and reads no pixel. */
+/* The graph of a pipeline: the order of its passes, which of them run and why, and where each image comes from. It needs no device and
+   reads no pixel: callers pass it the facts about the frame. */
 #ifndef GLINT_REPLAY_GRAPH_H
 #define GLINT_REPLAY_GRAPH_H
 
@@ -11,29 +11,29 @@ enum source {
     SOURCE_MADE,    /* a pass of this run writes it */
     SOURCE_CAPTURE, /* decoded from the capture */
     SOURCE_RUN,     /* read from a run folder */
-    SOURCE_HISTORY, /* what the device still holds of the frame before */
-    SOURCE_ENGINE,  /* the engine's own, a part engine.SLOT.IMAGE of the capture */
-    SOURCE_NOTHING  /* the row's "nothing" value */
+    SOURCE_HISTORY, /* kept on the device since the previous frame */
+    SOURCE_ENGINE,  /* a part engine.SLOT.IMAGE of the capture, dumped by the engine */
+    SOURCE_FALLBACK /* not made: every texel has the row's fallback value */
 };
 
 struct graph_image {
-    const char *name;              /* of history: "history." and the image's */
+    const char *name;              /* history: "history." and the name of the image */
     const struct glint_row *row;   /* the WRITE, DIAGNOSTIC or CAPTURE row that defines it */
     const struct glint_pass *pass; /* whose row it is; NULL for a capture image */
     enum source source;
-    bool wanted;                     /* written out, where there is `instead` as that: its memory is its own */
-    bool history;                    /* of the frame before */
-    bool blank;                      /* NOTHING, in all of its size */
-    bool kept;                       /* the next frame's history: its memory is its own */
-    const struct glint_row *instead; /* what it is besides, a dropped pass's image, and whose; or NULL */
-    const struct glint_pass *instead_of;
-    const char *kept_as; /* what it stands for there, when the pass that would have passed it on was dropped; or NULL */
-    size_t maker;        /* MADE: place of the pass in the graph */
-    size_t first_use, last_use; /* places of the passes that touch it */
+    bool wanted;  /* the caller may read it, under the name of `alias` if there is one; memory is not shared */
+    bool history; /* contents of the previous frame */
+    bool blank;   /* FALLBACK that is allocated in full size */
+    bool kept;    /* becomes history of the next frame; memory is not shared */
+    const struct glint_row *alias; /* the image of a dropped pass that this image stands for as well, or NULL */
+    const struct glint_pass *alias_pass;
+    const char *kept_as;        /* the image of a dropped pass as whose history it is kept (row BYPASS), or NULL */
+    size_t maker;               /* MADE: index of the pass in the graph */
+    size_t first_use, last_use; /* indices of the first and last pass that access it */
     char history_name[80];
 };
 
-/* Passes that run for each ray of a frame stand together, after those that they need and before those that need them. */
+/* Passes that run for each ray are grouped together, after the passes that they depend on and before those that depend on them. */
 enum rank { RANK_BEFORE, RANK_RAY, RANK_AFTER };
 
 struct graph_pass {
@@ -41,9 +41,10 @@ struct graph_pass {
     const struct glint_pass *pass;
     enum rank rank;
     bool runs;
-    const struct glint_row *instead; /* ALIAS, where its image is the one of the capture; or NULL */
-    uint32_t lacks;                  /* a bit for each FACT row, in order: the fact does not hold */
-    bool cached_work;                /* it reads cube maps and nothing that changes with every frame */
+    const struct glint_row
+        *alias;           /* its row ALIAS, if the pass was dropped and its image is one of the capture's; or NULL */
+    uint32_t false_facts; /* a bit for each row FACT in order, set if the fact does not hold */
+    bool cached_work;     /* depends on cube maps and on nothing that changes with every frame */
     char reason[192];
 };
 
@@ -51,21 +52,22 @@ struct graph {
     const struct glint_pipeline *pipeline;
     struct graph_pass *passes; /* in order of execution, also those that do not run */
     size_t pass_count;
-    size_t loop_first, loop_end; /* passes that run for each ray; none when there is one ray */
-    struct graph_image *images;  /* all that passes which run read or write */
+    size_t loop_first, loop_end; /* the passes that run for each ray; empty if there is one ray */
+    struct graph_image *images;  /* all images that running passes read or write */
     size_t image_count;
-    struct faults declared, faults; /* of the declarations alone; with those of the last decision and of links */
+    struct faults declared,
+        faults; /* those of the declarations; those and the ones of the last decision and of linking */
 };
 
-/* What the frame shows, for NEEDS and FACT rows. */
+/* What a fact of rows NEEDS and FACT depends on, which is how much of the survey is needed to evaluate it. */
 enum fact_about {
     FACT_UNKNOWN,
-    FACT_PARTS,    /* what parts the capture has tells it */
-    FACT_CUBEMAPS, /* the same, of a pass that works on cube maps */
+    FACT_PARTS,    /* which parts the capture has */
+    FACT_CUBEMAPS, /* whether it has cube maps; only passes that work on cube maps need this */
     FACT_PIXELS,
-    FACT_FACES, /* what the faces of the active cube maps show; conservative until that is known */
+    FACT_FACES, /* contents of the faces of the active cube maps; conservative as long as these are unknown */
     FACT_FACES_AND_PIXELS,
-    FACT_CONES /* pixels; readers of coarser levels may need the pass although it does not hold */
+    FACT_CONES /* pixels; a pass may be needed although the fact is false, if another one reads its MIP levels */
 };
 struct facts {
     bool (*holds)(void *user, const char *fact, char *reason, size_t size, struct glint_error *err);
@@ -80,30 +82,30 @@ struct graph_inputs {
     struct facts facts;
 };
 
-/* An empty graph with room for the pipeline's. */
+/* An empty graph with memory for the pipeline's passes and images. */
 bool graph_allocate(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err);
-/* Builds the graph of a pipeline: checks the declarations and sorts the passes. Faults are kept for graph_link, so that all are
-   reported together; false only without memory. */
+/* Builds the graph of a pipeline: checks the declarations and sorts the passes. graph_link reports the faults, together with its own.
+   False only if memory is exhausted. */
 bool graph_init(struct graph *graph, const struct glint_pipeline *pipeline, struct glint_error *err);
-/* Decides which passes run, and why the others do not; again when more is known. False only when facts cannot be had. */
+/* Decides which passes run. It may be called again when more facts are known. False only if a fact cannot be evaluated. */
 bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct glint_error *err);
-/* Finds the images that the passes which run read and write. Once for a graph; reports all faults together. */
+/* Finds the images that running passes read and write, and the source of each. Call it once; it reports all faults together. */
 bool graph_link(struct graph *graph, const struct graph_inputs *inputs, struct glint_error *err);
-/* The same graph before any decision. */
+/* Copies the graph as it was before any decision. */
 bool graph_copy(struct graph *copy, const struct graph *graph, struct glint_error *err);
 void graph_finish(struct graph *graph);
 
 struct graph_image *graph_find(const struct graph *graph, const char *name);
-/* The graph's image that a binding shows. */
+/* The image that is bound for a row. */
 struct graph_image *graph_bound(const struct graph *graph, const struct glint_row *binding);
-/* The row that defines an image, of the pipeline's passes, of the capture, or of any pass there is; NULL: of none. *pass: its own,
-   NULL where that is the capture. */
+/* The row that defines an image: of the pipeline's passes, else of the capture, else of any pass; NULL if there is none. *pass receives
+   its pass, NULL for the capture. */
 const struct glint_row *graph_row(const struct graph *graph, const char *name, const struct glint_pass **pass);
-/* The pass that writes the image; pass_count when none does. */
+/* The index of the pass that writes the image, or pass_count. */
 size_t graph_maker(const struct graph *graph, const char *image);
-/* True when pass `later` reads what pass `earlier` made in the frame before. */
-bool pass_remembers(const struct glint_pass *later, const struct glint_pass *earlier);
-/* How often a pass runs in a frame. */
+/* Whether pass `later` reads as history an image that pass `earlier` writes. */
+bool pass_reads_history(const struct glint_pass *later, const struct glint_pass *earlier);
+/* The number of rays that a pass runs for in each frame. */
 uint64_t pass_rays(const struct graph *graph, const struct graph_pass *pass);
 
 /* order.c */
@@ -111,7 +113,7 @@ void graph_sort(struct graph *graph);
 void graph_find_loop(struct graph *graph, uint32_t rays);
 void graph_find_cached_work(struct graph *graph);
 
-/* check.c: declarations that contradict themselves or one another. */
+/* check.c: finds declarations that contradict themselves or one another. */
 void graph_check(const struct graph *graph, struct faults *faults);
 void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
                       struct faults *faults);

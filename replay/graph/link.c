@@ -66,19 +66,19 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     if (!optional || maker < graph->pass_count) fresh.row = graph_row(graph, name, &fresh.pass);
     char part[128];
     snprintf(part, sizeof part, "engine.%.48s.%.48s", fresh.pass ? fresh.pass->slot : "", name);
-    if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_FALLBACK;
     else if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, false, inputs->options, faults);
     else if (!fresh.pass) {
-        fresh.source = capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_NOTHING;
-        if (fresh.source == SOURCE_NOTHING && fresh.row->required)
+        fresh.source = capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_FALLBACK;
+        if (fresh.source == SOURCE_FALLBACK && fresh.row->required)
             faults_add(faults, GLINT_ERROR_FORMAT, "%s: part %s: missing, but %s/%s reads its channels %s",
                        inputs->capture ? glint_capture_path(inputs->capture) : "no capture", fresh.row->role,
                        graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, fresh.row->source);
-    } else if (dropped) fresh.source = SOURCE_NOTHING;
-    else if (optional && size_is_buffer(fresh.row->size)) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    } else if (dropped) fresh.source = SOURCE_FALLBACK;
+    else if (optional && size_is_buffer(fresh.row->size)) fresh.row = optional, fresh.source = SOURCE_FALLBACK;
     else if (inputs->run && glint_run_find(inputs->run, name)) fresh.source = SOURCE_RUN;
     else if (inputs->capture && glint_capture_find(inputs->capture, part)) fresh.source = SOURCE_ENGINE;
-    else if (optional) fresh.row = optional, fresh.source = SOURCE_NOTHING;
+    else if (optional) fresh.row = optional, fresh.source = SOURCE_FALLBACK;
     else
         complain_missing(&graph->passes[reader], name, fresh.pass, maker >= graph->pass_count, inputs->options, faults);
     const bool given = fresh.source == SOURCE_RUN || fresh.source == SOURCE_ENGINE;
@@ -138,16 +138,15 @@ static void link_passed_on(struct graph *graph, const struct glint_pass *dropped
 }
 
 /* What would have been made of the capture's image as it is, is that image. */
-static void link_instead(struct graph *graph, size_t dropped, const struct graph_inputs *inputs,
-                         struct faults *faults) {
+static void link_alias(struct graph *graph, size_t dropped, const struct graph_inputs *inputs, struct faults *faults) {
     const struct graph_pass *pass = &graph->passes[dropped];
-    if (!pass->instead) return;
-    link_read(graph, dropped, pass->instead->name, NULL, inputs, faults);
-    struct graph_image *image = graph_find(graph, pass->instead->name);
+    if (!pass->alias) return;
+    link_read(graph, dropped, pass->alias->name, NULL, inputs, faults);
+    struct graph_image *image = graph_find(graph, pass->alias->name);
     if (!image) return;
-    image->instead = glint_pass_output(pass->pass, pass->instead->image);
-    image->instead_of = pass->pass;
-    image->wanted = !inputs->options->outputs || list_has(inputs->options->outputs, pass->instead->image);
+    image->alias = glint_pass_output(pass->pass, pass->alias->image);
+    image->alias_pass = pass->pass;
+    image->wanted = !inputs->options->outputs || list_has(inputs->options->outputs, pass->alias->image);
 }
 
 /* Whether a row FACT is about the image, and does not hold. */
@@ -155,7 +154,7 @@ static bool is_left_out(const struct graph_pass *pass, const char *image) {
     uint32_t fact = 0;
     for (size_t r = 0; r < pass->pass->row_count; r++) {
         if (pass->pass->rows[r].kind != GLINT_ROW_FACT) continue;
-        if (strcmp(pass->pass->rows[r].name, image) == 0) return pass->lacks >> fact & 1;
+        if (strcmp(pass->pass->rows[r].name, image) == 0) return pass->false_facts >> fact & 1;
         fact++;
     }
     return false;
@@ -165,7 +164,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
     const struct glint_replay_options *options = inputs->options;
     for (size_t i = 0; i < graph->pass_count; i++) {
         const struct graph_pass *pass = &graph->passes[i];
-        link_instead(graph, i, inputs, faults);
+        link_alias(graph, i, inputs, faults);
         for (size_t r = 0; pass->runs && r < pass->pass->row_count; r++) {
             const struct glint_row *row = &pass->pass->rows[r];
             const char *names[2];
@@ -182,7 +181,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                 .name = row->name,
                 .row = row,
                 .pass = pass->pass,
-                .source = made ? SOURCE_MADE : SOURCE_NOTHING,
+                .source = made ? SOURCE_MADE : SOURCE_FALLBACK,
                 .wanted = made && (diagnostic || !options->outputs || list_has(options->outputs, row->name)),
                 .maker = i,
                 .first_use = i,

@@ -1,9 +1,9 @@
-/* The order of passes, and what follows from it: the loop over rays, and work that is not for one frame alone. */
+/* Sorts passes, and finds the loop over rays and the passes whose work can be cached between frames. */
 #include "graph.h"
 
 #include <string.h>
 
-bool pass_remembers(const struct glint_pass *later, const struct glint_pass *earlier) {
+bool pass_reads_history(const struct glint_pass *later, const struct glint_pass *earlier) {
     for (size_t r = 0; r < later->row_count; r++)
         if (later->rows[r].kind == GLINT_ROW_HISTORY && glint_pass_output(earlier, row_image(&later->rows[r])))
             return true;
@@ -34,7 +34,8 @@ static void check_ranks(const struct graph *graph, struct faults *faults) {
                            graph->passes[i].pass->slot, graph->passes[i].pass->variant, graph->passes[j].pass->slot);
 }
 
-/* Topological order, ties by rank and then by slot name; the passes come ordered by slot. What remains is in cycles or behind one. */
+/* Sorts topologically, ties by rank and then by slot name, in which order the passes come. Passes that remain are in a cycle or depend on
+   one. */
 static void sort_passes(struct graph *graph, struct faults *faults) {
     for (size_t done = 0; done < graph->pass_count; done++) {
         size_t next = graph->pass_count;
@@ -47,7 +48,7 @@ static void sort_passes(struct graph *graph, struct faults *faults) {
         if (next == graph->pass_count) {
             char members[400] = "";
             for (size_t i = done; i < graph->pass_count; i++) {
-                bool feeds = false; /* one that nobody left reads only hangs behind the cycle */
+                bool feeds = false; /* a pass that no remaining pass reads is not in the cycle itself */
                 for (size_t j = done; j < graph->pass_count; j++)
                     feeds |= glint_pass_depends(graph->passes[j].pass, graph->passes[i].pass);
                 if (feeds) text_list(members, sizeof members, graph->passes[i].pass->slot);
@@ -55,7 +56,7 @@ static void sort_passes(struct graph *graph, struct faults *faults) {
             faults_add(faults, GLINT_ERROR_USAGE, "passes read one another in a cycle: %s", members);
             return;
         }
-        struct graph_pass chosen = graph->passes[next]; /* the others keep their order by name */
+        struct graph_pass chosen = graph->passes[next]; /* shifting keeps the other passes in order of their names */
         memmove(&graph->passes[done + 1], &graph->passes[done], (next - done) * sizeof chosen);
         graph->passes[done] = chosen;
     }
@@ -67,7 +68,7 @@ void graph_sort(struct graph *graph) {
     check_ranks(graph, &graph->declared);
 }
 
-/* What passes of the loop read from before it, and what is summed up, is needed until the loop ends. */
+/* Images that the loop reads from before it, or accumulates, stay in use until the loop ends. */
 void graph_find_loop(struct graph *graph, uint32_t rays) {
     for (size_t i = 0; i < graph->pass_count && rays > 1; i++)
         if (graph->passes[i].rank == RANK_RAY) {
@@ -83,23 +84,23 @@ void graph_find_loop(struct graph *graph, uint32_t rays) {
     }
 }
 
-/* Cube maps and the tables about them stay from frame to frame, and so does what is made from them alone. */
-static bool image_stays(const struct graph *graph, const struct graph_image *image) {
+/* Whether an image is the same in every frame: cube maps, their tables, and images made from these alone. */
+static bool is_persistent(const struct graph *graph, const struct graph_image *image) {
     if (image->source == SOURCE_MADE && !image->pass->host) return graph->passes[image->maker].cached_work;
-    return image->source == SOURCE_NOTHING || size_is_cube(image->row->size) || image->row->size == GLINT_SIZE_ACTIVE ||
-           image->row->size == GLINT_SIZE_CHAIN;
+    return image->source == SOURCE_FALLBACK || size_is_cube(image->row->size) ||
+           image->row->size == GLINT_SIZE_ACTIVE || image->row->size == GLINT_SIZE_CHAIN;
 }
 
 void graph_find_cached_work(struct graph *graph) {
     for (size_t i = 0; i < graph->pass_count; i++) {
         struct graph_pass *pass = &graph->passes[i];
-        bool still = pass->runs && !pass->pass->host, cubes = false;
-        for (size_t r = 0; still && r < pass->pass->row_count; r++) {
+        bool persistent = pass->runs && !pass->pass->host, cubes = false;
+        for (size_t r = 0; persistent && r < pass->pass->row_count; r++) {
             const struct glint_row *row = &pass->pass->rows[r];
             const struct graph_image *image = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
-            if (row->kind == GLINT_ROW_HISTORY || (image && !image_stays(graph, image))) still = false;
+            if (row->kind == GLINT_ROW_HISTORY || (image && !is_persistent(graph, image))) persistent = false;
             cubes |= image && size_is_cube(image->row->size);
         }
-        pass->cached_work = still && cubes;
+        pass->cached_work = persistent && cubes;
     }
 }

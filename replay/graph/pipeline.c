@@ -1,4 +1,4 @@
-/* Pipelines: every change is checked against the declarations. */
+/* Pipelines. Every change is checked against the declarations. */
 #include "pipeline.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ const struct pipeline_pass *pipeline_find(const struct glint_pipeline *pipeline,
 }
 
 static struct pipeline_pass *find_entry(struct glint_pipeline *pipeline, const char *slot) {
-    return (struct pipeline_pass *)pipeline_find(pipeline, slot); /* the caller's pipeline is not const */
+    return (struct pipeline_pass *)pipeline_find(pipeline, slot); /* safe, since the caller's pipeline is not const */
 }
 
 static void pass_finish(struct pipeline_pass *pass) {
@@ -65,7 +65,7 @@ static bool unknown_variant(const char *slot, const char *variant, struct glint_
     return glint_fail(err, GLINT_ERROR_USAGE, "slot %s has no variant '%s'; known: %s, none", slot, variant, known);
 }
 
-/* Puts the variant into the slot; parameters of the old variant that the new one has too keep their values. */
+/* Parameters that the new variant shares with the old one keep their values, unless these were the old defaults. */
 bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char *variant, struct glint_error *err) {
     struct pipeline_pass *old = find_entry(pipeline, slot);
     if (strcmp(variant, GLINT_NO_VARIANT) == 0 && !glint_pass_find(slot, variant)) {

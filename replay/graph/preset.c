@@ -1,4 +1,4 @@
-/* Presets: JSON files by path, in $GLINT_PRESETS, and built into the library. */
+/* Reads presets: JSON files by path or in $GLINT_PRESETS, and the built-in ones. */
 #include "pipeline.h"
 
 #include <stdio.h>
@@ -21,7 +21,7 @@ const char *glint_preset(size_t i) {
     return i < BUILTIN ? builtin_presets[i].name : NULL;
 }
 
-/* The JSON text by name or path, which the caller frees; `where` names the place. */
+/* The JSON text of a preset, which the caller frees. `where` receives its path or name for messages. */
 static char *preset_text(const char *preset, char where[PATH_SIZE], struct glint_error *err) {
     enum { LIMIT = 1 << 20 };
     const size_t length = strlen(preset);
@@ -69,7 +69,7 @@ static void apply_preset(struct glint_pipeline *pipeline, json_t *root, struct f
     }
     json_object_foreach(root, key, value) {
         bool text = strcmp(key, "name") == 0 || strcmp(key, "title") == 0 || strcmp(key, "source") == 0;
-        /* provenance: where a tuned preset comes from; nothing of it is read here */
+        /* provenance documents how a tuned preset was made and is ignored here */
         bool object = strcmp(key, "slots") == 0 || strcmp(key, "set") == 0 || strcmp(key, "provenance") == 0;
         if (!text && !object)
             faults_add(faults, GLINT_ERROR_FORMAT,

@@ -1,4 +1,4 @@
-/* A plan whose passes are decided: its images, tables, sizes, and the block of figures that shaders see. */
+/* Completes a plan whose passes are decided: images, tables, sizes, uniform block. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ void plan_begin(struct frame_plan *plan, const struct planner *planner, const st
                                 .is_cpu = !planner->engine || planner->engine->gpu->info.is_cpu};
 }
 
-static void fill_block(struct frame_plan *plan) {
+static void fill_frame_block(struct frame_plan *plan) {
     const struct glint_frame *frame = glint_capture_frame(plan->source->capture);
     const struct glint_part_info *mirror = glint_capture_find(plan->source->capture, GLINT_PART_MIRROR);
     float classes[2];
@@ -33,7 +33,7 @@ bool plan_complete(struct frame_plan *plan, struct planner *planner, const struc
         !plan_find_sizes(plan, err) || !plan_history(plan, planner->pool, err) ||
         !plan_reach(plan, &planner->survey.figures, err))
         return false;
-    fill_block(plan);
+    fill_frame_block(plan);
     if (options->cache && !frame_source_hash(plan->source, plan->content, NULL)) plan->content[0] = 0;
     return true;
 }

@@ -1,11 +1,11 @@
-/* How the survey answers what declarations ask for. The facts are rows: passes/facts.h. */
+/* Evaluates facts, which are rows of passes/facts.h, by the survey's figures. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "survey.h"
 
-/* "rough 0.1" is a fact about a value. */
+/* `by_limit`: the fact comes with a limit, as "rough 0.1". */
 static bool is_fact(const char *fact, const char *name, bool by_limit) {
     const size_t length = strcspn(fact, " ");
     return strlen(name) == length && strncmp(name, fact, length) == 0 && by_limit == (fact[length] != 0);
@@ -22,7 +22,7 @@ enum fact_about survey_fact_about(const char *fact) {
     return FACT_UNKNOWN;
 }
 
-/* "the smoothest of 1000 reflecting pixels has roughness 0.02, the limit is at most 0.1"; the limit's word NULL: none. */
+/* "the smoothest of 1000 reflecting pixels has roughness 0.02, the limit is at most 0.1". The limit is omitted if limit_word is NULL. */
 static int say_roughness(char *reason, size_t size, const struct glint_survey *s,
                          const struct glint_survey_pixels *shown, const char *word, int end, const char *limit_word,
                          double limit) {
@@ -38,8 +38,8 @@ bool survey_fact(const struct glint_survey *s, bool shows_all, const char *fact,
     const struct glint_survey_pixels *shown = shows_all ? &s->surfaces : &s->reflecting;
     const double share = s->pixels ? (double)shown->count / (double)s->pixels : 0;
     const double limit = fact[strcspn(fact, " ")] ? strtod(fact + strcspn(fact, " "), NULL) : 0;
-    const uint32_t faces = 6 * s->looked_at, open = glint_survey_faces(s, GLINT_SURVEY_OPEN),
-                   lets_sky = glint_survey_faces(s, GLINT_SURVEY_SKY);
+    const uint32_t faces = 6 * s->active_surveyed, open = glint_survey_faces(s, GLINT_SURVEY_OPEN),
+                   translucent = glint_survey_faces(s, GLINT_SURVEY_SKY);
 #define N(count) ((unsigned long long)(count))
 #define SAY(...) snprintf(reason, size, __VA_ARGS__)
 #define SAY_ROUGHNESS(word, end) say_roughness(reason, size, s, shown, word, end, NULL, limit)

@@ -1,4 +1,4 @@
-/* The plan: facts about the frame, the graph that follows from them, and its sizes. */
+/* Plans a frame: builds the graph, evaluates facts by the survey, decides which passes run, completes the plan. */
 #include "planner.h"
 
 struct fact_source {
@@ -20,23 +20,22 @@ void planner_load(struct planner *planner) {
 static bool fact_holds(void *user, const char *fact, char *reason, size_t size, struct glint_error *err) {
     const struct fact_source *source = user;
     const enum fact_about about = survey_fact_about(fact);
-    const bool of_parts = about == FACT_PARTS || about == FACT_CUBEMAPS || about == FACT_FACES;
-    return (of_parts || planner_survey(source->planner, source->pipeline, source->options, false, err)) &&
+    const bool needs_no_pixels = about == FACT_PARTS || about == FACT_CUBEMAPS || about == FACT_FACES;
+    return (needs_no_pixels || planner_survey(source->planner, source->pipeline, source->options, false, err)) &&
            survey_fact(&source->planner->survey.figures, pipeline_shows_all(source->pipeline), fact, reason, size);
 }
 
-/* Which passes run. What the cube maps show is looked at only where a pass that runs asks for it, and then all is decided
-   again. */
+/* Decides which passes run. Cube maps are surveyed only if a running pass depends on their contents, and then all passes are decided again. */
 static bool decide_passes(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,
                           struct glint_error *err) {
     struct glint_survey *figures = &planner->survey.figures;
     if (plan->options->all) return graph_decide(&plan->graph, inputs, err);
-    const uint32_t before = figures->looked_at;
-    figures->looked_at = figures->followed = 0; /* not at this pipeline's cube maps */
+    const uint32_t before = figures->active_surveyed;
+    figures->active_surveyed = figures->active_traced = 0; /* this pipeline may have other active cube maps */
     if (!graph_decide(&plan->graph, inputs, err)) return false;
     if (plan->graph.faults.count > 0) return true; /* linking reports them */
     return survey_cubemaps(planner, plan, before, err) &&
-           (figures->looked_at == 0 || graph_decide(&plan->graph, inputs, err));
+           (figures->active_surveyed == 0 || graph_decide(&plan->graph, inputs, err));
 }
 
 bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct glint_pipeline *pipeline,
@@ -51,7 +50,7 @@ bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct g
     if (!graph_init(&plan->graph, pipeline, err) || !decide_passes(plan, planner, &inputs, err)) return false;
     if (run) return plan_complete(plan, planner, &inputs, err) && plan_workload(plan, &inputs, true, err);
     if (!graph_link(&plan->graph, &inputs, err)) return false;
-    struct glint_error ignored = {0}; /* what cannot be run may be planned */
+    struct glint_error ignored = {0}; /* a plan may also be made of a pipeline that cannot run */
     const bool sized =
         tables_fill(plan->tables, &plan->graph, plan->source, &ignored) && plan_find_sizes(plan, &ignored);
     return (!sized || plan_reach(plan, &planner->survey.figures, err)) && plan_workload(plan, &inputs, sized, err);

@@ -1,4 +1,4 @@
-/* What a frame holds: shares of sky and of reflecting surfaces, ranges. */
+/* The figures of the survey that the host counts. */
 #include "survey.h"
 
 #include <math.h>
@@ -27,9 +27,9 @@ static void count_pixel(struct glint_survey_pixels *pixels, float roughness) {
     pixels->by_roughness[bin < GLINT_SURVEY_BINS ? bin : GLINT_SURVEY_BINS - 1]++;
 }
 
-static float as_stored(float roughness) {
+static float stored_roughness(float roughness) {
     const float held = imath_half_to_float(imath_float_to_half(roughness));
-    return held > 0 ? fminf(held, 1) : 0; /* NaN is 0 */
+    return held > 0 ? fminf(held, 1) : 0; /* NaN counts as 0 */
 }
 
 void survey_channels(const struct channels *channels, struct glint_survey *survey) {
@@ -44,10 +44,10 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
             survey->sky++;
             continue;
         }
-        const float roughness = as_stored(pixel[at[1]]);
+        const float roughness = stored_roughness(pixel[at[1]]);
         widen_range(survey->depth_m, fmaxf(pixel[at[0]], 0));
         count_pixel(&survey->surfaces, roughness);
-        /* As shared/shown.glsl has it: a value that is none counts. */
+        /* A NaN counts as reflecting, as in shared/shown.glsl. */
         if (!(pixel[at[2]] == 0 && pixel[at[3]] == 0)) count_pixel(&survey->reflecting, roughness);
     }
 }

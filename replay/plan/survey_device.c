@@ -1,4 +1,4 @@
-/* The survey on the device: one pass over the capture's images, which stay there for the run that it is for. */
+/* Counts the survey's figures on the device, by a pass over the capture's images. These stay on the device for the run that follows. */
 #include "planner.h"
 
 #include <math.h>
@@ -51,11 +51,11 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     set_range(survey->depth_m, f, at_nearest, at_farthest, whole && survey->surfaces.count > 0);
     set_range(survey->light, f, at_darkest, at_brightest, whole && f[at_darkest] <= f[at_brightest]);
     survey->transparent_roughness = as_float(f[at_transparent_roughest]);
-    survey->whole = true;
-    survey->brief = !whole;
+    survey->on_device = true;
+    survey->partial = !whole;
 }
 
-/* The pixels of images, one after the other. */
+/* Reads images into one array, one after the other. */
 static uint32_t *read_images(struct pool *pool, const char *const *names, struct glint_error *err) {
     uint32_t *values = NULL;
     size_t count = 0;
@@ -124,7 +124,7 @@ static bool pass_reads(const struct glint_pass *pass, const struct glint_row *im
     return pass && glint_pass_row(pass, GLINT_ROW_READ, image->name);
 }
 
-/* The pass that counts; NULL where the host does, which has fewer figures: without a device, or without what the pass reads. */
+/* The pass that counts; NULL without a device or if the capture lacks a part that the pass reads. The host then counts fewer figures. */
 static const struct glint_pass *counting_pass(const struct planner *planner) {
     const char *image;
     const struct glint_pass *pass = planner->engine ? glint_pass_with_role(GLINT_ROLE_SURVEY_FIGURES, &image) : NULL;
@@ -135,7 +135,7 @@ static const struct glint_pass *counting_pass(const struct planner *planner) {
     return pass;
 }
 
-/* The G-buffer is read once: what the survey needs together with what the passes will. */
+/* Reads the G-buffer once, with the channels that the survey needs and those that the passes will read. */
 static bool read_gbuffer(struct planner *planner, const struct glint_pipeline *pipeline, struct glint_error *err) {
     struct glint_capture *capture = planner->source->capture;
     struct channels *gbuffer = &planner->source->gbuffer;
@@ -155,7 +155,7 @@ static bool read_gbuffer(struct planner *planner, const struct glint_pipeline *p
         for (size_t p = 0; p < pipeline->count; p++) read |= pass_reads(pipeline->passes[p].pass, &rows[i]);
         const size_t before = gbuffer->count;
         if (read && !glint_format_is_uint(rows[i].format) && !channels_add_row(gbuffer, &rows[i], err)) return false;
-        for (size_t c = before; c < gbuffer->count; c++) /* optional, or the graph reports it */
+        for (size_t c = before; c < gbuffer->count; c++) /* it is optional, or linking reports that it is missing */
             if (!glint_part_has_channel(gbuffer->part, gbuffer->names[c])) channels_keep(gbuffer, before);
     }
     return channels_read(gbuffer, capture, err);
@@ -164,7 +164,7 @@ static bool read_gbuffer(struct planner *planner, const struct glint_pipeline *p
 bool planner_survey(struct planner *planner, const struct glint_pipeline *pipeline,
                     const struct glint_replay_options *options, bool whole, struct glint_error *err) {
     struct survey_state *survey = &planner->survey;
-    if (survey->done && !(whole && survey->figures.brief)) return true;
+    if (survey->done && !(whole && survey->figures.partial)) return true;
     const double start = glint_now_seconds();
     survey->time = (struct glint_time){0};
     if (!read_gbuffer(planner, pipeline, err)) {

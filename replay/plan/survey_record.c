@@ -1,4 +1,4 @@
-/* A survey as run.json and glint info --json say it. */
+/* The survey as JSON, for run.json and glint info --json. */
 #include "survey.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ static json_t *numbers_record(const uint64_t *values, size_t count) {
     return list;
 }
 
-/* null where there is none: nothing was counted, or it has no end. */
+/* null for a number that does not exist or is infinite. */
 static json_t *number_record(float value) {
     return isfinite(value) ? json_real((double)value) : json_null();
 }
@@ -54,35 +54,33 @@ json_t *time_record(const struct glint_time *time) {
 
 uint32_t glint_survey_faces(const struct glint_survey *survey, enum glint_survey_face kind) {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < survey->looked_at; i++) {
+    for (uint32_t i = 0; i < survey->active_surveyed; i++) {
         const struct glint_survey_cubemap *map = &survey->active[i];
-        const uint8_t faces[] = {map->open, map->sky, survey->followed ? map->crossed : 63,
-                                 survey->followed ? map->nearby : 63};
+        const uint8_t faces[] = {map->open, map->sky, survey->active_traced ? map->crossed : 63,
+                                 survey->active_traced ? map->nearby : 63};
         for (uint32_t left = faces[kind]; left; left &= left - 1) count++;
     }
     return count;
 }
 
-/* Numbers of faces as bits. */
+/* Masks of faces as integers. */
 static json_t *cubemaps_record(const struct survey_state *state) {
     const struct glint_survey *survey = &state->figures;
     json_t *list = json_array();
-    for (uint32_t i = 0; i < survey->looked_at; i++) {
+    for (uint32_t i = 0; i < survey->active_surveyed; i++) {
         const struct glint_survey_cubemap *map = &survey->active[i];
         json_t *entry = json_pack("{sIsisi}", "number", (json_int_t)map->number, "open", map->open, "sky", map->sky);
-        if (survey->followed) json_object_set_new(entry, "crossed", json_integer(map->crossed));
-        if (survey->followed) json_object_set_new(entry, "nearby", json_integer(map->nearby));
+        if (survey->active_traced) json_object_set_new(entry, "crossed", json_integer(map->crossed));
+        if (survey->active_traced) json_object_set_new(entry, "nearby", json_integer(map->nearby));
         json_array_append_new(list, entry);
     }
-    json_t *record = json_pack("{sisisisisiso}", "faces", (int)(6 * survey->looked_at), "open",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
-                               (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list);
-    json_object_set_new(record, "time_ns",
-                        time_record(&state->cubes.time)); /* once for as long as they stay the same */
-    if (survey->followed) json_object_set_new(record, "ways_time_ns", time_record(&state->followed_time));
-    return record;
+    return json_pack("{si si si si si so so so*}", "faces", (int)(6 * survey->active_surveyed), "open",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
+                     (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list, "time_ns",
+                     time_record(&state->cubes.time), "ways_time_ns",
+                     survey->active_traced ? time_record(&state->trace_time) : NULL);
 }
 
 json_t *survey_record(const struct survey_state *state, const struct glint_frame *frame) {
@@ -92,18 +90,16 @@ json_t *survey_record(const struct survey_state *state, const struct glint_frame
                   "surfaces", pixels_record(&survey->surfaces), "reflecting", pixels_record(&survey->reflecting),
                   "depth_m", range_record(survey->depth_m), "cubemaps", (json_int_t)survey->cubemaps, "volumes",
                   (json_int_t)survey->volumes, "planar", survey->has_planar, "previous", survey->has_previous);
-    json_object_set_new(json, "counted_on", json_string(survey->whole ? "device" : "host"));
-    if (json && survey->whole) json_object_set_new(json, "time_ns", time_record(&state->time));
-    if (json && survey->looked_at) json_object_set_new(json, "active_cubemaps", cubemaps_record(state));
-    if (!json || !survey->whole || survey->brief) return json;
-    json_object_set_new(json, "metalness", numbers_record(survey->metalness, GLINT_SURVEY_BINS));
-    json_object_set_new(json, "weight", numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS));
-    json_object_set_new(json, "water", json_integer((json_int_t)survey->water));
-    json_object_set_new(json, "transparent", json_integer((json_int_t)survey->transparent));
-    json_object_set_new(json, "motion", json_string(glint_survey_motion(survey)));
-    json_object_set_new(json, "moved", json_integer((json_int_t)survey->moved));
-    json_object_set_new(json, "moving", json_integer((json_int_t)survey->moving));
-    json_object_set_new(json, "stencil", stencil_record(survey, frame));
-    json_object_set_new(json, "light", range_record(survey->light));
+    json_object_set_new(json, "counted_on", json_string(survey->on_device ? "device" : "host"));
+    if (json && survey->on_device) json_object_set_new(json, "time_ns", time_record(&state->time));
+    if (json && survey->active_surveyed) json_object_set_new(json, "active_cubemaps", cubemaps_record(state));
+    if (!json || !survey->on_device || survey->partial) return json;
+    json_object_update_new(json, json_pack("{so so sI sI ss sI sI so so}", "metalness",
+                                           numbers_record(survey->metalness, GLINT_SURVEY_BINS), "weight",
+                                           numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS), "water",
+                                           (json_int_t)survey->water, "transparent", (json_int_t)survey->transparent,
+                                           "motion", glint_survey_motion(survey), "moved", (json_int_t)survey->moved,
+                                           "moving", (json_int_t)survey->moving, "stencil",
+                                           stencil_record(survey, frame), "light", range_record(survey->light)));
     return json;
 }

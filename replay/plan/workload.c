@@ -1,11 +1,11 @@
-/* What passes work on: texels that their dispatches go over, and faces of cube maps, with what a plan leaves out and without. */
+/* Counts work: texels of the passes' dispatches without culling, and cube-map faces with and without it. */
 #include "planner.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Of all dispatches when nothing is left out. */
-static uint64_t texels_of(const struct frame_plan *plan, const struct graph_pass *entry, struct glint_error *err) {
+/* The texels of all dispatches of a pass without culling. */
+static uint64_t count_texels(const struct frame_plan *plan, const struct graph_pass *entry, struct glint_error *err) {
     const struct glint_pass *pass = entry->pass;
     uint64_t texels = 0;
     for (size_t r = 0; r < pass->row_count; r++) {
@@ -22,14 +22,14 @@ static uint64_t texels_of(const struct frame_plan *plan, const struct graph_pass
     return texels;
 }
 
-static uint64_t faces_of_size(const struct frame_plan *plan, enum glint_size_class size) {
+static uint64_t count_all_faces(const struct frame_plan *plan, enum glint_size_class size) {
     return size_is_array(size) ? 6 * (uint64_t)plan->sizes.active : plan->sizes.sky_face ? 6 : 0;
 }
 
-/* The faces of an image that a pass makes: those of the dispatches over it, or of all where it goes with another image. The
-   coarsest level takes most of them. */
-static uint64_t faces_made(const struct frame_plan *plan, const struct graph_pass *entry,
-                           const struct glint_row *made) {
+/* The number of faces of an image that a pass makes: those of the dispatches over that image, or over any image if there are none. The coarsest
+   MIP level needs the most faces. */
+static uint64_t count_made_faces(const struct frame_plan *plan, const struct graph_pass *entry,
+                                 const struct glint_row *made) {
     const struct glint_pass *pass = entry->pass;
     uint8_t faces[GLINT_SURVEY_CUBEMAPS] = {0};
     bool own = false;
@@ -43,33 +43,33 @@ static uint64_t faces_made(const struct frame_plan *plan, const struct graph_pas
         struct image_desc desc;
         uint8_t more[GLINT_SURVEY_CUBEMAPS];
         uint32_t first, last = 0;
-        if (!image.row || !plan_describe(plan, &image, &desc, NULL)) return faces_of_size(plan, made->size);
+        if (!image.row || !plan_describe(plan, &image, &desc, NULL)) return count_all_faces(plan, made->size);
         if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(entry, row, &desc, &first, &last)) continue;
-        if (!plan_dispatched_faces(plan, entry, row, last, more)) return faces_of_size(plan, made->size);
+        if (!plan_dispatched_faces(plan, entry, row, last, more)) return count_all_faces(plan, made->size);
         for (uint32_t i = 0; i < plan->sizes.active && i < GLINT_SURVEY_CUBEMAPS; i++) faces[i] |= more[i];
     }
     return count_faces(faces, plan->sizes.active);
 }
 
-static void count_faces_of(const struct frame_plan *plan, struct glint_cube_faces *faces) {
+static void count_cube_faces(const struct frame_plan *plan, struct glint_cube_faces *faces) {
     uint8_t some[GLINT_SURVEY_CUBEMAPS];
     faces->uploaded = faces->filtered = 0;
     for (size_t i = 0; i < plan->graph.image_count; i++) {
         const struct graph_image *image = &plan->graph.images[i];
         if (image->source == SOURCE_CAPTURE && size_is_cube(image->row->size))
             faces->uploaded += plan_captured_faces(plan, i, some) ? count_faces(some, plan->sizes.active)
-                                                                  : faces_of_size(plan, image->row->size);
+                                                                  : count_all_faces(plan, image->row->size);
     }
     for (size_t p = 0; p < plan->graph.pass_count; p++) {
         const struct graph_pass *pass = &plan->graph.passes[p];
         for (size_t r = 0; pass->runs && r < pass->pass->row_count; r++)
             if (pass->pass->rows[r].kind == GLINT_ROW_WRITE && size_is_cube(pass->pass->rows[r].size) &&
                 graph_find(&plan->graph, pass->pass->rows[r].name)->source == SOURCE_MADE)
-                faces->filtered += faces_made(plan, pass, &pass->pass->rows[r]);
+                faces->filtered += count_made_faces(plan, pass, &pass->pass->rows[r]);
     }
 }
 
-/* The same graph with all of its passes, of which nothing is left out. */
+/* Plans the same graph with all of its passes and without culling. */
 static void find_whole_work(struct frame_plan *plan, const struct graph_inputs *inputs) {
     struct glint_replay_options all = *plan->options;
     struct glint_error ignored = {0};
@@ -89,19 +89,19 @@ static void find_whole_work(struct frame_plan *plan, const struct graph_inputs *
         graph_link(&whole.graph, &whole_inputs, &ignored) &&
         tables_fill(whole.tables, &whole.graph, plan->source, &ignored) && plan_find_sizes(&whole, &ignored);
     for (size_t p = 0; ok && p < whole.graph.pass_count; p++)
-        plan->whole[p] = (struct whole_work){texels_of(&whole, &whole.graph.passes[p], &ignored) *
+        plan->whole[p] = (struct whole_work){count_texels(&whole, &whole.graph.passes[p], &ignored) *
                                                  pass_rays(&whole.graph, &whole.graph.passes[p]),
                                              whole.graph.passes[p].cached_work};
-    if (ok) count_faces_of(&whole, &faces);
+    if (ok) count_cube_faces(&whole, &faces);
     plan->faces = (struct glint_cube_faces){.uploaded_of = faces.uploaded, .filtered_of = faces.filtered};
-    whole.inputs = NULL; /* the plan's own */
+    whole.inputs = NULL; /* owned by the plan */
     frame_plan_finish(&whole);
 }
 
 bool plan_workload(struct frame_plan *plan, const struct graph_inputs *inputs, bool sized, struct glint_error *err) {
     plan->whole = calloc(plan->graph.pass_count + 1, sizeof *plan->whole);
     if (!plan->whole) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    find_whole_work(plan, inputs); /* where it cannot be linked nothing is known of it */
-    if (sized) count_faces_of(plan, &plan->faces);
+    find_whole_work(plan, inputs); /* stays unknown if it cannot be linked */
+    if (sized) count_cube_faces(plan, &plan->faces);
     return true;
 }

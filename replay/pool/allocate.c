@@ -1,11 +1,11 @@
-/* Device images of a run. They stay for the next run while their descriptions are the same; where the caller names the
-   outputs it wants, the other images share memory when their lifetimes do not overlap. */
+/* Allocates the device images of a run. Images of earlier runs are reused if their descriptions are equal. If the caller names its outputs,
+   all other images may share memory with images whose lifetimes do not overlap theirs. */
 #include "pool.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What is made from cube maps alone serves the next frame too, and lists are counted. */
+/* Whether an image may share its memory. Images that depend on cube maps alone serve the next frame, and lists are read back for statistics. */
 static bool is_transient(const struct frame_plan *plan, const struct graph_image *image) {
     return plan->options->outputs && image->source == SOURCE_MADE && !image->wanted && !image->kept &&
            !size_is_buffer(image->row->size) && !image->pass->host && !plan->graph.passes[image->maker].cached_work;
@@ -16,14 +16,14 @@ struct shared_block {
     uint32_t memory_types;
 };
 
-/* What memory is bound for. */
+/* The images that memory is bound to. */
 struct binding {
     struct gpu *gpu;
     const struct graph *graph;
-    struct pooled **images; /* beside the graph's */
+    struct pooled **images; /* one for each image of the graph */
 };
 
-static bool overlaps(const struct binding *b, const struct block *block, size_t i) {
+static bool is_in_use(const struct binding *b, const struct block *block, size_t i) {
     const struct graph_image *image = &b->graph->images[i];
     for (size_t j = 0; j < b->graph->image_count; j++) {
         const struct graph_image *other = &b->graph->images[j];
@@ -34,7 +34,7 @@ static bool overlaps(const struct binding *b, const struct block *block, size_t 
     return false;
 }
 
-/* Binds the transient images, the largest first, so that the first image of a block is its largest. */
+/* Binds the transient images, the largest first, so that a block has the size of its first image. */
 static bool share_memory(const struct binding *b, struct glint_error *err) {
     size_t count = b->graph->image_count, blocks = 0;
     struct shared_block *shared = calloc(count + 1, sizeof *shared);
@@ -49,7 +49,7 @@ static bool share_memory(const struct binding *b, struct glint_error *err) {
         }
         if (largest == count) break;
         while (s < blocks && (shared[s].block->size < need.size || shared[s].memory_types != need.memoryTypeBits ||
-                              overlaps(b, shared[s].block, largest)))
+                              is_in_use(b, shared[s].block, largest)))
             s++;
         if (s == blocks) {
             shared[s] =
@@ -86,7 +86,7 @@ bool pool_allocate(struct pool *pool, const struct frame_plan *plan, struct pool
         images[i] = image;
         pool_adopt(pool, plan, i, image);
     }
-    /* Before memory is taken for new ones; where it failed, contents may serve a later run. */
+    /* Old images are released before new memory is allocated. After a failure they may still serve a later run. */
     if (ok && !plan->interim) pool_trim(pool, plan->options->keep_bytes);
     *end = pool->images;
     pool->images = taken;

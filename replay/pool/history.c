@@ -1,4 +1,4 @@
-/* What is left of the frame before: images that change their name when the next frame of a shot is loaded. */
+/* History: images of the previous frame, which are renamed when the next frame of a shot is loaded. */
 #include "pool.h"
 
 #include <stdio.h>
@@ -10,9 +10,9 @@ void pool_age(struct pool *pool, const struct glint_frame *next) {
     pool_drop(pool, false);
     for (struct pooled *image = pool->images; image; image = image->next) {
         char name[sizeof image->image.name];
-        const bool remembered = follows && image->kept && image->key;
+        const bool is_history = follows && image->kept && image->key;
         image->kept = false;
-        if (!remembered) continue;
+        if (!is_history) continue;
         snprintf(name, sizeof name, HISTORY_PREFIX "%.64s", image->kept_as ? image->kept_as : image->image.name);
         pooled_rename(image, name);
     }
@@ -27,7 +27,7 @@ bool pool_has_history(const struct pool *pool) {
     return false;
 }
 
-bool pool_remembers(const struct pool *pool, const char *name, uint32_t lineage, const struct image_desc *desc) {
+bool pool_holds_history(const struct pool *pool, const char *name, uint32_t lineage, const struct image_desc *desc) {
     for (const struct pooled *image = pool->images; image; image = image->next)
         if (strcmp(image->image.name, name) == 0 && image->lineage == lineage)
             return image->key && image_desc_equal(&image->image.desc, desc);

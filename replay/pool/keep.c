@@ -1,5 +1,5 @@
-/* Images that stay on the device beside those of the run: an earlier pipeline's, which it finds again, and what it read
-   of the capture. A name may stand for several, with other contents each. */
+/* Images that stay on the device besides those of the current run, so that a pipeline finds its own images and those of the capture again.
+   There may be several images of one name with different contents. */
 #include "pool.h"
 
 #include <stdio.h>
@@ -11,13 +11,13 @@ bool pooled_is_history(const struct pooled *pooled) {
 }
 
 const struct glint_image *pooled_shown(const struct pooled *pooled, uint32_t i) {
-    if (pooled->as.row && i-- == 0) return &pooled->as;
+    if (pooled->alias.row && i-- == 0) return &pooled->alias;
     return pooled->listed && i < pooled->image.desc.levels ? &pooled->levels[i].info : NULL;
 }
 
 void pooled_hide(struct pooled *pooled) {
     pooled->listed = false;
-    pooled->as.row = NULL;
+    pooled->alias.row = NULL;
 }
 
 const struct glint_image *pool_shown(const struct pool *pool, size_t i) {
@@ -94,9 +94,9 @@ bool pool_stage(struct pool *pool, VkDeviceSize size, struct glint_error *err) {
     return host_buffer_init(&pool->staging, pool->gpu, HOST_BUFFER_UPLOAD, size, "staging", err);
 }
 
-/* What another lineage's next frame will remember is not for this run to take. */
-static bool fits(const struct pooled *image, const struct frame_plan *plan, const char *name,
-                 const struct image_desc *desc) {
+/* Whether the image can be used for `name`. History that another lineage needs for its next frame cannot. */
+static bool is_reusable(const struct pooled *image, const struct frame_plan *plan, const char *name,
+                        const struct image_desc *desc) {
     return !image->used && strcmp(image->image.name, name) == 0 && image_desc_equal(&image->image.desc, desc) &&
            !(image->kept && image->lineage != plan->options->lineage);
 }
@@ -111,7 +111,7 @@ struct pooled *pool_take(struct pool *pool, const struct frame_plan *plan, const
                          const struct image_desc *desc) {
     struct pooled *found = NULL;
     for (struct pooled *image = pool->images; image; image = image->next) {
-        if (!fits(image, plan, wanted->name, desc)) continue;
+        if (!is_reusable(image, plan, wanted->name, desc)) continue;
         if (wanted->history && image->lineage != plan->options->lineage) continue;
         if (!found || image->used_at > found->used_at) found = image;
     }
@@ -129,7 +129,7 @@ void pool_drop(struct pool *pool, bool all) {
     }
 }
 
-/* What was not used for longest, when those that nobody uses take more than may be kept; NULL otherwise. */
+/* The least recently used image, if unused images exceed the memory limit; otherwise NULL. */
 static struct pooled *find_oldest(struct pool *pool, uint64_t keep_bytes) {
     struct pooled *oldest = NULL;
     uint64_t bytes = 0;
@@ -156,19 +156,18 @@ void pool_adopt(struct pool *pool, const struct frame_plan *plan, size_t i, stru
     image->kept_as = wanted->kept_as;
     image->lineage = plan->options->lineage;
     image->listed = (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE ||
-                    (wanted->wanted && !wanted->instead) ||
-                    (wanted->source == SOURCE_CAPTURE && plan->options->captured);
+                    (wanted->wanted && !wanted->alias) || (wanted->source == SOURCE_CAPTURE && plan->options->captured);
     for (uint32_t l = 0; l < image->image.desc.levels; l++) {
         image->levels[l].info.row = wanted->row;
         image->levels[l].info.pass = wanted->pass;
     }
-    image->as = image->levels[0].info;
-    image->as.row = wanted->wanted ? wanted->instead : NULL;
-    image->as.pass = wanted->instead_of;
-    image->as.name = image->as.row ? image->as.row->name : NULL;
+    image->alias = image->levels[0].info;
+    image->alias.row = wanted->wanted ? wanted->alias : NULL;
+    image->alias.pass = wanted->alias_pass;
+    image->alias.name = image->alias.row ? image->alias.row->name : NULL;
 }
 
-/* Puts another image into the place of the plan's number i, which goes to the others. */
+/* Replaces image i of the plan by another image; the old one becomes unused. */
 static void replace_image(struct pool *pool, const struct frame_plan *plan, struct pooled **images, size_t i,
                           struct pooled *image) {
     struct pooled *old = images[i], **at = &pool->images;
@@ -188,7 +187,7 @@ void pool_recall(struct pool *pool, const struct frame_plan *plan, struct pooled
         const struct pooled *own = images[i];
         if (own->transient || own->key == keys[i]) continue;
         struct pooled *found = pool->images;
-        while (found && !(found->key == keys[i] && fits(found, plan, own->image.name, &own->image.desc)))
+        while (found && !(found->key == keys[i] && is_reusable(found, plan, own->image.name, &own->image.desc)))
             found = found->next;
         if (!found) continue;
         unlink_image(pool, found);
@@ -196,15 +195,15 @@ void pool_recall(struct pool *pool, const struct frame_plan *plan, struct pooled
     }
 }
 
-/* Another image like this one: an old one where too much would be kept, else a new one. *other stays NULL where this one is
-   all that may be kept. */
-static bool find_other(struct pool *pool, const struct frame_plan *plan, struct pooled *own, struct pooled **other,
-                       struct glint_error *err) {
+/* Finds an image with the same description as `own`, so that `own` can be kept: one that would be released for lack of memory, else a new
+   one. *other stays NULL if `own` itself would have to be released. */
+static bool find_replacement(struct pool *pool, const struct frame_plan *plan, struct pooled *own,
+                             struct pooled **other, struct glint_error *err) {
     struct pooled *oldest;
     own->used = false;
     while ((oldest = find_oldest(pool, plan->options->keep_bytes)) && oldest != own) {
         unlink_image(pool, oldest);
-        if (!*other && fits(oldest, plan, own->image.name, &own->image.desc)) *other = oldest;
+        if (!*other && is_reusable(oldest, plan, own->image.name, &own->image.desc)) *other = oldest;
         else pooled_destroy(&oldest, pool->gpu);
     }
     own->used = true;
@@ -222,7 +221,7 @@ bool pool_put_aside(struct pool *pool, const struct frame_plan *plan, struct poo
     for (size_t i = 0; i < plan->graph.image_count && plan->options->keep_bytes; i++) {
         struct pooled *own = images[i], *other = NULL;
         if (own->transient || !own->key || own->key == keys[i] || !written[i]) continue;
-        if (!find_other(pool, plan, own, &other, err)) return false;
+        if (!find_replacement(pool, plan, own, &other, err)) return false;
         if (other) other->key = 0, replace_image(pool, plan, images, i, other);
     }
     return true;

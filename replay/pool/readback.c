@@ -1,4 +1,4 @@
-/* Images back in host memory. */
+/* Reads images back to host memory. */
 #include "pool.h"
 
 #include <string.h>
@@ -8,12 +8,12 @@
 #include "shared/work_list.h"
 #include "timing.h"
 
-static VkDeviceSize aligned(VkDeviceSize size) {
+static VkDeviceSize align_offset(VkDeviceSize size) {
     return (size + 15) & ~(VkDeviceSize)15;
 }
 
-/* What lies behind a list's items means nothing, and shall be the same in every run. */
-static void blank_list(const struct pooled *image, uint32_t *words) {
+/* Overwrites the unused words of a list, whose contents are undefined, so that they are the same in every run. */
+static void clear_unused_words(const struct pooled *image, uint32_t *words) {
     const uint64_t end = (uint64_t)image->image.desc.width * image->image.desc.height;
     for (uint64_t i = (uint64_t)LIST_ITEMS + words[LIST_RANGES + 1] + words[LIST_RANGES + 3]; i < end; i++)
         words[i] = UINT32_MAX;
@@ -25,7 +25,7 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
     VkDeviceSize size = 0;
     for (size_t i = 0; i < count; i++) {
         offsets[i] = size;
-        size += aligned(image_bytes(&parts[i].image->image.desc, parts[i].info->level));
+        size += align_offset(image_bytes(&parts[i].image->image.desc, parts[i].info->level));
     }
     if (buffer->size < size) {
         host_buffer_finish(buffer, pool->gpu);
@@ -38,7 +38,7 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
     bool ok = device_submit(pool->gpu, "reading images back", err);
     for (size_t i = 0; ok && i < count; i++)
         if (parts[i].image->image.desc.buffer)
-            blank_list(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));
+            clear_unused_words(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));
     pool->source->seconds[PHASE_READBACK] += glint_now_seconds() - start;
     return ok;
 }
@@ -60,7 +60,7 @@ bool pool_read_image(struct pool *pool, const struct glint_image *info, enum gli
     struct pooled *image = pool->images;
     for (uint32_t i = 0; image && pooled_shown(image, i) != info;)
         if (!pooled_shown(image, i++)) image = image->next, i = 0;
-    if (!image) return glint_fail(err, GLINT_ERROR_USAGE, "the image is not one of the last run's");
+    if (!image) return glint_fail(err, GLINT_ERROR_USAGE, "the image does not belong to the last run");
     const size_t value_bytes = format_bytes(image->image.desc.format) / info->components;
     const bool uint = glint_format_is_uint(image->image.desc.format);
     const bool same =

@@ -1,4 +1,4 @@
-/* Values that no image should hold. */
+/* Lists images with invalid values. */
 #include "session.h"
 
 #include <math.h>
@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The capture's were counted when they were uploaded, whatever they are shown as. */
+/* An alias shows an image of the capture, whose invalid values were counted when it was uploaded. */
 static bool is_captured(const struct image_part *part) {
-    return part->info == &part->image->as;
+    return part->info == &part->image->alias;
 }
 
 void bad_values_of_texels(const struct image_part *part, const void *texels) {
@@ -40,10 +40,9 @@ static bool append_bad(struct glint_replay *replay, const struct image_part *par
                                       .value = bad->value,
                                       .not_finite = bad->not_finite,
                                       .clamped = bad->clamped};
-    size_t length;
-    const char *word = channel_word(info->row->channels ? info->row->channels : info->row->source,
-                                    bad->first % info->components, &length);
-    snprintf(list->channel, sizeof list->channel, "%.*s", (int)length, word);
+    struct channel_names names;
+    channel_names(&names, info->row->channels ? info->row->channels : info->row->source);
+    snprintf(list->channel, sizeof list->channel, "%.47s", names.list[bad->first % info->components]);
     return true;
 }
 
@@ -81,7 +80,7 @@ bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad
     return ok;
 }
 
-/* JSON has no number for NaN and infinity. */
+/* JSON has no numbers for NaN and infinity, which become strings. */
 static json_t *json_value(float value) {
     return isfinite(value) ? json_real((double)value) : json_string(isnan(value) ? "NaN" : value > 0 ? "inf" : "-inf");
 }

@@ -1,4 +1,4 @@
-/* What run.json says of a run, but for its files: made when the run ends, since pipeline and options are the caller's. */
+/* run.json without files. It is made when the run ends, since the caller owns the pipeline and the options. */
 #include "session.h"
 
 #include <string.h>
@@ -15,32 +15,29 @@ static json_t *work_record(const struct run *run, size_t p) {
                      (json_int_t)run->plan->whole[p].texels);
 }
 
+/* null also for a path that is not UTF-8. */
+static json_t *text_or_null(const char *text) {
+    json_t *string = text ? json_string(text) : NULL;
+    return string ? string : json_null();
+}
+
 static json_t *pass_record(const struct results *results, const struct run *run, size_t p) {
     const struct graph_pass *pass = &run->graph->passes[p];
     const struct glint_pass_result *result = &results->passes[p];
-    json_t *object = json_object(), *parameters = json_object();
+    json_t *parameters = json_object();
     for (size_t r = 0; r < pass->pass->row_count; r++)
         if (glint_row_is_parameter(&pass->pass->rows[r]))
             json_object_set_new(parameters, pass->pass->rows[r].name,
                                 parameter_record(&pass->pass->rows[r], pass->entry->values[r]));
-    json_object_set_new(object, "slot", json_string(pass->pass->slot));
-    json_object_set_new(object, "variant", json_string(pass->pass->variant));
-    json_object_set_new(object, "ran", json_boolean(pass->runs));
-    json_object_set_new(object, "reason", json_string(result->reason));
-    json_object_set_new(object, "cached", json_boolean(result->cached));
-    if (pass->cached_work) json_object_set_new(object, "cached_work", json_true());
-    if (!pass->pass->host) {
-        const uint64_t rays = pass_rays(run->graph, pass);
-        json_object_set_new(object, "dispatches", json_integer((json_int_t)(run->steps[p].dispatch_count * rays)));
-        json_object_set_new(object, "work", work_record(run, p));
-    }
-    if (pass->pass->host) json_object_set_new(object, "host", json_true());
+    const uint64_t rays = pass_rays(run->graph, pass);
     const char *shader = pass->entry->shader ? pass->entry->shader : run->steps[p].spirv.from;
-    if (shader) json_object_set_new(object, "shader", json_string(shader));
-    json_object_set_new(object, "parameters", parameters);
-    json_object_set_new(object, "images", json_array());
-    json_object_set_new(object, "time_ns", time_record(&result->time));
-    return object;
+    return json_pack("{ss ss sb so sb so* so* so* so* so* so s[] so}", "slot", pass->pass->slot, "variant",
+                     pass->pass->variant, "ran", pass->runs, "reason", text_or_null(result->reason), "cached",
+                     result->cached, "cached_work", pass->cached_work ? json_true() : NULL, "dispatches",
+                     pass->pass->host ? NULL : json_integer((json_int_t)(run->steps[p].dispatch_count * rays)), "work",
+                     pass->pass->host ? NULL : work_record(run, p), "host", pass->pass->host ? json_true() : NULL,
+                     "shader", shader ? json_string(shader) : NULL, "parameters", parameters, "images", "time_ns",
+                     time_record(&result->time));
 }
 
 static json_t *device_record(const struct glint_device_info *info) {
@@ -48,7 +45,7 @@ static json_t *device_record(const struct glint_device_info *info) {
                      info->driver_version, "times_are", info->is_cpu ? "CPU times of a software device" : "GPU times");
 }
 
-/* Whether the images that were read instead of computed come from this capture. */
+/* Whether the run folder of the inputs is a run of this capture. */
 static bool inputs_match(const struct run *run) {
     char hash[33];
     json_t *inputs = json_loads(glint_run_json(run->plan->inputs), 0, NULL);
@@ -65,7 +62,7 @@ static json_int_t history_number(const struct glint_run *history) {
     return number;
 }
 
-static bool diagnoses(const struct run *run) {
+static bool makes_diagnostics(const struct run *run) {
     for (size_t i = 0; i < run->graph->image_count; i++)
         if (run->graph->images[i].row->kind == GLINT_ROW_DIAGNOSTIC && run->graph->images[i].source == SOURCE_MADE)
             return true;
@@ -76,12 +73,12 @@ static json_t *warnings_record(const struct run *run) {
     json_t *list = json_array();
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
-        if (image->source == SOURCE_NOTHING && image->row->kind == GLINT_ROW_CAPTURE)
-            json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its value for nothing, %g",
-                                                     image->row->role, image->name, image->row->nothing));
+        if (image->source == SOURCE_FALLBACK && image->row->kind == GLINT_ROW_CAPTURE)
+            json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g",
+                                                     image->row->role, image->name, image->row->fallback));
     }
-    if (run->options->diagnostics && !diagnoses(run))
-        json_array_append_new(list, json_string("no pass that runs has the diagnostics that were asked for"));
+    if (run->options->diagnostics && !makes_diagnostics(run))
+        json_array_append_new(list, json_string("diagnostics were asked for, but no pass that runs makes any"));
     if (run->plan->inputs && !inputs_match(run))
         json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
@@ -89,7 +86,8 @@ static json_t *warnings_record(const struct run *run) {
         json_array_append_new(list, json_sprintf("%s holds frame %lld, but this is frame %u", run->options->history,
                                                  (long long)history_number(run->plan->history), frame->number));
     if (run->sizes->history && !frame->has_previous)
-        json_array_append_new(list, json_string("the capture has no camera of the frame before: it counts as still"));
+        json_array_append_new(
+            list, json_string("the capture has no camera of the previous frame: the camera counts as still"));
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
         json_array_append_new(list, json_string(notes[i]));
@@ -107,30 +105,19 @@ static json_t *faces_record(const struct glint_cube_faces *faces) {
 json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     const struct glint_replay_options *options = run->options;
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
-    json_t *root = json_object(), *passes = json_array();
-    json_object_set_new(root, "format", json_integer(1));
-    json_object_set_new(root, "tool", json_pack("{ssss}", "name", "glint", "version", GLINT_VERSION));
-    json_object_set_new(root, "device", device_record(&run->gpu->info));
-    json_object_set_new(root, "frame", json_integer((json_int_t)frame->number));
-    json_object_set_new(root, "rays", json_integer((json_int_t)glint_pipeline_rays(run->plan->pipeline)));
-    json_object_set_new(root, "first_ray", json_integer((json_int_t)run->plan->pipeline->first_ray));
-    json_object_set_new(root, "preset", json_string(run->plan->pipeline->name));
-    json_object_set_new(root, "resolution",
-                        json_pack("{s[ii]s[ii]}", "full", (int)run->sizes->full[0], (int)run->sizes->full[1], "half",
-                                  (int)run->sizes->half[0], (int)run->sizes->half[1]));
-    json_object_set_new(root, "precision", json_string(options->float_precision ? "float" : "half"));
-    json_object_set_new(root, "diagnostics", json_boolean(options->diagnostics));
-    json_object_set_new(root, "inputs", options->inputs ? json_string(options->inputs) : json_null());
-    json_object_set_new(root, "history", options->history ? json_string(options->history) : json_null());
-    json_object_set_new(root, "active_cubemaps", json_integer((json_int_t)run->sizes->active));
-    json_object_set_new(root, "cube_faces", faces_record(&run->plan->faces));
-    json_object_set_new(root, "all", json_boolean(options->all));
-    json_object_set_new(root, "survey",
-                        replay->planner.survey.done && !options->all ? survey_record(&replay->planner.survey, frame)
-                                                                     : json_null());
+    const uint32_t *full = run->sizes->full, *half = run->sizes->half;
+    const bool surveyed = replay->planner.survey.done && !options->all;
+    json_t *passes = json_array();
     for (size_t p = 0; p < run->graph->pass_count; p++)
         json_array_append_new(passes, pass_record(&replay->results, run, p));
-    json_object_set_new(root, "passes", passes);
-    json_object_set_new(root, "warnings", warnings_record(run));
-    return root;
+    return json_pack(
+        "{si s{ssss} so sI sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so}", "format", 1, "tool", "name", "glint",
+        "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame", (json_int_t)frame->number, "rays",
+        (json_int_t)glint_pipeline_rays(run->plan->pipeline), "first_ray", (json_int_t)run->plan->pipeline->first_ray,
+        "preset", text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
+        (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half", "diagnostics",
+        options->diagnostics, "inputs", text_or_null(options->inputs), "history", text_or_null(options->history),
+        "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces", faces_record(&run->plan->faces), "all",
+        options->all, "survey", surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes",
+        passes, "warnings", warnings_record(run));
 }

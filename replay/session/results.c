@@ -1,4 +1,4 @@
-/* What a run leaves for callers. */
+/* Stores the results of a run for callers. */
 #include "session.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     struct glint_pass_result *result = &results->passes[p];
     *result = (struct glint_pass_result){.pass = pass->pass,
                                          .ran = pass->runs,
-                                         .shown = pass->runs || pass->instead,
+                                         .shown = pass->runs || pass->alias,
                                          .cached_work = pass->cached_work,
                                          .texels = run->plan->whole[p].texels};
     memcpy(result->reason, pass->reason, sizeof result->reason);
@@ -33,7 +33,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     }
     result->cached = !step->execute;
     result->key = step->key;
-    if (!run->options->outputs) /* a file of all its images */
+    if (!run->options->outputs) /* only a file with all images of the pass is cached */
         memcpy(results->cache_keys[p], step->cache_key, CACHE_KEY_SIZE);
     result->time = glint_time_statistics(step->ns, step->timed);
 }

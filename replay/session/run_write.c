@@ -1,4 +1,4 @@
-/* Run folders: one EXR a pass and run.json, which comes last and so says that the run is complete. */
+/* Writes run folders: an EXR file for each pass, and run.json last, which marks the folder as complete. */
 #include "session.h"
 
 #include <errno.h>
@@ -14,7 +14,7 @@
 
 enum { PATH_SIZE = 4096, CHANNELS = 4 };
 
-/* One EXR file, written by a worker while the next pass is read back. */
+/* An EXR file, written by a worker thread while the next pass is read back. */
 struct job {
     const struct glint_pass *pass;
     struct host_buffer buffer;
@@ -28,7 +28,7 @@ struct job {
     double seconds;
 };
 
-/* What one part needs while the file is written. */
+/* Memory that a part needs until the file is written. */
 struct part_memory {
     struct glint_exr_channel channels[CHANNELS];
     struct glint_exr_attribute attributes[8];
@@ -45,7 +45,7 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
     const size_t bytes = format_bytes(image->format) / components;
     const char *data = (const char *)job->buffer.map + job->offsets[i];
     channel_names(&memory->names, row->channels);
-    if (bytes == 1) { /* EXR has no smaller integer than 32 bits */
+    if (bytes == 1) { /* EXR has no integers below 32 bits */
         const size_t texels = (size_t)image->width * image->height * components;
         if (!(memory->widened = malloc(texels * sizeof(uint32_t))))
             return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
@@ -128,7 +128,7 @@ static json_t *image_record(const struct image_part *part, const char *file) {
     return record;
 }
 
-/* Replacing the run that this one was made from would lose what this one left out. */
+/* Overwriting the run that this run's inputs came from would lose images that this run did not make. */
 static bool check_not_inputs(const struct glint_replay *replay, const char *folder, struct glint_error *err) {
     static const char *const keys[] = {"inputs", "history"};
     struct stat from, to;
@@ -138,8 +138,8 @@ static bool check_not_inputs(const struct glint_replay *replay, const char *fold
         same |= inputs && stat(inputs, &from) == 0 && stat(folder, &to) == 0 && from.st_dev == to.st_dev &&
                 from.st_ino == to.st_ino;
     }
-    return !same ||
-           glint_fail(err, GLINT_ERROR_USAGE, "%s: the inputs of this run lie here; expected another folder", folder);
+    return !same || glint_fail(err, GLINT_ERROR_USAGE,
+                               "%s: this folder holds the inputs of the run; expected another folder", folder);
 }
 
 bool run_finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err) {
@@ -161,8 +161,8 @@ static bool file_of_pass(const struct glint_replay *replay, size_t p, const char
            PATH_SIZE;
 }
 
-/* One pass: read back while the pass before it is still being written, then handed to the worker. What lies in the cache
-   folder is copied from there. */
+/* Reads a pass back while the file of the pass before is still being written, and starts the worker. A file in the cache folder is copied
+   instead. */
 static bool write_pass(struct glint_replay *replay, size_t p, const char *folder, struct job *job, struct job *before,
                        json_t *root, struct glint_error *err) {
     const struct glint_pass_result *result = &replay->results.passes[p];
@@ -174,7 +174,7 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
     for (size_t i = 0; i < job->count; i++)
         json_array_append_new(images, image_record(&job->parts[i], job->path + strlen(folder) + 1));
     if (result->cached && replay->results.cache_keys[p][0] &&
-        cache_give(replay->results.cache, replay->results.cache_keys[p], job->path))
+        cache_copy(replay->results.cache, replay->results.cache_keys[p], job->path))
         return true;
     bool read = pool_readback(&replay->pool, job->parts, job->count, &job->buffer, job->offsets, err);
     if (!job_finish(before, replay, read ? err : NULL) || !read) return false;
@@ -182,8 +182,8 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
     return true;
 }
 
-/* For other processes. A folder that cannot be written keeps nothing. */
-static void keep_pass(const struct glint_replay *replay, size_t p, const char *folder) {
+/* Stores the file of a pass in the cache folder, if that can be written. */
+static void cache_pass(const struct glint_replay *replay, size_t p, const char *folder) {
     char path[PATH_SIZE];
     if (replay->results.passes[p].cached || !replay->results.cache_keys[p][0]) return;
     if (file_of_pass(replay, p, folder, path))
@@ -200,7 +200,7 @@ static bool record_bad_values(struct glint_replay *replay, json_t *root, struct 
 
 char *glint_replay_json(struct glint_replay *replay, struct glint_error *err) {
     if (!replay->results.record) {
-        glint_fail(err, GLINT_ERROR_USAGE, "there is no run to tell of");
+        glint_fail(err, GLINT_ERROR_USAGE, "there is no run yet");
         return NULL;
     }
     json_t *root = json_deep_copy(replay->results.record);
@@ -234,7 +234,7 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
         ok = job_finish(&jobs[j], replay, ok ? err : NULL) && ok;
         host_buffer_finish(&jobs[j].buffer, replay->pool.gpu);
     }
-    for (size_t p = 0; ok && p < replay->results.count; p++) keep_pass(replay, p, folder);
+    for (size_t p = 0; ok && p < replay->results.count; p++) cache_pass(replay, p, folder);
     ok = ok && record_bad_values(replay, root, err) && replay_count_work(replay, root, err) &&
          run_finish_record(replay, root, err) && run_write_json(folder, root, err);
     free(jobs);

@@ -1,4 +1,4 @@
-/* Replays: load, survey, plan, run, and access to results. */
+/* The public functions of a replay: load, survey, plan, run, and access to results. */
 #include "session.h"
 
 #include <stdlib.h>
@@ -71,8 +71,8 @@ char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *
 struct glint_survey_times glint_replay_survey_times(const struct glint_replay *replay) {
     const struct survey_state *survey = &replay->planner.survey;
     return (struct glint_survey_times){survey->time.median_ns +
-                                           (survey->figures.followed ? survey->followed_time.median_ns : 0),
-                                       survey->figures.looked_at ? survey->cubes.time.median_ns : 0};
+                                           (survey->figures.active_traced ? survey->trace_time.median_ns : 0),
+                                       survey->figures.active_surveyed ? survey->cubes.time.median_ns : 0};
 }
 
 bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline *pipeline,
@@ -149,9 +149,9 @@ bool glint_replay_read_image(struct glint_replay *replay, const struct glint_ima
     return pool_read_image(&replay->pool, image, type, out, err);
 }
 
-bool glint_replay_probe(const struct glint_replay *replay, size_t i, struct glint_probe_story *story,
+bool glint_replay_probe(const struct glint_replay *replay, size_t i, struct glint_probe_trace *trace,
                         struct glint_error *err) {
-    return engine_probe(&replay->engine, replay->results.passes, replay->results.count, i, story, err);
+    return engine_probe(&replay->engine, replay->results.passes, replay->results.count, i, trace, err);
 }
 
 bool glint_replay_shader_hash(struct glint_replay *replay, const struct glint_pipeline *pipeline,

@@ -1,4 +1,4 @@
-/* What passes did in the last run that images alone tell: rays by their end reasons. */
+/* Counts work that only images show: rays by their end reasons. */
 #include "session.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@ static const char *end_reasons_of(const struct glint_pass *pass) {
     return NULL;
 }
 
-/* Rays whose end an image of the last run names; it may not be there any more. */
+/* Adds the number of rays in an image of end reasons of the last run to `work`, unless the image is no longer available. */
 static bool count_rays(struct glint_replay *replay, const char *name, json_t *work, struct glint_error *err) {
     struct host_buffer buffer = {0};
     VkDeviceSize offset;

@@ -1,10 +1,10 @@
-/* Devices: Vulkan's, with shaders and programs. */
+/* Devices with their shaders and programs. */
 #include "device.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What passes want to know of a device. */
+/* Properties of the device that passes depend on. */
 static void describe_for_passes(struct glint_device_info *info) {
     info->filters_together = info->is_cpu;
 }

@@ -1,4 +1,4 @@
-/* A device as callers have it: Vulkan's, what was compiled for it, and the programs that all of its replays share. */
+/* A device as callers see it: the Vulkan device, compiled shaders and the programs that all of its replays share. */
 #ifndef GLINT_REPLAY_DEVICE_H
 #define GLINT_REPLAY_DEVICE_H
 

@@ -1,9 +1,8 @@
-/* Puts includes in place, since glslang's C interface has no callback for them. #line directives keep what the author
-   sees: a message names their file and line, and a declaration row's __LINE__ stays its binding. */
+/* Inlines includes, since the C interface of glslang 12 takes no include callback. #line directives preserve files and
+   line numbers, so that messages are correct and __LINE__ of a declaration row remains its binding. */
 #include "shader.h"
 #include "text_file.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,27 +11,18 @@
 enum { DEPTH_MAX = 16, TEXT_MAX = 1 << 22, PATH_SIZE = 1024 };
 
 struct flatten {
+    FILE *stream;
     char *text;
-    size_t size, capacity;
-    const char *pass_folder; /* the pass's own under passes/, "reflection/blur" */
-    const char *folder;
-    bool versioned; /* #version, which must come first, has been seen */
-    bool foreign;   /* something came from the folder */
+    size_t size, stream_size;
+    const char *pass_folder; /* folder of the pass under passes/: "reflection/blur" */
+    const char *folder;      /* the user's copy of passes/, or NULL */
+    bool versioned;          /* #version, which must come first, has been seen */
+    bool foreign;            /* a file came from `folder` */
 };
 
 static bool append_text(struct flatten *out, const char *text, size_t length, struct glint_error *err) {
-    if (out->size + length + 1 > out->capacity) {
-        size_t capacity = (out->size + length + 1) * 2;
-        char *larger = capacity <= TEXT_MAX ? realloc(out->text, capacity) : NULL;
-        if (!larger)
-            return glint_fail(err, GLINT_ERROR_LIMIT, "shader: more than %d bytes with its includes", TEXT_MAX / 2);
-        out->text = larger;
-        out->capacity = capacity;
-    }
-    memcpy(out->text + out->size, text, length);
-    out->size += length;
-    out->text[out->size] = 0;
-    return true;
+    return ((out->size += length) <= TEXT_MAX && fwrite(text, 1, length, out->stream) == length) ||
+           glint_fail(err, GLINT_ERROR_LIMIT, "shader: more than %d bytes with its includes", TEXT_MAX);
 }
 
 static bool append_line_directive(struct flatten *out, size_t line, const char *file, struct glint_error *err) {
@@ -43,41 +33,28 @@ static bool append_line_directive(struct flatten *out, size_t line, const char *
     return append_text(out, directive, (size_t)length, err);
 }
 
-/* The file name of an #include line, or an empty string. */
-static void parse_include(const char *line, size_t length, char *name) {
-    size_t i = 0, n = 0;
-    name[0] = 0;
-    while (i < length && (line[i] == ' ' || line[i] == '\t')) i++;
-    if (i >= length || line[i++] != '#') return;
-    while (i < length && (line[i] == ' ' || line[i] == '\t')) i++;
-    if (length - i < 7 || strncmp(line + i, "include", 7) != 0) return;
-    for (i += 7; i < length && (line[i] == ' ' || line[i] == '\t');) i++;
-    if (i >= length || (line[i] != '"' && line[i] != '<')) return;
-    const char close = line[i++] == '"' ? '"' : '>';
-    while (i < length && line[i] != close && n + 1 < PATH_SIZE / 2) name[n++] = line[i++];
-    name[i < length && line[i] == close ? n : 0] = 0;
+/* A line of the source. */
+struct directive {
+    char include[PATH_SIZE / 2]; /* the name of an #include, or "" */
+    int renumber;                /* N of `#line N`, else 0 */
+    bool version;
+};
+static struct directive parse_line(const char *text, size_t length) {
+    struct directive d = {0};
+    char line[PATH_SIZE], close = 0;
+    int version = 0;
+    snprintf(line, sizeof line, "%.*s", (int)(length < PATH_SIZE ? length : PATH_SIZE - 1), text);
+    if ((sscanf(line, " # include \"%511[^\"]%c", d.include, &close) != 2 || close != '"') &&
+        (sscanf(line, " # include <%511[^>]%c", d.include, &close) != 2 || close != '>'))
+        d.include[0] = 0;
+    sscanf(line, " #line %d", &d.renumber);
+    sscanf(line, " # version%n", &version);
+    d.version = version > 0;
+    return d;
 }
 
-/* What `#line N` calls the next line; 0 when the line is none. */
-static size_t renumbered(const char *line, size_t length) {
-    size_t i = 0, number = 0;
-    while (i < length && isspace((unsigned char)line[i])) i++;
-    if (length - i < 6 || strncmp(line + i, "#line ", 6) != 0) return 0;
-    for (i += 6; i < length && isdigit((unsigned char)line[i]) && number < TEXT_MAX; i++)
-        number = 10 * number + (size_t)(line[i] - '0');
-    return number;
-}
-
-static bool is_version(const char *line, size_t length) {
-    size_t i = 0;
-    while (i < length && isspace((unsigned char)line[i])) i++;
-    if (i >= length || line[i++] != '#') return false;
-    while (i < length && isspace((unsigned char)line[i])) i++;
-    return length - i >= 7 && strncmp(line + i, "version", 7) == 0;
-}
-
-/* A path beside another: its folder, then the name, with "x/../" taken out. */
-static bool beside(char *path, const char *file, const char *name) {
+/* The path of a file relative to the folder of another file, with "x/../" resolved. */
+static bool join_sibling(char *path, const char *file, const char *name) {
     const char *slash = strrchr(file, '/');
     int folder = slash ? (int)(slash - file + 1) : 0;
     if (snprintf(path, PATH_SIZE, "%.*s%s", folder, file, name) >= PATH_SIZE) return false;
@@ -99,7 +76,7 @@ static bool flatten_disk(struct flatten *out, const char *path, int depth, struc
     return ok;
 }
 
-/* A file of passes/: the folder's, else the one that is built in. */
+/* Whether the path is a file of passes/, in `folder` or built in. */
 static bool is_pass_file(const struct flatten *out, const char *path) {
     char own[PATH_SIZE];
     return glint_pass_text(path) ||
@@ -122,13 +99,14 @@ static bool flatten_include(struct flatten *out, const char *file, size_t line, 
     char path[PATH_SIZE], in_slot[PATH_SIZE];
     if (depth >= DEPTH_MAX)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s:%zu: includes nest deeper than %d", file, line, DEPTH_MAX);
-    if (on_disk && (name[0] == '/' ? snprintf(path, sizeof path, "%s", name) < PATH_SIZE : beside(path, file, name)) &&
+    if (on_disk &&
+        (name[0] == '/' ? snprintf(path, sizeof path, "%s", name) < PATH_SIZE : join_sibling(path, file, name)) &&
         access(path, R_OK) == 0)
         return flatten_disk(out, path, depth + 1, err);
-    if (!on_disk && beside(path, file, name) && is_pass_file(out, path))
+    if (!on_disk && join_sibling(path, file, name) && is_pass_file(out, path))
         return flatten_pass_file(out, path, depth + 1, err);
     if (on_disk && snprintf(in_slot, sizeof in_slot, "%s/", out->pass_folder) < PATH_SIZE &&
-        beside(path, in_slot, name) && is_pass_file(out, path))
+        join_sibling(path, in_slot, name) && is_pass_file(out, path))
         return flatten_pass_file(out, path, depth + 1, err);
     if (is_pass_file(out, name)) return flatten_pass_file(out, name, depth + 1, err);
     return glint_fail(err, GLINT_ERROR_USAGE, "%s:%zu: include \"%s\" not found beside the file nor among the passes",
@@ -142,36 +120,43 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
     for (size_t line = 1; *text; line++) {
         const char *end = strchr(text, '\n');
         size_t length = end ? (size_t)(end - text) : strlen(text);
-        char name[PATH_SIZE / 2];
-        parse_include(text, length, name);
-        if (name[0]) {
-            if (!flatten_include(out, file, line, name, on_disk, depth, err) ||
+        const struct directive directive = parse_line(text, length);
+        if (directive.include[0]) {
+            if (!flatten_include(out, file, line, directive.include, on_disk, depth, err) ||
                 !append_line_directive(out, line + 1, file, err))
                 return false;
         } else if (!append_text(out, text, length, err) || !append_text(out, "\n", 1, err)) return false;
-        if (!out->versioned && is_version(text, length)) {
+        if (!out->versioned && directive.version) {
             out->versioned = true;
             if (!append_text(out, names_in_lines, sizeof names_in_lines - 1, err) ||
                 !append_line_directive(out, line + 1, file, err))
                 return false;
         }
-        const size_t next = renumbered(text, length);
-        if (next) line = next - 1;
+        if (directive.renumber > 0) line = (size_t)directive.renumber - 1;
         text += length + (end != NULL);
     }
     return true;
 }
 
-static char *finished(struct flatten *out, bool ok, const char *path, struct glint_error *err) {
-    if (ok && out->text && out->versioned) return out->text;
-    if (ok) glint_fail(err, GLINT_ERROR_FORMAT, out->text ? "%s:1: expected #version 460 first" : "%s: empty", path);
+/* Flattens a user's file, or a pass's shader. */
+static char *flatten_file(struct flatten *out, const char *path, bool on_disk, struct glint_error *err) {
+    if (!(out->stream = open_memstream(&out->text, &out->stream_size))) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+        return NULL;
+    }
+    bool ok = on_disk ? flatten_disk(out, path, 0, err) : flatten_pass_file(out, path, 0, err);
+    ok = fclose(out->stream) == 0 && ok;
+    if (ok && !on_disk && !out->foreign) ok = false;
+    else if (ok && !out->versioned)
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, out->size ? "%s:1: expected #version 460 first" : "%s: empty", path);
+    if (ok) return out->text;
     free(out->text);
     return NULL;
 }
 
 char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err) {
     struct flatten out = {.pass_folder = pass->folder ? pass->folder : "", .folder = folder};
-    return finished(&out, flatten_disk(&out, path, 0, err), path, err);
+    return flatten_file(&out, path, true, err);
 }
 
 char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, struct glint_error *err) {
@@ -179,9 +164,5 @@ char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, str
     char path[PATH_SIZE];
     if (!folder || !pass->folder) return NULL;
     snprintf(path, sizeof path, "%s/%s.comp", pass->folder, pass->variant);
-    if (!is_pass_file(&out, path)) return NULL;
-    const bool ok = flatten_pass_file(&out, path, 0, err);
-    if (!ok || out.foreign) return finished(&out, ok, path, err);
-    free(out.text);
-    return NULL;
+    return is_pass_file(&out, path) ? flatten_file(&out, path, false, err) : NULL;
 }

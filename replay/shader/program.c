@@ -1,4 +1,4 @@
-/* Compute programs, made from a pass's rows: a row's line number is its binding or constant id. */
+/* Compute programs, created from a pass's rows. The line number of a row is its binding or specialization constant id. */
 #include "program.h"
 
 #include <stdio.h>
@@ -53,11 +53,11 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
         if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
             fits = add_constant(constants, pass->rows[i].id, bits);
         else if (pass->rows[i].kind == GLINT_ROW_FACT)
-            fits = add_constant(constants, pass->rows[i].id, !(graph_pass->lacks >> facts++ & 1));
+            fits = add_constant(constants, pass->rows[i].id, !(graph_pass->false_facts >> facts++ & 1));
         else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
         else if (pass->rows[i].optional) /* has_NAME */
             fits = add_constant(constants, 1000 + pass->rows[i].id,
-                                graph_bound(graph, &pass->rows[i])->source != SOURCE_NOTHING);
+                                graph_bound(graph, &pass->rows[i])->source != SOURCE_FALLBACK);
         else if (pass->rows[i].kind == GLINT_ROW_PUSH && (fits = constants->push_count < PUSH_BYTES_MAX / 4))
             constants->push[constants->push_count++] = bits;
     }
@@ -65,7 +65,8 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
                               pass->slot, pass->variant, CONSTANTS_MAX - 9, PUSH_BYTES_MAX);
 }
 
-static VkResult create_sampler(struct gpu *gpu, VkFilter filter, const char *name, VkSampler *sampler) {
+static bool create_sampler(struct gpu *gpu, VkFilter filter, const char *name, VkSampler *sampler,
+                           struct glint_error *err) {
     const VkSamplerCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                       .magFilter = filter,
                                       .minFilter = filter,
@@ -75,9 +76,9 @@ static VkResult create_sampler(struct gpu *gpu, VkFilter filter, const char *nam
                                       .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                       .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                       .maxLod = VK_LOD_CLAMP_NONE};
-    VkResult result = vkCreateSampler(gpu->device, &info, NULL, sampler);
-    if (result == VK_SUCCESS) device_set_name(gpu, VK_OBJECT_TYPE_SAMPLER, (uint64_t)(uintptr_t)*sampler, name);
-    return result;
+    if (!vk_ok(vkCreateSampler(gpu->device, &info, NULL, sampler), "creating a sampler", err)) return false;
+    device_set_name(gpu, VK_OBJECT_TYPE_SAMPLER, (uint64_t)(uintptr_t)*sampler, name);
+    return true;
 }
 
 static void program_destroy(struct program *program, struct gpu *gpu) {
@@ -101,8 +102,9 @@ void programs_finish(struct programs *programs, struct gpu *gpu) {
 }
 
 bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_error *err) {
-    VkResult result = create_sampler(gpu, VK_FILTER_LINEAR, "linear_clamp", &programs->linear);
-    if (result == VK_SUCCESS) result = create_sampler(gpu, VK_FILTER_NEAREST, "nearest_clamp", &programs->nearest);
+    if (!create_sampler(gpu, VK_FILTER_LINEAR, "linear_clamp", &programs->linear, err) ||
+        !create_sampler(gpu, VK_FILTER_NEAREST, "nearest_clamp", &programs->nearest, err))
+        return false;
     const VkDescriptorSetLayoutBinding bindings[] = {
         {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
         {1, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->linear},
@@ -111,10 +113,9 @@ bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_erro
     };
     const VkDescriptorSetLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
-    if (result == VK_SUCCESS)
-        if (!vk_ok(vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame), "creating the samplers",
-                   err))
-            return false;
+    if (!vk_ok(vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame),
+               "creating the layout of the frame", err))
+        return false;
     device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
     return true;
 }
@@ -125,8 +126,9 @@ VkDescriptorType row_descriptor(const struct glint_row *row) {
     return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }
 
-static VkResult create_layouts(struct program *program, struct gpu *gpu, VkDescriptorSetLayout frame,
-                               const struct glint_pass *pass, const struct constants *constants, const char *name) {
+static bool create_layouts(struct program *program, struct gpu *gpu, VkDescriptorSetLayout frame,
+                           const struct glint_pass *pass, const struct constants *constants, const char *name,
+                           struct glint_error *err) {
     VkDescriptorSetLayoutBinding bindings[PASS_IMAGES_MAX];
     uint32_t count = 0;
     for (size_t i = 0; i < pass->row_count && count < PASS_IMAGES_MAX; i++) {
@@ -137,8 +139,7 @@ static VkResult create_layouts(struct program *program, struct gpu *gpu, VkDescr
     }
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
-    VkResult result = vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &program->images);
-    if (result != VK_SUCCESS) return result;
+    if (!vk_ok(vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &program->images), name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)program->images, name);
     const VkDescriptorSetLayout sets[] = {program->images, frame};
     const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, constants->push_count * 4};
@@ -147,19 +148,18 @@ static VkResult create_layouts(struct program *program, struct gpu *gpu, VkDescr
                                                .pSetLayouts = sets,
                                                .pushConstantRangeCount = 1,
                                                .pPushConstantRanges = &push};
-    result = vkCreatePipelineLayout(gpu->device, &layout, NULL, &program->layout);
-    if (result != VK_SUCCESS) return result;
+    if (!vk_ok(vkCreatePipelineLayout(gpu->device, &layout, NULL, &program->layout), name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE_LAYOUT, (uint64_t)(uintptr_t)program->layout, name);
-    return VK_SUCCESS;
+    return true;
 }
 
-static VkResult create_pipeline(struct program *program, struct gpu *gpu, const struct spirv *spirv,
-                                const struct constants *constants, bool some_layers, const char *name) {
+static bool create_pipeline(struct program *program, struct gpu *gpu, const struct spirv *spirv,
+                            const struct constants *constants, bool some_layers, const char *name,
+                            struct glint_error *err) {
     const VkShaderModuleCreateInfo module_info = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv->bytes, .pCode = spirv->words};
     VkShaderModule module;
-    VkResult result = vkCreateShaderModule(gpu->device, &module_info, NULL, &module);
-    if (result != VK_SUCCESS) return result;
+    if (!vk_ok(vkCreateShaderModule(gpu->device, &module_info, NULL, &module), name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)(uintptr_t)module, name);
     const VkSpecializationInfo values = {constants->count, constants->entries, constants->count * sizeof(uint32_t),
                                          constants->data};
@@ -171,11 +171,11 @@ static VkResult create_pipeline(struct program *program, struct gpu *gpu, const 
                                                         .pName = "main",
                                                         .pSpecializationInfo = &values},
                                               .layout = program->layout};
-    result = vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline);
+    const bool ok =
+        vk_ok(vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline), name, err);
     vkDestroyShaderModule(gpu->device, module, NULL);
-    if (result == VK_SUCCESS)
-        device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)program->pipeline, name);
-    return result;
+    if (ok) device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)program->pipeline, name);
+    return ok;
 }
 
 struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,
@@ -188,7 +188,7 @@ struct program *programs_get(struct programs *programs, struct gpu *gpu, const s
     size_t count = 0;
     for (struct program **at = &programs->first; *at; at = &(*at)->next, count++) {
         struct program *found = *at;
-        if (found->key == key) { /* to the front, so that the end is what was not used for longest */
+        if (found->key == key) { /* moved to the front, so that the list is in order of last use */
             *at = found->next;
             found->next = programs->first;
             return programs->first = found;
@@ -207,12 +207,8 @@ struct program *programs_get(struct programs *programs, struct gpu *gpu, const s
         return NULL;
     }
     program->key = key;
-    VkResult result = create_layouts(program, gpu, programs->frame, pass, constants, name);
-    if (result == VK_SUCCESS)
-        result =
-            create_pipeline(program, gpu, spirv, constants, glint_pass_row(pass, GLINT_ROW_RAY_MARGIN, NULL), name);
-    if (result != VK_SUCCESS) {
-        vk_fail(err, name, result);
+    if (!create_layouts(program, gpu, programs->frame, pass, constants, name, err) ||
+        !create_pipeline(program, gpu, spirv, constants, glint_pass_row(pass, GLINT_ROW_RAY_MARGIN, NULL), name, err)) {
         program_destroy(program, gpu);
         return NULL;
     }

@@ -1,4 +1,4 @@
-/* What a SPIR-V module says of itself: its bindings, which words of the frame's block it reads, whether it tells of probes. */
+/* Reflects SPIR-V: the bindings of a module, which words of the uniform block it reads, whether it records probes. */
 #include "shader.h"
 
 #include <stdlib.h>
@@ -28,16 +28,16 @@ static uint32_t opcode(const uint32_t *op) {
 static uint32_t op_words(const uint32_t *op) {
     return op[0] >> 16;
 }
-/* The instruction at `op` when it lies in the module as a whole, otherwise NULL. */
-static const uint32_t *whole_op(const struct spirv *spirv, const uint32_t *op) {
+/* `op` if that instruction lies entirely in the module, otherwise NULL. */
+static const uint32_t *checked_op(const struct spirv *spirv, const uint32_t *op) {
     const size_t left = spirv->bytes / sizeof *op - (size_t)(op - spirv->words);
     return left > 0 && op_words(op) > 0 && op_words(op) <= left ? op : NULL;
 }
 static const uint32_t *first_op(const struct spirv *spirv) {
-    return spirv->bytes > HEADER * sizeof(uint32_t) ? whole_op(spirv, spirv->words + HEADER) : NULL;
+    return spirv->bytes > HEADER * sizeof(uint32_t) ? checked_op(spirv, spirv->words + HEADER) : NULL;
 }
 static const uint32_t *next_op(const struct spirv *spirv, const uint32_t *op) {
-    return whole_op(spirv, op + op_words(op));
+    return checked_op(spirv, op + op_words(op));
 }
 
 static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
@@ -47,25 +47,25 @@ static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t bi
     return false;
 }
 
-/* A user's shader may declare bindings by hand; what no row declares has no image behind it. */
+/* A user's shader may declare bindings by hand. A binding without a row would have no image. */
 bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
                           struct glint_error *err) {
     const uint32_t bound = spirv->words[3]; /* ids are below it */
     uint32_t *sets = calloc(bound, sizeof *sets);
     bool ok = sets || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    for (int round = 0; ok && round < 2; round++) /* the set may follow the binding */
+    for (int round = 0; ok && round < 2; round++) /* twice, since the set may be decorated after the binding */
         for (const uint32_t *op = first_op(spirv); ok && op; op = next_op(spirv, op)) {
             if (opcode(op) != OP_DECORATE || op_words(op) != 4 || op[1] >= bound) continue;
             if (round == 0 && op[2] == DESCRIPTOR_SET) sets[op[1]] = op[3];
             if (round == 1 && op[2] == BINDING && !is_declared(pass, sets[op[1]], op[3]))
-                ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: binding %u of set %u is no image that %s/%s declares",
+                ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: binding %u of set %u is not an image that %s/%s declares",
                                 path, op[3], sets[op[1]], pass->slot, pass->variant);
         }
     free(sets);
     return ok;
 }
 
-/* The variable of set 1 with this binding (passes/shared/interface.glsl); 0: none. */
+/* The variable of set 1 with this binding (passes/shared/interface.glsl), or 0. */
 static uint32_t find_common(const struct spirv *spirv, uint32_t binding) {
     uint32_t found = 0;
     for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op)) {
@@ -78,8 +78,8 @@ static uint32_t find_common(const struct spirv *spirv, uint32_t binding) {
     return found;
 }
 
-/* The word of an instruction `code` whose word `at` is `value`; NONE when there is none. */
-static uint32_t look_up(const struct spirv *spirv, uint32_t code, uint32_t at, uint32_t value, uint32_t word) {
+/* Word number `word` of the instruction `code` whose word number `at` is `value`, or NONE. */
+static uint32_t find_word(const struct spirv *spirv, uint32_t code, uint32_t at, uint32_t value, uint32_t word) {
     for (const uint32_t *op = first_op(spirv); op; op = next_op(spirv, op))
         if (opcode(op) == code && op_words(op) > at && op_words(op) > word && op[at] == value) return op[word];
     return NONE;
@@ -93,28 +93,27 @@ static uint32_t member_offset(const struct spirv *spirv, uint32_t type, uint32_t
     return sizeof(struct frame_block);
 }
 
-/* Words that an access chain into the block reaches: a component when the second index is constant, otherwise the
-   member. */
-static void mark(struct spirv *spirv, uint32_t type, const uint32_t *op) {
-    const uint32_t member = op_words(op) > 4 ? look_up(spirv, OP_CONSTANT, 2, op[4], 3) : NONE;
+/* Marks the words of the block that an access chain may read: a component if the second index is constant, otherwise the whole member. */
+static void mark_words(struct spirv *spirv, uint32_t type, const uint32_t *op) {
+    const uint32_t member = op_words(op) > 4 ? find_word(spirv, OP_CONSTANT, 2, op[4], 3) : NONE;
     const uint32_t begin = member_offset(spirv, type, member), end = member_offset(spirv, type, member + 1);
-    const uint32_t place = op_words(op) == 6 && end - begin == 16 ? look_up(spirv, OP_CONSTANT, 2, op[5], 3) : NONE;
+    const uint32_t place = op_words(op) == 6 && end - begin == 16 ? find_word(spirv, OP_CONSTANT, 2, op[5], 3) : NONE;
     for (uint32_t word = begin / 4; word < end / 4 && word < FRAME_WORDS; word++)
         if (place == NONE || word == begin / 4 + place) spirv->frame_words[word] = true;
 }
 
 void spirv_find_uses(struct spirv *spirv) {
     const uint32_t frame = find_common(spirv, 0);
-    const uint32_t pointer = look_up(spirv, OP_VARIABLE, 2, frame, 1);
-    const uint32_t type = look_up(spirv, OP_TYPE_POINTER, 1, pointer, 3);
+    const uint32_t pointer = find_word(spirv, OP_VARIABLE, 2, frame, 1);
+    const uint32_t type = find_word(spirv, OP_TYPE_POINTER, 1, pointer, 3);
     bool code = false, whole = false;
     memset(spirv->frame_words, 0, sizeof spirv->frame_words);
     spirv->probes = find_common(spirv, 3) != 0;
     for (const uint32_t *op = first_op(spirv); op && frame; op = next_op(spirv, op)) {
         const bool chain = opcode(op) == OP_ACCESS_CHAIN || opcode(op) == OP_IN_BOUNDS_ACCESS_CHAIN;
         code |= opcode(op) == OP_FUNCTION;
-        if (chain && op_words(op) > 3 && op[3] == frame) mark(spirv, type, op);
-        else /* any other use: all of it may matter */
+        if (chain && op_words(op) > 3 && op[3] == frame) mark_words(spirv, type, op);
+        else /* any other use may read the whole block */
             for (uint32_t w = 1; code && w < op_words(op); w++) whole |= op[w] == frame;
     }
     for (uint32_t word = 0; whole && word < FRAME_WORDS; word++) spirv->frame_words[word] = true;

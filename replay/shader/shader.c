@@ -1,4 +1,4 @@
-/* SPIR-V of a pass: the embedded one, or the user's file or that of a folder of sources, compiled with glslang. */
+/* SPIR-V of a pass: the built-in one, or that of a user's file or of a folder of sources, compiled with glslang. */
 #include "shader.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 #include <pthread.h>
 #include <xxhash.h>
 
-/* glslang's log, one message a line, as one line of ours. The linker's messages name no file. */
+/* Joins glslang's log, which has one message a line, into one error message. Messages of the linker do not name a file. */
 static bool fail_with_log(const char *path, bool names_file, const char *log, struct glint_error *err) {
     char text[800] = "", line[512];
     size_t used = 0;
@@ -19,7 +19,7 @@ static bool fail_with_log(const char *path, bool names_file, const char *log, st
         size_t length = strcspn(log, "\n");
         snprintf(line, sizeof line, "%.*s", (int)length, log);
         log += length + (log[length] == '\n');
-        /* Its closing words ("compilation terminated", "2 compilation errors") tell nothing. */
+        /* Skips summaries such as "compilation terminated" and "2 compilation errors". */
         if (strncmp(line, "ERROR: ", 7) != 0 || strstr(line, "compilation terminated") ||
             strstr(line, "No code generated"))
             continue;
@@ -30,7 +30,7 @@ static bool fail_with_log(const char *path, bool names_file, const char *log, st
                       used ? text : "does not compile");
 }
 
-/* A text's SPIR-V, found by the text's hash. */
+/* Compiled SPIR-V, found by the hash of its source text. */
 struct compiled {
     XXH128_hash_t text;
     uint32_t *words;
@@ -67,7 +67,7 @@ static bool compile_text(struct compiled *out, const char *path, const char *cod
             out->bytes = glslang_program_SPIRV_get_size(program) * sizeof(uint32_t);
             out->words = out->bytes ? malloc(out->bytes) : NULL;
             if (out->words) glslang_program_SPIRV_get(program, out->words);
-            ok = out->words || glint_fail(err, GLINT_ERROR_MEMORY, "%s: no SPIR-V was made", path);
+            ok = out->words || glint_fail(err, GLINT_ERROR_MEMORY, "%s: no SPIR-V was generated", path);
         }
     }
     if (program) glslang_program_delete(program);
@@ -83,7 +83,7 @@ static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const ch
     while (found && !XXH128_isEqual(found->text, hash)) found = found->next;
     if (!found) {
         found = calloc(1, sizeof *found);
-        /* glslang starts and ends for a process, and does not ask whether another thread is about to. */
+        /* Initialising and finalising glslang is global to the process and not thread-safe. */
         static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
         pthread_mutex_lock(&one_at_a_time);
         const bool ok = found && compile_text(found, path, code, err);

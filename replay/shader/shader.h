@@ -1,4 +1,4 @@
-/* SPIR-V of a pass: the embedded one, or what is compiled here: the user's file, or the pass from a folder of sources. */
+/* SPIR-V of a pass: the built-in one, or compiled from a user's file or from a folder of sources. */
 #ifndef GLINT_REPLAY_SHADER_H
 #define GLINT_REPLAY_SHADER_H
 
@@ -9,7 +9,7 @@
 
 enum { FRAME_WORDS = sizeof(struct frame_block) / sizeof(uint32_t) };
 
-/* What was compiled here, each text once, and the folder whose files stand in for those of passes/ that are built in. */
+/* Compiled shaders, each source text once, and the folder whose files replace the built-in ones of passes/. */
 struct shaders {
     char *folder; /* or NULL */
     struct compiled *first;
@@ -18,30 +18,29 @@ bool shaders_init(struct shaders *shaders, const char *folder, struct glint_erro
 void shaders_finish(struct shaders *shaders);
 
 struct spirv {
-    const uint32_t *words; /* the pass's, or of the shaders that it was found in */
+    const uint32_t *words; /* owned by the pass or by struct shaders */
     size_t bytes;
-    const char *from; /* the file or folder that it was compiled from; NULL: built in */
+    const char *from; /* the file or folder that it was compiled from, or NULL */
     uint64_t hash;
-    bool frame_words[FRAME_WORDS]; /* those of the frame's block that it reads */
-    bool tiles;                    /* it takes its texels by tile_texel() (shared/work_list.glsl) */
-    bool probes;                   /* it has the buffer that probed pixels are told in */
+    bool frame_words[FRAME_WORDS]; /* the words of the uniform block that it reads */
+    bool tiles;                    /* it supports dispatches over tiles, by tile_texel() (shared/work_list.glsl) */
+    bool probes;                   /* it records probed pixels */
 };
 
 bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipeline_pass *pass,
                 struct glint_error *err);
 
 /* reflect.c */
-/* A user's shader may declare bindings by hand; what no row declares has no image behind it. */
+/* Fails if a user's shader declares a binding that no row declares. */
 bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
                           struct glint_error *err);
 /* Sets frame_words and probes. */
 void spirv_find_uses(struct spirv *spirv);
 
-/* flatten.c: a shader's text with every include in place, and #line directives that keep files and lines as the author
-   sees them. The caller frees it. What is not beside the user's file comes from `folder` (or NULL), else from what is
-   built in. */
+/* flatten.c: the text of a user's shader with includes inlined and #line directives that preserve files and line numbers. Includes are looked
+   up beside the file, then in `folder` (may be NULL), then among the built-in files. The caller frees the text. */
 char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err);
-/* The same of a pass; NULL without an error when nothing of it comes from the folder. */
+/* The text of a pass's shader; NULL without an error if none of its files comes from `folder`. */
 char *shader_flatten_pass(const struct glint_pass *pass, const char *folder, struct glint_error *err);
 
 #endif

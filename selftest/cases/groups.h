@@ -1,4 +1,4 @@
-/* The groups of cases, one variable each. */
+/* The groups of cases. */
 #ifndef GLINT_SELFTEST_GROUPS_H
 #define GLINT_SELFTEST_GROUPS_H
 

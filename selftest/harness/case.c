@@ -1,4 +1,4 @@
-/* Findings of cases, and files that cases write. */
+/* Findings of cases, and files written by cases. */
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* Claims that the box gives the same picture under another convention. */
+/* Cases that the box gives the same picture under another convention. */
 #include "harness/convention_case.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ struct glint_selftest_case convention_case_get(const struct convention_case *c) 
     return (struct glint_selftest_case){c->name, c->what, NULL, "absolute", c->bound, c->reason};
 }
 
-/* What the pipeline states in metres grows with the world, within what the parameter may be. */
+/* Parameters in metres scale with the world, within their range. */
 static bool scale_lengths(struct glint_pipeline *pipeline, double scale, struct glint_error *err) {
     for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);

@@ -1,4 +1,4 @@
-/* Claims that the box gives the same picture under another convention. */
+/* Cases that the box gives the same picture under another convention. */
 #ifndef GLINT_SELFTEST_CONVENTION_CASE_H
 #define GLINT_SELFTEST_CONVENTION_CASE_H
 
@@ -17,9 +17,9 @@ struct convention_case {
 /* Cases that are compared with one open box in metres, with depth along the view axis. */
 struct convention_set {
     const char *preset;    /* NULL: the shortest pipeline */
-    const char *image;     /* that is compared */
-    uint32_t frames;       /* of a shot, the last of which is compared; 0: 1 */
-    struct open_box usual; /* its floor, movement and size hold for the others too */
+    const char *image;     /* the image to compare */
+    uint32_t frames;       /* length of the shot, whose last frame is compared; 0: 1 */
+    struct open_box usual; /* its floor, movement and size also apply to the others */
     const struct convention_case *cases;
     size_t count;
 };

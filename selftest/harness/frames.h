@@ -1,4 +1,4 @@
-/* Frames of a tiny picture through the passes that remember. */
+/* Runs frames of a tiny picture through the passes that use history. */
 #ifndef GLINT_SELFTEST_FRAMES_H
 #define GLINT_SELFTEST_FRAMES_H
 
@@ -20,8 +20,8 @@ struct planes {
 struct frame {
     struct glint_frame info;
     float depth[FRAME_PIXELS], normal[3][FRAME_PIXELS], roughness[FRAME_PIXELS], motion[2][FRAME_PIXELS];
-    float color[4][FRAME_PIXELS];  /* of reflection_half, and of reflection */
-    float travelled[FRAME_PIXELS]; /* of the rays that found it */
+    float color[4][FRAME_PIXELS];  /* contents of reflection_half and of reflection */
+    float travelled[FRAME_PIXELS]; /* hit distances of the rays */
     const struct planes *more;     /* further parts */
     size_t more_count;
     bool bare; /* without images of passes: they are among `more` */

@@ -1,4 +1,4 @@
-/* A pipeline beside its reference, slot by slot, and which slots are exchanged together. */
+/* The slots of a pipeline and its reference, and which of them can only be exchanged together. */
 #ifndef GLINT_STUDY_EXCHANGE_H
 #define GLINT_STUDY_EXCHANGE_H
 
@@ -11,11 +11,11 @@ enum { WHY_SIZE = 600 };
 
 struct exchange {
     const char *slot;
-    const struct glint_pass *pass[MODES]; /* NULL: left out there */
+    const struct glint_pass *pass[MODES]; /* NULL if that pipeline does not have the slot */
     bool matters;                         /* the reflection depends on it */
-    bool differs;
-    uint32_t depth; /* how many others run before it at least */
-    size_t group;   /* place of the first exchange that goes with it */
+    bool differs;                         /* variant or values differ */
+    uint32_t depth;                       /* length of the longest chain of slots that it depends on */
+    size_t group;                         /* index of the first slot that must be exchanged together with it */
 };
 
 struct player {
@@ -33,16 +33,16 @@ struct glint_players {
     size_t count;
 };
 
-/* The slot whose passes have a role, in either pipeline; NULL: none. */
+/* The slot whose pass has a role in either pipeline, or NULL. */
 const struct exchange *players_with_role(const struct glint_players *players, enum glint_pass_role role);
-/* The slot whose reference a parameter belongs to: its own, or one that declares it. */
+/* The slot together with which a parameter is exchanged: its own, or one whose reference sets it (row REFERENCE_SET). */
 const char *players_owner(const struct glint_players *players, const char *slot, const char *parameter);
 
-/* players_group.c. The slot of that name; NULL: none. */
+/* players_group.c: the slot of that name, or NULL. */
 const struct exchange *players_slot(const struct glint_players *players, const char *slot);
-/* Sets matters, depth and group of all slots whose `differs` is known. */
+/* Sets `matters`, `depth` and `group` of all slots, for which `differs` must be set. */
 void players_find_groups(struct glint_players *players);
-/* Says why the slots of a group are one player. */
+/* Sets player->why: the reason why the slots of a group can only be exchanged together. */
 void players_explain(const struct glint_players *players, struct player *player);
 
 #endif

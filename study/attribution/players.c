@@ -1,4 +1,4 @@
-/* Pipelines between one and its reference. */
+/* Finds the players of a pipeline and its reference, and builds pipelines with some of them exchanged. */
 #include "exchange.h"
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 #include "glint/study.h"
 
-/* Rays of the reference are told apart from those of what is compared with it by their numbers. */
+/* The exchanged pipelines use ray indices from here on, so that their random numbers differ from the reference's. */
 enum { FIRST_RAY = 1 << 19 };
 
 const char *players_owner(const struct glint_players *players, const char *slot, const char *parameter) {
@@ -39,16 +39,16 @@ static bool find_slots(struct glint_players *players, struct glint_error *err) {
     return true;
 }
 
-/* A parameter's value in one of the pipelines; false when its pass there has none of that name. */
-static bool value_of(const struct glint_players *players, const struct exchange *slot, int mode, const char *name,
-                     double *value) {
+/* The value of a parameter in one of the pipelines; false if its pass there has no such parameter. */
+static bool slot_value(const struct glint_players *players, const struct exchange *slot, int mode, const char *name,
+                       double *value) {
     const struct glint_pass *pass = slot->pass[mode];
     const struct glint_row *row = pass ? glint_pass_parameter(pass, name) : NULL;
     if (row) *value = glint_pipeline_value(players->pipeline[mode], pass, row);
     return row != NULL;
 }
 
-/* Another variant, or another value of a parameter that belongs to the slot, here or in another slot. */
+/* Whether the variant differs, or the value of a parameter that is exchanged together with the slot. */
 static bool slot_differs(const struct glint_players *players, const struct exchange *slot) {
     const struct glint_pass *own = slot->pass[MODE_OWN], *theirs = slot->pass[MODE_REFERENCE];
     if (!own || !theirs || own != theirs || glint_pipeline_shader_file(players->pipeline[MODE_OWN], own)) return true;
@@ -58,7 +58,7 @@ static bool slot_differs(const struct glint_players *players, const struct excha
         for (size_t r = 0; pass && r < pass->row_count; r++) {
             const struct glint_row *row = &pass->rows[r];
             double value;
-            if (glint_row_is_parameter(row) && value_of(players, at, MODE_REFERENCE, row->name, &value) &&
+            if (glint_row_is_parameter(row) && slot_value(players, at, MODE_REFERENCE, row->name, &value) &&
                 value != glint_pipeline_value(players->pipeline[MODE_OWN], pass, row) &&
                 !strcmp(players_owner(players, pass->slot, row->name), slot->slot))
                 return true;
@@ -72,7 +72,7 @@ static void append_item(char *text, size_t size, const char *item, const char *b
     snprintf(text + length, size - length, "%s%s", length ? between : "", item);
 }
 
-static bool leads(const struct glint_players *players, const struct exchange *slot) {
+static bool is_leader(const struct glint_players *players, const struct exchange *slot) {
     const struct glint_pass *reference = slot->pass[MODE_REFERENCE];
     if (!reference) return false;
     for (size_t r = 0; r < reference->row_count; r++)
@@ -88,7 +88,7 @@ static void describe_player(const struct glint_players *players, struct player *
         const struct exchange *slot = &players->slots[i];
         const struct glint_pass *own = slot->pass[MODE_OWN], *theirs = slot->pass[MODE_REFERENCE];
         char text[200];
-        if (slot->group != player->group || !slot->differs || !slot->matters || (leaders && !leads(players, slot)))
+        if (slot->group != player->group || !slot->differs || !slot->matters || (leaders && !is_leader(players, slot)))
             continue;
         if (!theirs) snprintf(text, sizeof text, "%s %s left out", slot->slot, own->variant);
         else if (own == theirs) snprintf(text, sizeof text, "%s %s by its values", slot->slot, own->variant);
@@ -151,8 +151,8 @@ struct glint_players *glint_players_create(const struct glint_pipeline *pipeline
     if (ok) players_find_groups(players);
     ok = ok && find_players(players, err);
     if (ok && !players->count)
-        ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: every slot is its own reference already",
-                        glint_pipeline_name(pipeline));
+        ok =
+            glint_fail(err, GLINT_ERROR_USAGE, "%s: no slot differs from the reference", glint_pipeline_name(pipeline));
     if (!ok) glint_players_destroy(&players);
     return players;
 }
@@ -185,7 +185,7 @@ static bool is_exchanged(const struct glint_players *players, const struct excha
     return false;
 }
 
-/* A value that belongs to another slot goes with that one. */
+/* A parameter that is exchanged together with another slot takes that slot's mode. */
 static bool set_values(const struct glint_players *players, const struct exchange *slot, uint32_t exchanged,
                        struct glint_pipeline *pipeline, struct glint_error *err) {
     const struct glint_pass *pass = glint_pipeline_find(pipeline, slot->slot);
@@ -196,14 +196,14 @@ static bool set_values(const struct glint_players *players, const struct exchang
         if (!glint_row_is_parameter(row)) continue;
         const char *owner = players_owner(players, slot->slot, row->name);
         const int mode = is_exchanged(players, players_slot(players, owner), exchanged) ? MODE_REFERENCE : MODE_OWN;
-        if (value_of(players, slot, mode, row->name, &value) && value >= row->lowest && value <= row->highest)
+        if (slot_value(players, slot, mode, row->name, &value) && value >= row->lowest && value <= row->highest)
             ok = glint_pipeline_set_value(pipeline, pass, row, value, err);
     }
     return ok;
 }
 
-static bool set_number(struct glint_pipeline *pipeline, const char *parameter, uint32_t value,
-                       struct glint_error *err) {
+static bool set_pipeline_number(struct glint_pipeline *pipeline, const char *parameter, uint32_t value,
+                                struct glint_error *err) {
     char assignment[64];
     snprintf(assignment, sizeof assignment, "pipeline.%s=%u", parameter, value);
     return glint_pipeline_set(pipeline, assignment, err);
@@ -226,15 +226,15 @@ struct glint_pipeline *glint_players_pipeline(const struct glint_players *player
         const struct exchange *slot = &players->slots[i];
         const bool exchange = is_exchanged(players, slot, exchanged);
         const struct glint_pass *pass = slot->pass[exchange ? MODE_REFERENCE : MODE_OWN];
-        if (!slot->matters && slot != compose) pass = NULL; /* what is laid over the picture takes no part */
+        if (!slot->matters && slot != compose) pass = NULL; /* passes after compose do not affect the reflection */
         if (exchange || !pass) ok = use_variant(pipeline, slot->slot, pass, err);
         if (ok && pass) ok = set_values(players, slot, exchanged, pipeline, err);
     }
     for (size_t p = 0; ok && p < players->count; p++)
         if (players->players[p].rays && exchanged >> p & 1)
-            ok = set_number(pipeline, "rays", glint_pipeline_rays(players->pipeline[MODE_REFERENCE]), err);
+            ok = set_pipeline_number(pipeline, "rays", glint_pipeline_rays(players->pipeline[MODE_REFERENCE]), err);
     if (ok && draws && (!draws->differs || is_exchanged(players, draws, exchanged)))
-        ok = set_number(pipeline, "first_ray", FIRST_RAY, err);
+        ok = set_pipeline_number(pipeline, "first_ray", FIRST_RAY, err);
     if (!ok && pipeline) glint_pipeline_destroy(&pipeline);
     return pipeline;
 }

@@ -1,4 +1,4 @@
-/* Which slots cannot be exchanged one without the other, by their declarations. */
+/* Groups slots that can only be exchanged together, according to their declarations. */
 #include <stdio.h>
 #include <string.h>
 
@@ -18,24 +18,25 @@ const struct exchange *players_with_role(const struct glint_players *players, en
     return NULL;
 }
 
-static bool makes(const struct exchange *slot, int mode, const char *image) {
+static bool makes_image(const struct exchange *slot, int mode, const char *image) {
     const struct glint_pass *pass = slot->pass[mode];
     return pass && glint_pass_output(pass, image);
 }
 
-static size_t rows_of(const struct exchange *slot, int mode) {
+static size_t row_count(const struct exchange *slot, int mode) {
     const struct glint_pass *pass = slot->pass[mode];
     return pass ? pass->row_count : 0;
 }
 
-/* A reason for which two slots go together; `text` may be NULL. */
+/* These functions test a reason for exchanging two slots together and describe it in `text`, which may be NULL. */
 static bool needs_image(const struct exchange *reader, const struct exchange *maker, char *text, size_t size) {
     for (int mode = 0; mode < MODES; mode++)
-        for (size_t r = 0; r < rows_of(reader, mode); r++) {
+        for (size_t r = 0; r < row_count(reader, mode); r++) {
             const struct glint_row *row = &reader->pass[mode]->rows[r];
             const char *names[2];
             for (size_t n = row->optional ? 0 : glint_row_reads(row, names); n-- > 0;) {
-                const bool own = makes(maker, MODE_OWN, names[n]), theirs = makes(maker, MODE_REFERENCE, names[n]);
+                const bool own = makes_image(maker, MODE_OWN, names[n]),
+                           theirs = makes_image(maker, MODE_REFERENCE, names[n]);
                 if (own == theirs) continue;
                 const struct glint_pass *pass = reader->pass[mode], *by = maker->pass[own ? MODE_OWN : MODE_REFERENCE];
                 if (text)
@@ -49,20 +50,20 @@ static bool needs_image(const struct exchange *reader, const struct exchange *ma
 
 static bool makes_the_same(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
     for (int mode = 0; mode < MODES; mode++)
-        for (size_t r = 0; r < rows_of(a, mode); r++) {
+        for (size_t r = 0; r < row_count(a, mode); r++) {
             const struct glint_row *row = &a->pass[mode]->rows[r];
-            if (!glint_row_is_output(row) || !makes(b, !mode, row->name)) continue;
+            if (!glint_row_is_output(row) || !makes_image(b, !mode, row->name)) continue;
             if (text) snprintf(text, size, "%s and %s both make %s", a->slot, b->slot, row->name);
             return true;
         }
     return false;
 }
 
-/* What the pipeline does without has nothing that goes with another slot. */
-static bool declared(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
+/* A row REFERENCE_WITH does not apply to a slot that the pipeline does not have. */
+static bool is_declared_together(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
     if (!a->pass[MODE_OWN]) return false;
     for (int mode = 0; mode < MODES; mode++)
-        for (size_t r = 0; r < rows_of(a, mode); r++) {
+        for (size_t r = 0; r < row_count(a, mode); r++) {
             const struct glint_row *row = &a->pass[mode]->rows[r];
             if (row->kind != GLINT_ROW_REFERENCE_WITH || strcmp(row->name, b->slot) != 0) continue;
             if (text) snprintf(text, size, "%s: %s", a->slot, row->help);
@@ -72,7 +73,7 @@ static bool declared(const struct exchange *a, const struct exchange *b, char *t
 }
 
 static bool go_together(const struct exchange *a, const struct exchange *b, char *text, size_t size) {
-    return declared(a, b, text, size) || needs_image(a, b, text, size) || makes_the_same(a, b, text, size);
+    return is_declared_together(a, b, text, size) || needs_image(a, b, text, size) || makes_the_same(a, b, text, size);
 }
 
 static void join_groups(struct glint_players *players, size_t a, size_t b) {
@@ -81,8 +82,8 @@ static void join_groups(struct glint_players *players, size_t a, size_t b) {
         if (players->slots[i].group == (from > to ? from : to)) players->slots[i].group = from > to ? to : from;
 }
 
-/* What `slot` reads in either mode, it may read of `maker`. */
-static bool follows(const struct exchange *slot, const struct exchange *maker) {
+/* Whether the slot reads in any mode an image that `maker` makes in any mode. */
+static bool may_depend_on(const struct exchange *slot, const struct exchange *maker) {
     for (int mode = 0; mode < MODES; mode++)
         for (int other = 0; other < MODES; other++)
             if (slot->pass[mode] && maker->pass[other] && slot != maker &&
@@ -93,7 +94,7 @@ static bool follows(const struct exchange *slot, const struct exchange *maker) {
 
 static bool makes_reflection(const struct exchange *slot, const struct exchange *compose) {
     for (int mode = 0; mode < MODES; mode++)
-        for (size_t r = 0; r < rows_of(slot, mode); r++) {
+        for (size_t r = 0; r < row_count(slot, mode); r++) {
             const struct glint_row *row = &slot->pass[mode]->rows[r];
             if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance") != 0)
                 continue;
@@ -112,16 +113,16 @@ static void find_what_matters(struct glint_players *players) {
         more = false;
         for (size_t i = 0; i < players->slot_count; i++)
             for (size_t j = 0; j < players->slot_count && players->slots[i].matters; j++)
-                if (!players->slots[j].matters && follows(&players->slots[i], &players->slots[j]))
+                if (!players->slots[j].matters && may_depend_on(&players->slots[i], &players->slots[j]))
                     players->slots[j].matters = more = true;
     }
 }
 
 static void find_depths(struct glint_players *players) {
-    for (size_t round = 0; round < players->slot_count; round++) /* enough for the longest chain */
+    for (size_t round = 0; round < players->slot_count; round++) /* as often as the longest possible chain requires */
         for (size_t i = 0; i < players->slot_count; i++)
             for (size_t j = 0; j < players->slot_count; j++)
-                if (follows(&players->slots[i], &players->slots[j]) &&
+                if (may_depend_on(&players->slots[i], &players->slots[j]) &&
                     players->slots[i].depth <= players->slots[j].depth)
                     players->slots[i].depth = players->slots[j].depth + 1;
 }

@@ -1,51 +1,50 @@
-/* Shapley values of a game: exact over all coalitions, or over orders that are drawn. */
+/* Shapley values of a game: exact over all coalitions, or estimated from sampled permutations. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "glint/blame.h"
+#include "no_memory.h"
+#include "random.h"
 
 struct play {
     const struct glint_game *game;
-    double **known; /* values of each coalition, NULL: not asked for yet */
-    uint32_t asked;
+    double **known; /* values of each coalition, NULL before it is evaluated */
+    uint32_t evaluated;
 };
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
-static const double *worth(struct play *play, uint32_t coalition, struct glint_error *err) {
+static const double *evaluate_coalition(struct play *play, uint32_t coalition, struct glint_error *err) {
     const struct glint_game *game = play->game;
     double **known = &play->known[coalition];
     if (*known) return *known;
     double *values = calloc(game->values + 1, sizeof *values);
-    if (!values) no_memory(err);
+    if (!values) no_memory(err, "Shapley values");
     else if (!game->play(game->user, coalition, values, err)) {
         free(values);
         values = NULL;
-    } else play->asked++;
+    } else play->evaluated++;
     return *known = values;
 }
 
-static uint32_t everyone(const struct glint_game *game) {
+static uint32_t all_players(const struct glint_game *game) {
     return (1u << game->players) - 1;
 }
 
-static bool tell(const struct glint_game *game, struct glint_error *err) {
-    return !game->news || game->news(game->user, err);
+static bool report_update(const struct glint_game *game, struct glint_error *err) {
+    return !game->update || game->update(game->user, err);
 }
 
-/* Alone, and last of all. */
-static bool find_ends(struct play *play, struct glint_shapley *out, struct glint_error *err) {
+/* Marginal contributions of each player that joins first and of each that joins last. */
+static bool evaluate_ends(struct play *play, struct glint_shapley *out, struct glint_error *err) {
     const struct glint_game *game = play->game;
-    const uint32_t all = everyone(game);
-    const double *none = worth(play, 0, err), *whole = none ? worth(play, all, err) : NULL;
+    const uint32_t all = all_players(game);
+    const double *none = evaluate_coalition(play, 0, err), *whole = none ? evaluate_coalition(play, all, err) : NULL;
     if (!whole) return false;
     memcpy(out->none, none, game->values * sizeof *none);
     memcpy(out->all, whole, game->values * sizeof *whole);
     for (size_t i = 0; i < game->players; i++) {
-        const double *alone = worth(play, 1u << i, err), *without = alone ? worth(play, all & ~(1u << i), err) : NULL;
+        const double *alone = evaluate_coalition(play, 1u << i, err),
+                     *without = alone ? evaluate_coalition(play, all & ~(1u << i), err) : NULL;
         if (!without) return false;
         for (size_t v = 0; v < game->values; v++) {
             out->first[i * game->values + v] = alone[v] - none[v];
@@ -56,7 +55,7 @@ static bool find_ends(struct play *play, struct glint_shapley *out, struct glint
 }
 
 /* Σ over coalitions S without i of |S|! (n − |S| − 1)! / n! (v(S ∪ i) − v(S)). */
-static bool sum_all(struct play *play, struct glint_shapley *out, struct glint_error *err) {
+static bool sum_all_coalitions(struct play *play, struct glint_shapley *out, struct glint_error *err) {
     const struct glint_game *game = play->game;
     const size_t n = game->players;
     double weight[GLINT_PLAYERS_MAX];
@@ -64,9 +63,9 @@ static bool sum_all(struct play *play, struct glint_shapley *out, struct glint_e
         weight[s] = 1.0 / (double)n;
         for (size_t k = 1; k <= s; k++) weight[s] *= (double)k / (double)(n - k);
     }
-    for (uint32_t c = 0; c <= everyone(game); c++)
-        if (!worth(play, c, err)) return false;
-    for (uint32_t c = 0; c <= everyone(game); c++)
+    for (uint32_t c = 0; c <= all_players(game); c++)
+        if (!evaluate_coalition(play, c, err)) return false;
+    for (uint32_t c = 0; c <= all_players(game); c++)
         for (size_t i = 0; i < n; i++) {
             if (c >> i & 1) continue;
             const double *without = play->known[c], *with = play->known[c | 1u << i];
@@ -77,14 +76,7 @@ static bool sum_all(struct play *play, struct glint_shapley *out, struct glint_e
     return true;
 }
 
-static uint64_t next_random(uint64_t *state) { /* SplitMix64 */
-    uint64_t z = *state += 0x9E3779B97F4A7C15u;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBu;
-    return z ^ z >> 31;
-}
-
-static void shuffle(size_t *order, size_t n, uint64_t *state) {
+static void shuffle_players(size_t *order, size_t n, uint64_t *state) {
     for (size_t i = 0; i < n; i++) order[i] = i;
     for (size_t i = n; i-- > 1;) {
         const size_t j = (size_t)(next_random(state) % (i + 1)), kept = order[i];
@@ -93,14 +85,15 @@ static void shuffle(size_t *order, size_t n, uint64_t *state) {
     }
 }
 
-/* Adds half of what each player changes when they join in this order, or in the opposite one. */
-static bool walk(struct play *play, const size_t *order, bool back, double *sample, struct glint_error *err) {
+/* Adds half the marginal contribution of each player in this order, or in the reverse order. */
+static bool add_permutation(struct play *play, const size_t *order, bool back, double *sample,
+                            struct glint_error *err) {
     const struct glint_game *game = play->game;
     uint32_t coalition = 0;
-    const double *before = worth(play, 0, err);
+    const double *before = evaluate_coalition(play, 0, err);
     for (size_t k = 0; before && k < game->players; k++) {
         const size_t i = order[back ? game->players - 1 - k : k];
-        const double *after = worth(play, coalition |= 1u << i, err);
+        const double *after = evaluate_coalition(play, coalition |= 1u << i, err);
         for (size_t v = 0; after && v < game->values; v++) sample[i * game->values + v] += 0.5 * (after[v] - before[v]);
         before = after;
     }
@@ -117,33 +110,34 @@ static void add_sample(struct glint_shapley *out, const double *sample, double *
     }
 }
 
-static bool narrow(const struct glint_game *game, const struct glint_shapley_options *options,
-                   const struct glint_shapley *out) {
+static bool is_narrow_enough(const struct glint_game *game, const struct glint_shapley_options *options,
+                             const struct glint_shapley *out) {
     for (size_t v = 0; v < (options->watched ? options->watched : 1); v++)
         for (size_t i = 0; i < game->players; i++)
             if (out->half[i * game->values + v] > options->interval * fabs(out->all[v] - out->none[v])) return false;
     return true;
 }
 
-/* An order and its opposite are one sample: a player that comes early in one comes late in the other. */
-static bool sum_drawn(struct play *play, const struct glint_shapley_options *options, struct glint_shapley *out,
-                      struct glint_error *err) {
-    enum { PAIRS_MIN = 8 }; /* fewer say little of their spread */
+/* Each sample is a permutation and its reverse (antithetic sampling): a player that joins early in one joins late in the other. */
+static bool sum_permutations(struct play *play, const struct glint_shapley_options *options, struct glint_shapley *out,
+                             struct glint_error *err) {
+    enum { PAIRS_MIN = 8 }; /* with fewer the spread is not known well enough */
     const struct glint_game *game = play->game;
     const size_t count = game->players * game->values;
     uint64_t state = options->seed;
     size_t order[GLINT_PLAYERS_MAX];
     double *sample = calloc(2 * count + 1, sizeof *sample), *spread = sample ? sample + count : NULL;
-    bool ok = sample || no_memory(err);
+    bool ok = sample || no_memory(err, "Shapley values");
     for (uint32_t pair = 1; ok; pair++) {
         memset(sample, 0, count * sizeof *sample);
-        shuffle(order, game->players, &state);
-        ok = walk(play, order, false, sample, err) && walk(play, order, true, sample, err);
+        shuffle_players(order, game->players, &state);
+        ok = add_permutation(play, order, false, sample, err) && add_permutation(play, order, true, sample, err);
         if (!ok) break;
         add_sample(out, sample, spread, pair, count);
         out->permutations = 2 * pair;
-        ok = tell(game, err);
-        if (out->permutations >= options->permutations || (pair >= PAIRS_MIN && narrow(game, options, out))) break;
+        ok = report_update(game, err);
+        if (out->permutations >= options->permutations || (pair >= PAIRS_MIN && is_narrow_enough(game, options, out)))
+            break;
     }
     free(sample);
     return ok;
@@ -158,17 +152,18 @@ bool glint_shapley(const struct glint_game *game, const struct glint_shapley_opt
         return glint_fail(err, GLINT_ERROR_USAGE, "expected 1 to %d players, found %zu", GLINT_PLAYERS_MAX, n);
     play.known = calloc((size_t)1 << n, sizeof *play.known);
     out->share = calloc(4 * n * v + 2 * v + 1, sizeof *out->share);
-    bool ok = (play.known && out->share) || no_memory(err), ends = false;
+    bool ok = (play.known && out->share) || no_memory(err, "Shapley values"), ends = false;
     if (ok) {
         out->half = out->share + n * v;
         out->first = out->half + n * v;
         out->last = out->first + n * v;
         out->none = out->last + n * v;
         out->all = out->none + v;
-        ends = find_ends(&play, out, err);
-        ok = ends && tell(game, err) &&
-             (n <= options->exact ? sum_all(&play, out, err) && tell(game, err) : sum_drawn(&play, options, out, err));
-        out->coalitions = play.asked;
+        ends = evaluate_ends(&play, out, err);
+        ok = ends && report_update(game, err) &&
+             (n <= options->exact ? sum_all_coalitions(&play, out, err) && report_update(game, err)
+                                  : sum_permutations(&play, options, out, err));
+        out->coalitions = play.evaluated;
     }
     for (size_t c = 0; play.known && c < (size_t)1 << n; c++) free(play.known[c]);
     free(play.known);

@@ -1,13 +1,14 @@
-/* Judges pipelines on one capture, all on one replay. */
+/* Measures errors and costs of pipelines on one capture, all with one replay. */
 #include "glint/judge.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "answers.h"
+#include "targets.h"
+#include "no_memory.h"
 
-/* A pass's time in this round. */
+/* The time of a pass in the current round. */
 struct measured {
     uint64_t key, ns;
 };
@@ -19,15 +20,15 @@ struct glint_judge {
     struct glint_capture *capture;
     uint8_t *surfaces;
     size_t pixels;
-    struct answer *answers;
+    struct target *targets;
     uint32_t round;
     struct measured *measured;
-    size_t measured_count, measured_room;
+    size_t measured_count;
 };
 
-const char *glint_answer_name(enum glint_answer answer) {
-    static const char *const names[GLINT_ANSWER_COUNT] = {"reference", "truth"};
-    return answer < GLINT_ANSWER_COUNT ? names[answer] : NULL;
+const char *glint_target_name(enum glint_target target) {
+    static const char *const names[GLINT_TARGET_COUNT] = {"reference", "truth"};
+    return target < GLINT_TARGET_COUNT ? names[target] : NULL;
 }
 
 struct glint_judge *glint_judge_create(struct glint_device *device, const struct glint_judge_options *options,
@@ -46,8 +47,8 @@ struct glint_judge *glint_judge_create(struct glint_device *device, const struct
     return judge;
 }
 
-static void unload(struct glint_judge *judge) {
-    answers_finish(&judge->answers);
+static void unload_capture(struct glint_judge *judge) {
+    targets_finish(&judge->targets);
     free(judge->surfaces);
     judge->surfaces = NULL;
     judge->capture = NULL;
@@ -58,14 +59,14 @@ void glint_judge_destroy(struct glint_judge **pointer) {
     struct glint_judge *judge = *pointer;
     *pointer = NULL;
     if (!judge) return;
-    unload(judge);
+    unload_capture(judge);
     free(judge->measured);
     if (judge->replay) glint_replay_destroy(&judge->replay);
     free(judge);
 }
 
 bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, struct glint_error *err) {
-    unload(judge);
+    unload_capture(judge);
     if (!glint_replay_load(judge->replay, capture, err)) return false;
     if (!capture) return true;
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
@@ -84,51 +85,47 @@ const uint8_t *glint_judge_surfaces(const struct glint_judge *judge) {
     return judge->surfaces;
 }
 
-static const struct answer *get_answer(struct glint_judge *judge, enum glint_answer kind,
+static const struct target *get_target(struct glint_judge *judge, enum glint_target kind,
                                        const struct glint_pipeline *pipeline, glint_progress progress, void *user,
                                        struct glint_error *err) {
-    const struct asking ask = {&judge->options, judge->replay, judge->capture, pipeline, progress, user};
-    return answers_get(&judge->answers, kind, &ask, err);
+    const struct target_request request = {&judge->options, judge->replay, judge->capture, pipeline, progress, user};
+    return targets_get(&judge->targets, kind, &request, err);
 }
 
-const struct glint_pixels *glint_judge_answer(struct glint_judge *judge, enum glint_answer kind,
+const struct glint_pixels *glint_judge_target(struct glint_judge *judge, enum glint_target kind,
                                               const struct glint_pipeline *pipeline, const float **error,
                                               glint_progress progress, void *user, struct glint_error *err) {
-    const struct answer *answer = get_answer(judge, kind, pipeline, progress, user, err);
-    if (!answer) return NULL;
-    *error = answer->error;
-    return &answer->pixels;
+    const struct target *target = get_target(judge, kind, pipeline, progress, user, err);
+    if (!target) return NULL;
+    *error = target->error;
+    return &target->pixels;
 }
 
 void glint_verdict_finish(struct glint_verdict *verdict) {
-    for (int k = 0; k < GLINT_ANSWER_COUNT; k++) glint_metric_table_finish(&verdict->errors[k]);
+    for (int k = 0; k < GLINT_TARGET_COUNT; k++) glint_metric_table_finish(&verdict->errors[k]);
     glint_pixels_finish(&verdict->reflection);
-    free(verdict->given);
+    free(verdict->coverage);
     free(verdict->passes);
     *verdict = (struct glint_verdict){0};
 }
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
-/* The last reflection, and where it is one. Without any, because its passes have nothing to do, nothing is given. */
+/* Reads the reflection and its coverage. If the passes that make it were dropped, it is black with no coverage. */
 static bool read_reflection(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(judge->capture, GLINT_PART_GBUFFER);
     struct glint_error own = {0};
     if (glint_study_reflection(judge->replay, &verdict->reflection, &own))
-        return (verdict->given = glint_study_given(judge->replay, &verdict->reflection, err)) != NULL;
+        return (verdict->coverage = glint_study_coverage(judge->replay, &verdict->reflection, err)) != NULL;
     if (own.code != GLINT_ERROR_USAGE) return glint_fail(err, own.code, "%s", own.message);
     verdict->reflection =
         (struct glint_pixels){gbuffer->width, gbuffer->height, 3, calloc(3 * judge->pixels, sizeof(float))};
-    verdict->given = calloc(judge->pixels, 1);
-    return (verdict->reflection.values && verdict->given) || no_memory(err);
+    verdict->coverage = calloc(judge->pixels, 1);
+    return (verdict->reflection.values && verdict->coverage) || no_memory(err, "judge");
 }
 
 static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(judge->replay, &count);
-    if (!(verdict->passes = calloc(count + 1, sizeof *verdict->passes))) return no_memory(err);
+    if (!(verdict->passes = calloc(count + 1, sizeof *verdict->passes))) return no_memory(err, "judge");
     for (size_t i = 0; i < count; i++) {
         struct glint_verdict_pass *pass = &verdict->passes[verdict->pass_count++];
         *pass = (struct glint_verdict_pass){.pass = results[i].pass,
@@ -140,7 +137,7 @@ static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict
     return true;
 }
 
-static bool compare_with_answer(struct glint_judge *judge, const struct answer *answer, struct glint_verdict *verdict,
+static bool compare_with_target(struct glint_judge *judge, const struct target *target, struct glint_verdict *verdict,
                                 struct glint_error *err) {
     const struct glint_classes classes = glint_surface_classes(judge->surfaces);
     const struct glint_metric_options options = {.metrics = judge->options.metrics,
@@ -149,22 +146,22 @@ static bool compare_with_answer(struct glint_judge *judge, const struct answer *
                                                  .mask = judge->surfaces,
                                                  .classes = &classes,
                                                  .class_sets = 1,
-                                                 .truth_error = answer->error,
+                                                 .truth_error = target->error,
                                                  .resamples = judge->options.resamples,
                                                  .seed = judge->options.seed,
                                                  .keep_resampled = judge->options.keep_resampled};
-    return glint_metrics_compare(&verdict->reflection, &answer->pixels, &options, &verdict->errors[answer->kind], err);
+    return glint_metrics_compare(&verdict->reflection, &target->pixels, &options, &verdict->errors[target->kind], err);
 }
 
-/* Why rays ended, with the errors of their pixels by the truth, or by the reference without one. */
-static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *pipeline, const struct answer *answer,
+/* Counts end reasons, with the errors of the rays' pixels against the truth, or against the reference if there is no truth. */
+static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *pipeline, const struct target *target,
                        struct glint_verdict *verdict, struct glint_error *err) {
-    uint8_t *compared = answer ? malloc(judge->pixels + 1) : NULL;
-    if (answer && !compared) return no_memory(err);
+    uint8_t *compared = target ? malloc(judge->pixels + 1) : NULL;
+    if (target && !compared) return no_memory(err, "judge");
     for (size_t i = 0; compared && i < judge->pixels; i++)
-        compared[i] = verdict->given[i] && judge->surfaces[i] != GLINT_SURFACE_NONE &&
-                      !(answer->error && isinf(answer->error[i])); /* not known there */
-    bool ok = glint_study_ends(judge->replay, judge->surfaces, &verdict->reflection, answer ? &answer->pixels : NULL,
+        compared[i] = verdict->coverage[i] && judge->surfaces[i] != GLINT_SURFACE_NONE &&
+                      !(target->error && isinf(target->error[i])); /* the target is unknown there */
+    bool ok = glint_study_ends(judge->replay, judge->surfaces, &verdict->reflection, target ? &target->pixels : NULL,
                                compared, &verdict->ends, err);
     const double rays = (double)verdict->ends.rays * glint_pipeline_rays(pipeline) / (double)judge->pixels;
     verdict->steps_px = verdict->ends.steps * rays;
@@ -173,34 +170,34 @@ static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *p
     return ok;
 }
 
-/* A capture without a truth leaves the verdict without one. */
-static bool get_answers(struct glint_judge *judge, const struct glint_pipeline *pipeline, struct glint_verdict *verdict,
-                        const struct answer *answers[GLINT_ANSWER_COUNT], glint_progress progress, void *user,
+/* If the capture has no truth, the verdict has no figures for that target. */
+static bool get_targets(struct glint_judge *judge, const struct glint_pipeline *pipeline, struct glint_verdict *verdict,
+                        const struct target *targets[GLINT_TARGET_COUNT], glint_progress progress, void *user,
                         struct glint_error *err) {
     if (judge->options.truth &&
-        !(answers[GLINT_ANSWER_TRUTH] =
-              get_answer(judge, GLINT_ANSWER_TRUTH, pipeline, progress, user, &verdict->no_truth)) &&
+        !(targets[GLINT_TARGET_TRUTH] =
+              get_target(judge, GLINT_TARGET_TRUTH, pipeline, progress, user, &verdict->no_truth)) &&
         verdict->no_truth.code != GLINT_ERROR_FORMAT)
         return glint_fail(err, verdict->no_truth.code, "%s", verdict->no_truth.message);
-    return !judge->options.reference || (answers[GLINT_ANSWER_REFERENCE] = get_answer(
-                                             judge, GLINT_ANSWER_REFERENCE, pipeline, progress, user, err)) != NULL;
+    return !judge->options.reference || (targets[GLINT_TARGET_REFERENCE] = get_target(
+                                             judge, GLINT_TARGET_REFERENCE, pipeline, progress, user, err)) != NULL;
 }
 
-bool glint_judge_look(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage,
-                      struct glint_verdict *verdict, glint_progress progress, void *user, struct glint_error *err) {
+bool glint_judge_evaluate(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage,
+                          struct glint_verdict *verdict, glint_progress progress, void *user, struct glint_error *err) {
     const struct glint_replay_options options = {
         .diagnostics = true, .all = judge->options.all, .keep_bytes = judge->options.keep_bytes, .lineage = lineage};
-    const struct answer *answers[GLINT_ANSWER_COUNT] = {NULL};
+    const struct target *targets[GLINT_TARGET_COUNT] = {NULL};
     *verdict = (struct glint_verdict){0};
     if (!judge->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
-    bool ok = get_answers(judge, pipeline, verdict, answers, progress, user, err);
+    bool ok = get_targets(judge, pipeline, verdict, targets, progress, user, err);
     const double start = glint_now_seconds();
     ok = ok && glint_replay_run(judge->replay, pipeline, &options, progress, user, err) &&
          read_reflection(judge, verdict, err) && read_passes(judge, verdict, err);
     const double ran = glint_now_seconds();
-    for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++)
-        ok = !answers[k] || compare_with_answer(judge, answers[k], verdict, err);
-    const struct answer *best = answers[answers[GLINT_ANSWER_TRUTH] ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE];
+    for (int k = 0; ok && k < GLINT_TARGET_COUNT; k++)
+        ok = !targets[k] || compare_with_target(judge, targets[k], verdict, err);
+    const struct target *best = targets[targets[GLINT_TARGET_TRUTH] ? GLINT_TARGET_TRUTH : GLINT_TARGET_REFERENCE];
     ok = ok && count_rays(judge, pipeline, best, verdict, err);
     verdict->run_seconds = ran - start;
     verdict->metric_seconds = glint_now_seconds() - ran;
@@ -220,13 +217,9 @@ static const struct measured *find_measured(const struct glint_judge *judge, uin
 }
 
 static bool add_measured(struct glint_judge *judge, const struct glint_pass_result *result, struct glint_error *err) {
-    if (judge->measured_count == judge->measured_room) {
-        const size_t room = 2 * judge->measured_room + 64;
-        struct measured *larger = realloc(judge->measured, room * sizeof *larger);
-        if (!larger) return no_memory(err);
-        judge->measured = larger;
-        judge->measured_room = room;
-    }
+    struct measured *larger = realloc(judge->measured, (judge->measured_count + 1) * sizeof *larger);
+    if (!larger) return no_memory(err, "judge");
+    judge->measured = larger;
     judge->measured[judge->measured_count++] = (struct measured){result->key, result->time.median_ns};
     return true;
 }
@@ -261,7 +254,7 @@ bool glint_judge_time(struct glint_judge *judge, const struct glint_pipeline *pi
     *cost = (struct glint_cost){0};
     if (!glint_replay_run(judge->replay, pipeline, &options, progress, user, err)) return false;
     const struct glint_pass_result *results = glint_replay_results(judge->replay, &count);
-    bool ok = (cost->passes = calloc(count + 1, sizeof *cost->passes)) != NULL || no_memory(err);
+    bool ok = (cost->passes = calloc(count + 1, sizeof *cost->passes)) != NULL || no_memory(err, "judge");
     for (size_t i = 0; ok && i < count; i++) ok = !results[i].ran || add_cost(judge, &results[i], cost, err);
     if (!ok) glint_cost_finish(cost);
     return ok;

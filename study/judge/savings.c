@@ -1,4 +1,4 @@
-/* What a plan saves: planned and whole runs take turns, so that what slows the machine down slows both. */
+/* Measures what planning saves. Runs with and without a plan alternate, so that disturbances of the machine affect both. */
 #include "glint/savings.h"
 
 #include <stdlib.h>
@@ -65,7 +65,7 @@ static bool sum_up(const struct turns *t, uint64_t survey_ns, uint64_t *const ti
     return true;
 }
 
-/* Of a device's memory, what is kept of one side while it is the other's turn. */
+/* The device memory that images of one side may occupy while the other side runs. */
 static uint64_t kept_bytes(const struct glint_device_info *info) {
     const uint64_t most = (uint64_t)4 << 30;
     return info->memory_bytes / 4 < most ? info->memory_bytes / 4 : most;
@@ -75,7 +75,7 @@ static bool measure_turns(struct turns *t, struct glint_savings *savings, glint_
                           struct glint_error *err) {
     const struct glint_plan_entry *entries;
     struct glint_replay_options first = t->options[PLANNED];
-    first.repeat = t->rounds; /* of the surveys, which are made now */
+    first.repeat = t->rounds; /* repeats the surveys, which run now */
     if (!glint_replay_plan(t->replay, t->pipeline, &first, &entries, &t->passes, err) || !make_room(t, err))
         return false;
     const struct glint_survey_times survey = glint_replay_survey_times(t->replay);
@@ -83,7 +83,7 @@ static bool measure_turns(struct turns *t, struct glint_savings *savings, glint_
     savings->survey_ns = frame_ns + survey.cubemaps_ns;
     savings->passes = calloc(t->passes + 1, sizeof *savings->passes);
     if (!savings->passes) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (uint32_t round = 0; round < t->rounds; round++) /* who is first changes, too */
+    for (uint32_t round = 0; round < t->rounds; round++) /* the side that runs first alternates, too */
         for (uint32_t turn = 0; turn < SIDES; turn++)
             if (!glint_report_progress(progress, user, "measuring", (double)round / t->rounds, err) ||
                 !take_turn(t, (turn + round) % SIDES, round, err))

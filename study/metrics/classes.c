@@ -1,4 +1,4 @@
-/* Partitions of the pixels. */
+/* Partitions of pixels into classes. */
 #include <stdlib.h>
 #include <string.h>
 

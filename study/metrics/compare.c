@@ -1,4 +1,4 @@
-/* Compares two images: sums over tiles of pixels for each class, and the figures that follow from them. */
+/* Compares two images: accumulates sums over tiles of pixels for each class and computes the figures from them. */
 #include "comparison.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 /* ---- Channels ---- */
 
-/* The place of a name among names with spaces between them, which may be of more components than there are. */
+/* The index of a name in a list separated by spaces, which may be longer than the number of components. */
 static bool find_channel(const char *names, uint32_t components, const char *name, size_t length, uint32_t *at) {
     for (*at = 0; *at < components && *names; ++*at) {
         size_t here = strcspn(names, " ");
@@ -40,35 +40,35 @@ static bool match_channels(struct comparison *c, struct glint_error *err) {
                                          "images to compare: '%s' and '%s' have no channel in common", found, truth);
 }
 
-/* ---- Which pixels ---- */
+/* ---- Which pixels are compared ---- */
 
-/* What is learned of a row of pixels. */
+/* Statistics of a row of pixels. */
 struct row {
     uint64_t invalid_found, invalid_truth;
-    uint32_t first; /* invalid; the width when there is none */
+    uint32_t first; /* the first invalid pixel; the width if there is none */
     float peak;
 };
-struct look {
+struct scan {
     struct comparison *c;
     struct row *rows;
-    bool peak; /* it is asked for */
+    bool peak; /* the peak is needed */
 };
 
-static bool is_finite(const float *values, const uint32_t *at, uint32_t count) {
+static bool are_finite(const float *values, const uint32_t *at, uint32_t count) {
     for (uint32_t k = 0; k < count; k++)
         if (!isfinite(values[at[k]])) return false;
     return true;
 }
 
-static float highest(const float *values, const uint32_t *at, uint32_t count) {
+static float max_magnitude(const float *values, const uint32_t *at, uint32_t count) {
     float value = 0;
     for (uint32_t k = 0; k < count; k++) value = fabsf(values[at[k]]) > value ? fabsf(values[at[k]]) : value;
     return value;
 }
 
-static void look_at_rows(void *user, size_t first, size_t last) {
-    const struct look *look = user;
-    struct comparison *c = look->c;
+static void scan_rows(void *user, size_t first, size_t last) {
+    const struct scan *scan = user;
+    struct comparison *c = scan->c;
     uint32_t width = c->found->width;
     for (size_t y = first; y < last; y++) {
         struct row row = {.first = width};
@@ -78,28 +78,28 @@ static void look_at_rows(void *user, size_t first, size_t last) {
             c->use[i] = LEFT_OUT;
             if (c->options->mask && !c->options->mask[i]) continue;
             if (c->options->truth_error && isinf(c->options->truth_error[i])) continue;
-            bool found_valid = is_finite(found, c->found_at, c->channels),
-                 truth_valid = is_finite(truth, c->truth_at, c->channels);
+            bool found_valid = are_finite(found, c->found_at, c->channels),
+                 truth_valid = are_finite(truth, c->truth_at, c->channels);
             c->use[i] = found_valid && truth_valid ? COMPARED : INVALID;
             row.invalid_found += !found_valid;
             row.invalid_truth += !truth_valid;
             if (c->use[i] == INVALID && row.first == width) row.first = (uint32_t)(i - y * width);
-            if (truth_valid && look->peak) row.peak = fmaxf(row.peak, highest(truth, c->truth_at, c->channels));
+            if (truth_valid && scan->peak) row.peak = fmaxf(row.peak, max_magnitude(truth, c->truth_at, c->channels));
         }
-        look->rows[y] = row;
+        scan->rows[y] = row;
     }
 }
 
 static bool choose_pixels(struct comparison *c, struct glint_error *err) {
     struct glint_metric_table *t = c->table;
     uint32_t width = c->found->width, height = c->found->height;
-    const bool peak = c->options->peak <= 0 && asks_for(c, GLINT_METRIC_PSNR);
-    struct look look = {c, malloc(((size_t)height + 1) * sizeof *look.rows), peak};
+    const bool peak = c->options->peak <= 0 && has_metric(c, GLINT_METRIC_PSNR);
+    struct scan scan = {c, malloc(((size_t)height + 1) * sizeof *scan.rows), peak};
     c->use = malloc((size_t)width * height + 1);
-    bool ok = (look.rows && c->use) || glint_fail(err, GLINT_ERROR_MEMORY, "images to compare: out of memory");
-    if (ok) parallel_rows(height, look_at_rows, &look);
+    bool ok = (scan.rows && c->use) || glint_fail(err, GLINT_ERROR_MEMORY, "images to compare: out of memory");
+    if (ok) parallel_rows(height, scan_rows, &scan);
     for (uint32_t y = 0; ok && y < height; y++) {
-        const struct row *row = &look.rows[y];
+        const struct row *row = &scan.rows[y];
         if (row->first < width && t->invalid_found + t->invalid_truth == 0) {
             t->first_x = row->first;
             t->first_y = y;
@@ -108,13 +108,13 @@ static bool choose_pixels(struct comparison *c, struct glint_error *err) {
         t->invalid_truth += row->invalid_truth;
         if (peak) t->peak = fmax(t->peak, (double)row->peak);
     }
-    free(look.rows);
+    free(scan.rows);
     return ok;
 }
 
 /* ---- Sums ---- */
 
-/* Over the channels of a pixel that is compared. The inner loop of all: what it adds to are variables of its own. */
+/* Sums over the channels of a compared pixel. This is the innermost loop, so it accumulates in local variables. */
 static void sum_channels(const struct comparison *c, size_t i, double sums[SUM_COUNT]) {
     const float *found = c->found->values + i * c->found->components,
                 *truth = c->truth->values + i * c->truth->components;
@@ -216,7 +216,7 @@ static bool name_rows(struct comparison *c, struct glint_error *err) {
     return true;
 }
 
-/* Some 200 tiles, which scale with the picture as what errs together does: large against that, and enough to draw from. */
+/* About 200 tiles: enough for the bootstrap, and large against the regions of correlated errors, which scale with the picture. */
 static bool make_tiles(struct comparison *c, struct glint_error *err) {
     uint32_t width = c->found->width, height = c->found->height;
     c->tile = (uint32_t)fmax(8, sqrt((double)width * height / 200));

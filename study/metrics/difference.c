@@ -1,4 +1,4 @@
-/* Differences of two images, value by value. */
+/* Compares two images value by value. */
 #include "glint/difference.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { DIFFERS = 1, WARNED = 2, FAILED = 4, FIRST_DECADE = -8 };
 
-/* Of one row of pixels: rows are added in their order, so that figures do not depend on threads. */
+/* Sums of one row of pixels. Rows are added up in order, so that results do not depend on threads. */
 struct glint_difference_sums {
     double sum, square, top, largest, a, b;
     uint32_t x;

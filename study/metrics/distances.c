@@ -1,4 +1,4 @@
-/* Errors of distances, apart for mirror-like, glossy and rough surfaces. */
+/* Errors of distances by class of surface. */
 #include "distances.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ double distance_relative_error(double found, double truth) {
     return fabs(found - truth) / truth;
 }
 
-/* `values` is room for `count`; surface 0 takes all. */
+/* `values` is scratch memory for `count` values; surface 0 stands for all surfaces. */
 static struct glint_distance_error distance_error(const float *found, const float *truth, const uint8_t *surfaces,
                                                   size_t count, uint8_t surface, double *values) {
     struct glint_distance_error e = {0};

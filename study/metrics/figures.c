@@ -1,10 +1,10 @@
-/* Figures that follow from sums over pixels. */
+/* Computes metrics from sums over pixels. */
 #include "comparison.h"
 
 #include <math.h>
 
 double figure_of(const struct comparison *c, enum glint_metric metric, const double *sums) {
-    if (!asks_for(c, metric) || sums[SUM_PIXELS] == 0) return NAN;
+    if (!has_metric(c, metric) || sums[SUM_PIXELS] == 0) return NAN;
     const double n = sums[SUM_PIXELS] * c->channels;
     switch (metric) {
     case GLINT_METRIC_MEAN:

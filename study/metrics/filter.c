@@ -1,4 +1,4 @@
-/* Separable filters, spread over the processor's cores. */
+/* Separable filters on all cores. */
 #include "filter.h"
 
 #include <stddef.h>
@@ -13,10 +13,10 @@ struct filter {
     const struct kernel *kernel;
 };
 
-/* Pixels at a time: their sums stay in registers. */
+/* Number of pixels that are filtered at a time, so that their sums stay in registers. */
 enum { SPAN = 16 };
 
-static size_t clamped(ptrdiff_t at, uint32_t size) {
+static size_t clamp_index(ptrdiff_t at, uint32_t size) {
     return at < 0 ? 0 : at < (ptrdiff_t)size ? (size_t)at : size - 1;
 }
 
@@ -32,7 +32,7 @@ static void filter_some_rows(void *user, size_t first, size_t last) {
             const float *in = row + left - (inside ? radius : 0);
             if (!inside) {
                 for (int i = 0; i < 2 * radius + SPAN; i++)
-                    ends[i] = row[clamped((ptrdiff_t)left + i - radius, f->width)];
+                    ends[i] = row[clamp_index((ptrdiff_t)left + i - radius, f->width)];
                 in = ends;
             }
             float sums[SPAN] = {0};
@@ -43,7 +43,7 @@ static void filter_some_rows(void *user, size_t first, size_t last) {
     }
 }
 
-static void columns(void *user, size_t first, size_t last) {
+static void filter_some_columns(void *user, size_t first, size_t last) {
     const struct filter *f = user;
     const int radius = f->kernel->radius;
     for (size_t y = first; y < last; y++)
@@ -51,7 +51,7 @@ static void columns(void *user, size_t first, size_t last) {
             const uint32_t n = left + SPAN <= f->width ? SPAN : f->width - left;
             float sums[SPAN] = {0};
             for (int k = -radius; k <= radius; k++) {
-                const float *in = f->from + clamped((ptrdiff_t)y + k, f->height) * f->width + left;
+                const float *in = f->from + clamp_index((ptrdiff_t)y + k, f->height) * f->width + left;
                 const float tap = f->kernel->taps[k + radius];
                 if (n == SPAN)
                     for (int i = 0; i < SPAN; i++) sums[i] += tap * in[i];
@@ -62,12 +62,8 @@ static void columns(void *user, size_t first, size_t last) {
         }
 }
 
-void filter_rows(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel) {
-    struct filter filter = {from, to, width, height, kernel};
-    parallel_rows(height, filter_some_rows, &filter);
-}
-
-void filter_columns(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel) {
-    struct filter filter = {from, to, width, height, kernel};
-    parallel_rows(height, columns, &filter);
+void filter_plane(const float *from, float *scratch, float *to, uint32_t width, uint32_t height,
+                  const struct kernel *rows, const struct kernel *columns) {
+    parallel_rows(height, filter_some_rows, &(struct filter){from, scratch, width, height, rows});
+    parallel_rows(height, filter_some_columns, &(struct filter){scratch, to, width, height, columns});
 }

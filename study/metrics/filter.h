@@ -1,4 +1,4 @@
-/* Separable filters over planes of floats; past an edge the nearest pixel repeats. */
+/* Separable filters over planes of floats; beyond an edge the nearest pixel is repeated. */
 #ifndef GLINT_STUDY_FILTER_H
 #define GLINT_STUDY_FILTER_H
 
@@ -8,11 +8,11 @@
 enum { MAX_RADIUS = 512 };
 struct kernel {
     int radius;
-    float taps[2 * MAX_RADIUS + 1]; /* from -radius on */
+    float taps[2 * MAX_RADIUS + 1]; /* taps[0] is at -radius */
 };
 
-/* `to` must be another plane. */
-void filter_rows(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel);
-void filter_columns(const float *from, float *to, uint32_t width, uint32_t height, const struct kernel *kernel);
+/* Filters the rows with one kernel and the columns with another. The three planes must be different. */
+void filter_plane(const float *from, float *scratch, float *to, uint32_t width, uint32_t height,
+                  const struct kernel *rows, const struct kernel *columns);
 
 #endif

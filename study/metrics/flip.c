@@ -16,14 +16,14 @@ struct gaussian {
 };
 static const struct gaussian ACHROMATIC = {1, 0.0047}, RED_GREEN = {1, 0.0053},
                              BLUE_YELLOW[2] = {{34.1, 0.04}, {13.5, 0.025}};
-/* Of its feature pipeline: the width of the edges and points that are looked for, in degrees. */
+/* Feature pipeline: the width in degrees of the edges and points to detect. */
 static const double FEATURE_WIDTH = 0.082;
 /* Exponents q_c and q_f of the two differences; p_c and p_t, where the color difference's range is bent. */
 static const float COLOR_POWER = 0.7F, FEATURE_POWER = 0.5F, BEND_COLOR = 0.4F, BEND_VALUE = 0.95F;
 
 /* ---- Kernels ---- */
 
-/* Positive taps are made to sum to 1, and negative ones to -1. */
+/* Normalises positive taps to a sum of 1 and negative ones to -1. */
 static void set_taps(struct kernel *kernel, int radius, const double *taps) {
     double positive = 0, negative = 0;
     for (int k = 0; k <= 2 * radius; k++) *(taps[k] > 0 ? &positive : &negative) += taps[k];
@@ -32,7 +32,7 @@ static void set_taps(struct kernel *kernel, int radius, const double *taps) {
         kernel->taps[k] = (float)(taps[k] > 0 ? taps[k] / positive : negative < 0 ? taps[k] / -negative : 0);
 }
 
-/* One factor of a round Gaussian; returns the sum of its taps before they are normalized. */
+/* A factor of a separable Gaussian; returns the sum of its taps before normalisation. */
 static double set_sensitivity(struct kernel *kernel, int radius, double ppd, const struct gaussian *g) {
     double taps[2 * MAX_RADIUS + 1], sum = 0;
     for (int k = -radius; k <= radius; k++) sum += taps[k + radius] = exp(-PI * PI * k * k / (ppd * ppd * g->b));
@@ -46,7 +46,7 @@ static int radius_of(double sigma_px) {
 }
 
 static void set_kernels(struct flip *f, double ppd) {
-    /* the widest Gaussian's, for all */
+    /* all use the radius of the widest Gaussian */
     const int radius = radius_of(sqrt(BLUE_YELLOW[0].b / (2 * PI * PI)) * ppd);
     double weights[2];
     set_sensitivity(&f->achromatic, radius, ppd, &ACHROMATIC);
@@ -92,33 +92,23 @@ static const struct flip_image *image_of(const struct flip *f) {
     return &f->of[f->found ? FOUND : TRUTH];
 }
 
-/* Lengths of the gradients in work[0] and work[1]. Lightness is Yy's 116th part; taps of a derivative forget its offset. */
-static void to_lengths(const struct flip *f, size_t first, size_t last, float *lengths) {
+/* Lengths of the gradients in work[0] and work[1]. Lightness is Yy / 116; its offset vanishes in derivatives. */
+static void to_lengths(void *user, size_t first, size_t last) {
+    const struct flip *f = user;
     const uint32_t width = f->c->found->width;
     for (size_t i = first * width; i < last * width; i++)
-        lengths[i] = sqrtf(f->work[0][i] * f->work[0][i] + f->work[1][i] * f->work[1][i]) / 116;
+        f->lengths[i] = sqrtf(f->work[0][i] * f->work[0][i] + f->work[1][i] * f->work[1][i]) / 116;
 }
 
-static void to_edges(void *user, size_t first, size_t last) {
-    const struct flip *f = user;
-    to_lengths(f, first, last, image_of(f)->edge);
-}
-
-static void to_points(void *user, size_t first, size_t last) {
-    const struct flip *f = user;
-    to_lengths(f, first, last, image_of(f)->point);
-}
-
-static void find_features(struct flip *f, const struct kernel *derivative, void (*combine)(void *, size_t, size_t)) {
+static void find_features(struct flip *f, const struct kernel *derivative, float *lengths) {
     const uint32_t width = f->c->found->width, height = f->c->found->height;
-    filter_rows(f->opponent[0], f->work[2], width, height, derivative);
-    filter_columns(f->work[2], f->work[0], width, height, &f->smooth);
-    filter_rows(f->opponent[0], f->work[2], width, height, &f->smooth);
-    filter_columns(f->work[2], f->work[1], width, height, derivative);
-    parallel_rows(height, combine, f);
+    filter_plane(f->opponent[0], f->work[2], f->work[0], width, height, derivative, &f->smooth);
+    filter_plane(f->opponent[0], f->work[2], f->work[1], width, height, &f->smooth, derivative);
+    f->lengths = lengths;
+    parallel_rows(height, to_lengths, f);
 }
 
-/* Filtered Yy, Cx, and both parts of Cz in work[0] … work[3]. */
+/* Takes filtered Yy, Cx and both Gaussians of Cz from work[0] … work[3]. */
 static void to_hunt(void *user, size_t first, size_t last) {
     const struct flip *f = user;
     const uint32_t width = f->c->found->width;
@@ -142,23 +132,21 @@ static void filter_color(struct flip *f) {
                   {f->opponent[1], &f->red_green},
                   {f->opponent[2], &f->blue_yellow[0]},
                   {f->opponent[2], &f->blue_yellow[1]}};
-    float *passed = image_of(f)->lab[0]; /* not written yet */
-    for (int k = 0; k < 4; k++) {
-        filter_rows(steps[k].from, passed, width, height, steps[k].kernel);
-        filter_columns(passed, f->work[k], width, height, steps[k].kernel);
-    }
+    float *scratch = image_of(f)->lab[0]; /* free to use, since it is written later */
+    for (int k = 0; k < 4; k++)
+        filter_plane(steps[k].from, scratch, f->work[k], width, height, steps[k].kernel, steps[k].kernel);
     parallel_rows(height, to_hunt, f);
 }
 
 static void make_image(struct flip *f, bool found) {
     f->found = found;
     parallel_rows(f->c->found->height, to_opponent, f);
-    find_features(f, &f->edge, to_edges);
-    find_features(f, &f->point, to_points);
+    find_features(f, &f->edge, image_of(f)->edge);
+    find_features(f, &f->point, image_of(f)->point);
     filter_color(f);
 }
 
-/* ---- Both ---- */
+/* ---- Both images ---- */
 
 /* The largest difference that two colors of a display can have, of green and blue. */
 static float largest_difference(void) {

@@ -6,7 +6,7 @@
 #include "glint/sort.h"
 #include "tone.h"
 
-/* Where the tone curve bends to white: the brightest pixel of the first exposure and the median one of the last are shown as this. */
+/* The value, near the shoulder of the tone curve, that the brightest pixel gets at the first exposure and the median pixel at the last. */
 static const double SHOWN = 0.85;
 
 /* The radiance that the curve maps to `shown`: the positive root of a quadratic. */
@@ -16,9 +16,9 @@ static double radiance_shown_as(double shown) {
     return (-b + sqrt(b * b - 4 * a * c)) / (2 * a);
 }
 
-/* Highest and median luminance of what is compared of the truth. Where more than half is black the median is of what is not: black
-   stays black at any exposure. False when all is. */
-static bool luminances(const struct comparison *c, float *values, double *highest, double *median) {
+/* Highest and median luminance of the compared pixels of the truth. If more than half of them are black, the median is that of the others, since
+   black does not depend on exposure. False if all are black. */
+static bool find_luminances(const struct comparison *c, float *values, double *highest, double *median) {
     size_t pixels = (size_t)c->found->width * c->found->height, n = 0, black = 0;
     for (size_t i = 0; i < pixels; i++) {
         float rgb[3];
@@ -44,7 +44,7 @@ static bool choose_exposures(const struct comparison *c, struct glint_error *err
     if (t->start_exposure == 0 && t->stop_exposure == 0) {
         float *values = malloc(((size_t)c->found->width * c->found->height + 1) * sizeof *values);
         if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "HDR-FLIP: out of memory");
-        if (luminances(c, values, &highest, &median)) {
+        if (find_luminances(c, values, &highest, &median)) {
             t->start_exposure = log2(radiance_shown_as(SHOWN) / highest);
             t->stop_exposure = log2(radiance_shown_as(SHOWN) / median);
         }
@@ -68,7 +68,7 @@ static bool compare_exposures(const struct comparison *c, struct flip *flip, str
 }
 
 bool map_flip(struct comparison *c, struct glint_error *err) {
-    const bool low = asks_for(c, GLINT_METRIC_FLIP), high = asks_for(c, GLINT_METRIC_HDR_FLIP);
+    const bool low = has_metric(c, GLINT_METRIC_FLIP), high = has_metric(c, GLINT_METRIC_HDR_FLIP);
     struct glint_metric_table *t = c->table;
     struct flip flip = {0};
     if (!c->has_rgb || (!low && !high)) return true;

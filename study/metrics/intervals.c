@@ -1,5 +1,5 @@
-/* Confidence intervals: bootstrap over tiles of pixels, because neighbours do not err independently, and percentiles of the
-   resampled figures (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapters 8 and 13). */
+/* Confidence intervals: bootstrap over tiles of pixels, since errors of neighbours are correlated, and percentiles of the resampled figures
+   (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapters 8 and 13). */
 #include "comparison.h"
 
 #include <math.h>
@@ -7,11 +7,12 @@
 #include <string.h>
 
 #include "glint/sort.h"
+#include "random.h"
 #include "threads.h"
 
 static const double TAIL = 0.025; /* on either side of a 95 % interval */
 
-/* A tile's sums of one row of the table, where there are any. */
+/* A tile that contains pixels of a row of the table. */
 struct entry {
     size_t tile, row;
 };
@@ -25,23 +26,15 @@ struct bootstrap {
     uint32_t *drawn; /* [worker][tile] */
 };
 
-/* splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014). */
-static uint64_t next_random(uint64_t *state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-
 /* How often each tile is drawn. A resample has a stream of its own, whichever thread it runs on. */
-static void draw_tiles(const struct bootstrap *b, size_t resample, uint32_t *drawn) {
-    uint64_t state = (uint64_t)b->c->options->seed << 32 | resample;
+static void draw_tiles(const struct bootstrap *b, size_t index, uint32_t *drawn) {
+    uint64_t state = (uint64_t)b->c->options->seed << 32 | index;
     state = next_random(&state);
     memset(drawn, 0, b->tiles * sizeof *drawn);
     for (size_t i = 0; i < b->tiles; i++) drawn[(next_random(&state) >> 32) * b->tiles >> 32]++;
 }
 
-static bool resample(void *user, uint32_t worker, size_t index) {
+static bool evaluate_resample(void *user, uint32_t worker, size_t index) {
     const struct bootstrap *b = user;
     uint32_t *drawn = b->drawn + worker * b->tiles;
     double *sums = b->sums + worker * b->rows * SUM_COUNT;
@@ -61,7 +54,7 @@ static bool resample(void *user, uint32_t worker, size_t index) {
     return true;
 }
 
-/* The ends of the interval, of `values`, which are moved. A resample that drew none of a class's tiles has no value for it. */
+/* The bounds of the interval from `values`, which are reordered. A resample that drew none of a class's tiles has no value for it. */
 static void set_interval(struct glint_figure *figure, double *values, size_t resamples) {
     size_t n = 0;
     for (size_t i = 0; i < resamples; i++)
@@ -95,7 +88,7 @@ bool find_intervals(struct comparison *c, struct glint_error *err) {
               glint_fail(err, GLINT_ERROR_MEMORY, "confidence intervals: out of memory");
     if (ok) {
         list_entries(&b, tiles_of_row);
-        glint_loop(resamples, workers, resample, &b);
+        glint_loop(resamples, workers, evaluate_resample, &b);
     }
     /* A single tile cannot say how much tiles differ. */
     for (size_t row = 0; ok && row < b.rows; row++)

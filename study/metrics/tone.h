@@ -1,4 +1,4 @@
-/* How radiance is shown to SSIM and to HDR-FLIP. */
+/* The tone curve of SSIM and HDR-FLIP. */
 #ifndef GLINT_STUDY_TONE_H
 #define GLINT_STUDY_TONE_H
 
@@ -9,7 +9,7 @@ struct tone_curve {
 };
 static const struct tone_curve ACES = {0.6 * 0.6 * 2.51, 0.6 * 0.03, 0, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
 
-/* In [0, 1], linear. Negative values, which no display has, are black. */
+/* Maps radiance to linear values in [0, 1]; negative radiance becomes black. */
 static inline float tone_map(float x) {
     const float a = (float)ACES.a, b = (float)ACES.b, d = (float)ACES.d, e = (float)ACES.e, f = (float)ACES.f;
     if (!(x > 0)) return 0;

@@ -1,4 +1,4 @@
-/* The reference: created or resumed, traced round by round, kept. */
+/* The reference: creates or resumes it, traces rounds of rays, stores it. */
 #include "reference.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SAVE_SECONDS = 5; /* what an end without warning may cost */
+static const double SAVE_SECONDS = 5; /* the work that a crash may lose */
 
 static bool any_reflects(const struct glint_reference *reference) {
     const struct glint_part_info *part = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
@@ -56,11 +56,11 @@ void glint_reference_destroy(struct glint_reference **pointer) {
     free(reference);
 }
 
-static uint32_t all_rays(const struct glint_reference_state *state) {
+static uint32_t count_rays(const struct glint_reference_state *state) {
     return state->rays + state->begun;
 }
 
-/* How many rays it will take: noise falls with the root of their number. */
+/* The expected number of rays, since noise falls with the square root of that number. */
 static double rays_expected(const struct glint_reference_state *state, uint32_t rays, double noise) {
     const double now = state->noise[0].relative;
     if (!(noise > 0) || state->rays == 0) return rays;
@@ -74,16 +74,16 @@ static bool is_reached(const struct glint_reference_state *state, uint32_t rays,
 static void describe_part(struct glint_progress_part *part, const struct glint_reference_state *state, uint32_t first,
                           double expected) {
     const double todo = fmax(expected - first, 1);
-    const int length = snprintf(part->text, sizeof part->text, "%u of %.0f rays", all_rays(state),
+    const int length = snprintf(part->text, sizeof part->text, "%u of %.0f rays", count_rays(state),
                                 ceil(expected / GLINT_REFERENCE_ROUND) * GLINT_REFERENCE_ROUND);
     if (state->rays)
         snprintf(part->text + length, sizeof part->text - (size_t)length, ", noise %.3g %%",
                  100 * state->noise[0].relative);
-    part->done = (all_rays(state) - first) / todo;
+    part->done = (count_rays(state) - first) / todo;
     part->share = 1 / todo;
 }
 
-/* The next rays, and what follows when they complete a round. */
+/* Traces the next rays, and measures the noise if they complete a round. */
 static bool trace_part(struct glint_reference *reference, struct glint_progress_part *part, struct glint_error *err) {
     struct glint_reference_state *state = &reference->state;
     struct halves *halves = &reference->halves;
@@ -98,7 +98,7 @@ static bool trace_part(struct glint_reference *reference, struct glint_progress_
     return ok;
 }
 
-/* `kept`: the rays of the complete reference in the folder, which what is under way goes on from. */
+/* *kept is the number of rays of the complete reference in the folder. */
 static bool save_reference(struct glint_reference *reference, uint32_t *kept, struct glint_error *err) {
     const uint32_t rays = reference->state.rays;
     if (rays != *kept && !reference_save(reference, err)) return false;
@@ -110,17 +110,17 @@ bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, dou
                            void *user, struct glint_error *err) {
     struct glint_reference_state *state = &reference->state;
     struct glint_progress_part part = {.progress = progress, .user = user};
-    const uint32_t first = all_rays(state);
+    const uint32_t first = count_rays(state);
     uint32_t kept = state->rays;
     double saved = glint_now_seconds();
     bool unsaved = false;
     bool ok = rays <= GLINT_REFERENCE_RAYS_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "rays: expected at most %d, found %u", GLINT_REFERENCE_RAYS_MAX, rays);
     while (ok && !is_reached(state, rays, noise)) {
-        const uint32_t before = all_rays(state);
+        const uint32_t before = count_rays(state);
         describe_part(&part, state, first, rays_expected(state, rays, noise));
         ok = trace_part(reference, &part, err);
-        unsaved = unsaved || (reference->folder && all_rays(state) != before);
+        unsaved = unsaved || (reference->folder && count_rays(state) != before);
         if (!ok || !unsaved || glint_now_seconds() - saved < SAVE_SECONDS) continue;
         ok = save_reference(reference, &kept, err);
         saved = glint_now_seconds();
@@ -142,12 +142,12 @@ bool glint_reference_pixels(const struct glint_reference *reference, struct glin
     return reference_mean(&reference->halves, pixels, error, err);
 }
 
-bool glint_study_missing(const struct glint_pixels *reference, const float *reference_error,
-                         const struct glint_pixels *truth, const float *truth_error, const uint8_t *surfaces,
-                         struct glint_image_errors *errors, struct glint_error *err) {
+bool glint_study_reference_bias(const struct glint_pixels *reference, const float *reference_error,
+                                const struct glint_pixels *truth, const float *truth_error, const uint8_t *surfaces,
+                                struct glint_image_errors *errors, struct glint_error *err) {
     const size_t pixels = (size_t)truth->width * truth->height;
     if (reference->width != truth->width || reference->height != truth->height)
-        return glint_study_image(reference, truth, 3, surfaces, truth_error, errors, err); /* which fails */
+        return glint_study_image(reference, truth, 3, surfaces, truth_error, errors, err); /* fails with a message */
     float *both = calloc(pixels + 1, sizeof *both);
     if (!both) return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
     for (size_t i = 0; i < pixels; i++) {
@@ -160,7 +160,7 @@ bool glint_study_missing(const struct glint_pixels *reference, const float *refe
         }
         const double of_truth = truth_error ? (double)truth_error[i] : 0,
                      of_own = reference_error ? (double)reference_error[i] : 0;
-        if (isinf(of_truth)) both[i] = INFINITY; /* not known there */
+        if (isinf(of_truth)) both[i] = INFINITY; /* the truth is unknown there */
         else if (truth2 > 0) both[i] = (float)sqrt(of_truth * of_truth + of_own * of_own * own2 / truth2);
     }
     bool ok = glint_study_image(reference, truth, 3, surfaces, both, errors, err);

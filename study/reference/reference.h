@@ -1,4 +1,4 @@
-/* What the parts of the reference share. */
+/* Internal state of the reference. */
 #ifndef GLINT_STUDY_REFERENCE_H
 #define GLINT_STUDY_REFERENCE_H
 
@@ -9,16 +9,15 @@
 /* Both halves' means of R G B A. */
 struct halves {
     struct glint_pixels of[2], batch[2];
-    uint32_t rays;       /* a pixel, of each */
-    uint32_t batched[2]; /* of the round under way, in batch[] */
+    uint32_t rays;       /* rays a pixel in each half */
+    uint32_t batched[2]; /* rays a pixel of the unfinished round, whose means are in batch[] */
 };
-/* Runs some more rays of the round under way. Nothing is changed when it fails. After the last of them both means have them,
-   and none is under way. */
+/* Traces the next rays of the round. On failure nothing is changed. When the round is complete its rays are added to both means. */
 bool halves_run(struct halves *halves, const struct glint_reference *reference, struct glint_pipeline *pipeline,
                 glint_progress progress, void *user, struct glint_error *err);
-/* How many rays that runs. */
+/* The number of rays that halves_run traces next. */
 uint32_t halves_next(const struct halves *halves, const struct glint_reference *reference);
-/* The rest of the round. */
+/* Traces the rest of the round. */
 bool halves_trace(struct halves *halves, const struct glint_reference *reference, struct glint_pipeline *pipeline,
                   glint_progress progress, void *user, struct glint_error *err);
 void halves_finish(struct halves *halves);
@@ -34,33 +33,33 @@ struct glint_reference {
     uint8_t *surfaces;
     struct halves halves;
     struct glint_reference_state state;
-    json_t *settings;    /* what its rays follow from; NULL without a folder */
-    json_t *sensitivity; /* NULL: not asked for yet */
-    json_t *record;      /* run.json as it is or will be; NULL before the first round */
+    json_t *settings;    /* everything that its rays depend on; NULL without a folder */
+    json_t *sensitivity; /* NULL before it is measured */
+    json_t *record;      /* run.json; NULL before the first round */
 };
 
 /* reference_rays.c */
-/* (A + B)/2, and its standard error relative to it. */
+/* (A + B)/2 and its relative standard error. */
 bool reference_mean(const struct halves *halves, struct glint_pixels *mean, float **error, struct glint_error *err);
 bool reference_measure(struct glint_reference *reference, struct glint_error *err);
 
 /* reference_json.c */
-enum { REFERENCE_DIGITS = 9 }; /* of numbers, as in run.json */
+enum { REFERENCE_DIGITS = 9 }; /* significant digits of numbers, as in run.json */
 bool reference_settings(struct glint_reference *reference, struct glint_error *err);
 json_t *reference_json(const struct glint_reference *reference);
-/* Names the first setting in which two differ. */
+/* Fails with a message that names the first setting that differs. */
 bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err);
 json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity);
 
 /* reference_folder.c */
 bool reference_resume(struct glint_reference *reference, bool overwrite, struct glint_error *err);
-/* What the replay's last run was is kept for run.json. */
+/* Stores the record of the replay's last run for run.json. */
 bool reference_note(struct glint_reference *reference, struct glint_error *err);
 bool reference_save(struct glint_reference *reference, struct glint_error *err);
 
-/* reference_round.c: the round under way, in the folder's unfinished.exr. */
+/* reference_round.c: the unfinished round, which the folder's unfinished.exr stores. */
 bool reference_save_round(struct glint_reference *reference, struct glint_error *err);
-/* Nothing when there is none, or when the reference has gone on since. */
+/* Does nothing if there is none, or if it is older than the reference. */
 bool reference_resume_round(struct glint_reference *reference, struct glint_error *err);
 void reference_remove_round(const struct glint_reference *reference);
 

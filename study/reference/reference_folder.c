@@ -1,5 +1,5 @@
-/* The folder of a reference: a run folder whose images are the mean, its noise and both halves. run.json names the file of
-   its images by their number of rays, so that replacing it is all that ever changes the folder's contents. */
+/* The folder of a reference: a run folder with the mean, its standard error and both halves. The name of the image file contains the number of rays,
+   so that replacing run.json switches atomically from one file to the next. */
 #include "reference.h"
 
 #include <errno.h>
@@ -9,28 +9,26 @@
 #include <unistd.h>
 
 #include "glint/exr.h"
+#include "no_memory.h"
+#include "values.h"
 
 enum { IMAGES = 4 };
-/* The mean is the last one: the reflection of a run is. */
+/* The mean comes last, since the last image of a run is its reflection. */
 static const struct {
     const char *name, *channels, *unit, *meaning;
 } images[IMAGES] = {
     {"reflection_a", "R G B A", "radiance", "mean of one half of the rays"},
     {"reflection_b", "R G B A", "radiance", "mean of the other half, which shares no random number with the first"},
     {"reflection_error", "error", "1",
-     "standard error of the mean of both halves, relative to it, by what they differ by"},
+     "relative standard error of the mean, estimated from the difference of both halves"},
     {NULL, "R G B A", "radiance", "mean of both halves"},
 };
 
-/* The mean goes by the name of the reflection itself. */
+/* The mean has the name of the reflection itself. */
 static const char *image_name(int i) {
     const char *name = images[i].name;
     if (!name) glint_pass_with_role(GLINT_ROLE_COMPOSED, &name);
     return name;
-}
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
 }
 
 /* ---- Reading ---- */
@@ -41,9 +39,8 @@ static bool read_half(struct glint_run *run, const char *folder, const char *nam
     if (!image || image->width != part->width || image->height != part->height || image->components != 4)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected R G B A of %u × %u", folder, name,
                           part->width, part->height);
-    *pixels = (struct glint_pixels){part->width, part->height, 4, NULL};
-    pixels->values = malloc((size_t)part->width * part->height * 4 * sizeof *pixels->values);
-    return pixels->values ? glint_run_read(run, image, GLINT_F32, pixels->values, err) : no_memory(err);
+    *pixels = (struct glint_pixels){part->width, part->height, 4, study_run_values(run, image, err)};
+    return pixels->values != NULL;
 }
 
 static bool read_folder(struct glint_reference *reference, struct glint_run *run, struct glint_error *err) {
@@ -54,7 +51,7 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
     const json_int_t rays = json_integer_value(json_object_get(own, "rays"));
     struct glint_error differs = {0};
     if (!own)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds a run that is no reference; expected another folder",
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds a run that is not a reference; expected another folder",
                           folder);
     if (!reference_same_settings("", json_object_get(own, "settings"), reference->settings, &differs))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds another reference: %s", folder, differs.message);
@@ -69,8 +66,7 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
            reference_measure(reference, err);
 }
 
-/* Whether it can be written is known before anything is traced; an empty folder that was not there before is taken away
-   again until there is something to keep. */
+/* Checks before anything is traced that the folder can be written. A folder that did not exist is removed again until there is something to store. */
 static bool probe_folder(const char *folder, struct glint_error *err) {
     const bool there = access(folder, F_OK) == 0;
     if (!glint_make_folder(folder, err)) return false;
@@ -99,14 +95,13 @@ bool glint_study_run_error(struct glint_run *run, float **error, struct glint_er
     if (image->components != 1)
         return glint_fail(err, GLINT_ERROR_FORMAT, "image %s: expected one channel, found %s", image->name,
                           image->channels);
-    *error = malloc((size_t)image->width * image->height * sizeof **error);
-    return *error ? glint_run_read(run, image, GLINT_F32, *error, err) : no_memory(err);
+    return (*error = study_run_values(run, image, err)) != NULL;
 }
 
 /* ---- Writing ---- */
 
-/* The pass that made the reflection. */
-static json_t *last_that_ran(const json_t *record) {
+/* The last pass that ran, which lists the images of the reference. */
+static json_t *last_run_pass(const json_t *record) {
     json_t *pass, *last = NULL;
     size_t p;
     json_array_foreach(json_object_get(record, "passes"), p, pass) {
@@ -115,9 +110,9 @@ static json_t *last_that_ran(const json_t *record) {
     return last;
 }
 
-/* The file that a record lists; "" for none. */
-static void file_of(const json_t *record, char file[64]) {
-    const json_t *image = json_array_get(json_object_get(last_that_ran(record), "images"), 0);
+/* The image file that a record lists, or "". */
+static void find_image_file(const json_t *record, char file[64]) {
+    const json_t *image = json_array_get(json_object_get(last_run_pass(record), "images"), 0);
     const char *name = json_string_value(json_object_get(image, "file"));
     snprintf(file, 64, "%s", name && !strchr(name, '/') ? name : "");
 }
@@ -126,9 +121,9 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
     char *text = glint_replay_json(reference->replay, err);
     json_t *record = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
-    if (!record) return text && no_memory(err);
+    if (!record) return text && no_memory(err, "reference");
     json_t *own = reference_json(reference);
-    json_t *list = json_array(), *last = last_that_ran(record);
+    json_t *list = json_array(), *last = last_run_pass(record);
     for (int i = 0; i < IMAGES; i++)
         json_array_append_new(
             list, json_pack("{ss ss* ss ss ss ss si si ss}", "name", image_name(i), "file", NULL, "part", image_name(i),
@@ -140,7 +135,7 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
               json_object_set_new(record, "reference", own) == 0 && json_object_set_new(last, "images", list) == 0;
     json_decref(reference->record);
     reference->record = record;
-    return ok || no_memory(err);
+    return ok || no_memory(err, "reference");
 }
 
 static void fill_part(const struct glint_pixels *pixels, int i, struct glint_exr_channel channels[4],
@@ -185,7 +180,7 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
     char before[64] = "", file[64], path[4096];
     struct glint_run *run = glint_run_open(reference->folder, NULL);
     json_t *old = run ? json_loads(glint_run_json(run), 0, NULL) : NULL;
-    if (old) file_of(old, before);
+    if (old) find_image_file(old, before);
     glint_run_close(&run);
     json_decref(old);
     snprintf(file, sizeof file, "reference-%u.exr", reference->state.rays);
@@ -195,11 +190,11 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
     if (strcmp(before, file) != 0 && !write_images(reference, path, err)) return false;
     json_t *image;
     size_t i;
-    json_array_foreach(json_object_get(last_that_ran(reference->record), "images"), i, image) {
+    json_array_foreach(json_object_get(last_run_pass(reference->record), "images"), i, image) {
         json_object_set_new(image, "file", json_string(file));
     }
     char *text = json_dumps(reference->record, JSON_REAL_PRECISION(17));
-    const bool written = text ? glint_run_write_json(reference->folder, text, err) : no_memory(err);
+    const bool written = text ? glint_run_write_json(reference->folder, text, err) : no_memory(err, "reference");
     free(text);
     if (!written) return false;
     if (!reference->state.begun) reference_remove_round(reference);

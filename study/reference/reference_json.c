@@ -1,4 +1,4 @@
-/* What run.json says of a reference: its rays, its noise, what it depends on and what they follow from. */
+/* The object "reference" of run.json: rays, noise, sensitivity, settings. */
 #include "reference.h"
 
 #include <inttypes.h>
@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
-}
+#include "no_memory.h"
 
 static json_t *values_json(const struct glint_pipeline *pipeline, const struct glint_pass *pass) {
     json_t *values = json_object();
@@ -47,13 +45,13 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
     json_t *all = ok ? json_pack("{ss ss ss ss sb sO}", "capture", hash, "device", device->name, "driver",
                                  device->driver_version, "tool", GLINT_VERSION, "all", reference->all, "passes", passes)
                      : NULL;
-    /* As a file gives them back. */
+    /* Written and read once, so that numbers are rounded as in a file. */
     char *text = all ? json_dumps(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
     reference->settings = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     json_decref(all);
     json_decref(passes);
-    return reference->settings || (ok && no_memory(err));
+    return reference->settings || (ok && no_memory(err, "reference"));
 }
 
 static json_t *noise_json(const struct glint_reference_state *state) {
@@ -100,7 +98,7 @@ char *glint_reference_json(const struct glint_reference *reference) {
     return text;
 }
 
-/* ---- Whether it is the same ---- */
+/* ---- Comparing settings ---- */
 
 static void value_text(const json_t *value, char text[80]) {
     char *dumped =
@@ -114,12 +112,12 @@ bool reference_same_settings(const char *where, const json_t *there, const json_
     json_t *value;
     if (json_equal(there, here)) return true;
     const json_t *more = json_object_size(there) > json_object_size(here) ? there : here;
-    json_object_foreach((json_t *)more, key, value) { /* the macro reads alone */
+    json_object_foreach((json_t *)more, key, value) { /* the macro only reads */
         char path[256];
         snprintf(path, sizeof path, "%s%s%s", where, *where ? "." : "", key);
         if (!reference_same_settings(path, json_object_get(there, key), json_object_get(here, key), err)) return false;
     }
-    if (json_is_object(there) && json_is_object(here)) return true; /* the other one's keys are the same number */
+    if (json_is_object(there) && json_is_object(here)) return true; /* both have the same keys */
     char texts[2][80];
     value_text(there, texts[0]);
     value_text(here, texts[1]);

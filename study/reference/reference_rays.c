@@ -1,4 +1,4 @@
-/* Rays of the reference in two halves, and the noise that is left between them. */
+/* Traces the rays of both halves and estimates the noise from their difference. */
 #include "reference.h"
 
 #include <math.h>
@@ -13,8 +13,8 @@ void halves_finish(struct halves *halves) {
     *halves = (struct halves){0};
 }
 
-/* Little should be lost by an interruption. A software device takes seconds or minutes for one ray of all pixels; a GPU is faster
-   with several in one piece, of pictures above 960 × 540 with fewer. */
+/* An interruption should lose little work. A software device takes seconds or minutes for a ray of all pixels. A GPU is faster with several rays in one
+   run, or with fewer for pictures above 960 × 540. */
 static uint32_t rays_at_once(const struct glint_reference *reference) {
     const struct glint_part_info *part = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
     uint32_t rays = GLINT_REFERENCE_BATCH;
@@ -24,7 +24,7 @@ static uint32_t rays_at_once(const struct glint_reference *reference) {
     return rays;
 }
 
-/* The half that is begun, or the first. */
+/* The half whose rays come next. */
 static int next_half(const struct halves *halves) {
     return halves->batched[0] == GLINT_REFERENCE_BATCH;
 }
@@ -60,7 +60,7 @@ static size_t count_invalid(const struct glint_pixels *pixels) {
     return invalid;
 }
 
-/* The mean of `before` values goes on with that of `count` more, so that what is kept is what is shown. */
+/* Adds the mean of `count` more values to the mean of `before` values. */
 static void add_mean(struct glint_pixels *mean, uint32_t before, struct glint_pixels *more, uint32_t count) {
     if (before == 0) {
         glint_pixels_finish(mean);
@@ -124,7 +124,7 @@ bool reference_mean(const struct halves *halves, struct glint_pixels *mean, floa
             const size_t at = i * a->components + k;
             const double of_a = (double)a->values[at], of_b = (double)b->values[at];
             mean->values[at] = (float)(0.5 * (of_a + of_b));
-            if (k >= 3) continue; /* not of the colour */
+            if (k >= 3) continue; /* alpha */
             off2 += 0.25 * (of_a - of_b) * (of_a - of_b);
             value2 += 0.25 * (of_a + of_b) * (of_a + of_b);
         }

@@ -1,5 +1,5 @@
-/* The round under way, kept in the reference's folder until it is complete: unfinished.exr holds the mean of each half's rays
-   so far, and says which reference it goes on from. */
+/* Stores the unfinished round in the reference's folder: unfinished.exr contains the means of each half's rays so far, and the number of rays of the
+   complete reference that it continues. */
 #include "reference.h"
 
 #include <math.h>
@@ -103,7 +103,7 @@ static bool read_round(struct glint_reference *reference, struct glint_exr *exr,
         const struct glint_exr_part_info *part = glint_exr_part(exr, i);
         const double rays = number_of(part, "rays"), after = number_of(part, "after");
         if (!same_settings(reference, part, err)) return false;
-        if (after != halves->rays) return true; /* what it went on from is no longer there, or it has been added */
+        if (after != halves->rays) return true; /* the complete reference has more or fewer rays than it continues */
         if (strcmp(part->name, part_names[i]) != 0 || !(rays >= 1 && rays <= GLINT_REFERENCE_BATCH) ||
             (i == 0 && count == 2 && rays != GLINT_REFERENCE_BATCH) || (i == 1 && rays == GLINT_REFERENCE_BATCH))
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected a part of a round, found %g rays", path,

@@ -1,4 +1,4 @@
-/* What the reference must assume: references with other assumptions, from the same random numbers, beside each other. */
+/* Sensitivity of the reference to ASSUMED parameters: compares references with changed parameters that use the same random numbers. */
 #include "reference.h"
 
 #include <math.h>
@@ -40,9 +40,8 @@ static bool trace_rounds(const struct glint_reference *reference, struct glint_p
     return true;
 }
 
-/* Turns the halves of `changed` into what they differ by from those of `base`. With changes D of both halves the mean
-   change is (D_A + D_B)/2 and its noise (D_A - D_B)/2, and the first one's square less the second's is D_A · D_B, which no
-   noise adds to: they share none. */
+/* Replaces the halves of `changed` by their differences D to those of `base`. The mean change is (D_A + D_B)/2 and its noise (D_A - D_B)/2. The
+   difference of their squares is D_A · D_B, which noise does not bias since that of both halves is independent. */
 static bool compare_halves(const struct halves *base, struct halves *changed, const uint8_t *surfaces,
                            struct glint_reference_assumption *row, struct glint_error *err) {
     struct glint_pixels mean = {0}, before = {0};
@@ -65,8 +64,9 @@ static bool compare_halves(const struct halves *base, struct halves *changed, co
     return ok;
 }
 
-static bool try_row(const struct glint_reference *reference, uint32_t rays, const struct halves *base,
-                    struct glint_reference_assumption *row, struct glint_progress_part *part, struct glint_error *err) {
+static bool trace_assumption(const struct glint_reference *reference, uint32_t rays, const struct halves *base,
+                             struct glint_reference_assumption *row, struct glint_progress_part *part,
+                             struct glint_error *err) {
     char assignment[192];
     struct halves halves = {0};
     struct glint_pipeline *pipeline = glint_pipeline_copy(reference->pipeline, err);
@@ -80,9 +80,9 @@ static bool try_row(const struct glint_reference *reference, uint32_t rays, cons
     return ok;
 }
 
-/* Remembers what was found, in the folder too. */
-static bool keep(struct glint_reference *reference, const struct glint_reference_sensitivity *sensitivity,
-                 struct glint_error *err) {
+/* Stores the result, also in the folder. */
+static bool store_sensitivity(struct glint_reference *reference, const struct glint_reference_sensitivity *sensitivity,
+                              struct glint_error *err) {
     json_t *found = reference_sensitivity_json(sensitivity);
     bool ok = found != NULL;
     if (ok) {
@@ -109,9 +109,9 @@ bool glint_reference_sensitivity(struct glint_reference *reference, uint32_t ray
     for (size_t i = 0; ok && i < sensitivity->count; i++) {
         if (!sensitivity->rows[i].ran) continue;
         part.done += part.share;
-        ok = try_row(reference, rays, &base, &sensitivity->rows[i], &part, err);
+        ok = trace_assumption(reference, rays, &base, &sensitivity->rows[i], &part, err);
     }
     sensitivity->rays = 2 * base.rays;
     halves_finish(&base);
-    return ok && keep(reference, sensitivity, err);
+    return ok && store_sensitivity(reference, sensitivity, err);
 }

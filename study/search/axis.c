@@ -1,4 +1,4 @@
-/* Axes: their names, and the values that a list or a range stands for. */
+/* Parses axes: names, and the values of a list or a range. */
 #include "axis.h"
 
 #include <math.h>
@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The pipeline's own numbers, which no pass declares. */
-static bool is_own(const char *name) {
+/* Whether it is a parameter of the pipeline itself, which no pass declares. */
+static bool is_pipeline_parameter(const char *name) {
     return strncmp(name, "pipeline.", 9) == 0;
 }
 
-/* The row of slot.parameter in the pipeline; NULL when it has none. */
+/* The row of slot.parameter in the pipeline, or NULL. */
 static const struct glint_row *find_row(const struct glint_pipeline *pipeline, const char *name) {
     const char *dot = strchr(name, '.');
     for (size_t i = 0; dot && i < glint_pipeline_pass_count(pipeline); i++) {
@@ -24,7 +24,7 @@ static const struct glint_row *find_row(const struct glint_pipeline *pipeline, c
 
 bool axis_applies(const struct axis *axis, const struct glint_pipeline *pipeline) {
     for (size_t i = 0; i < axis->name_count; i++)
-        if (axis->variant || is_own(axis->names[i]) || find_row(pipeline, axis->names[i])) return true;
+        if (axis->variant || is_pipeline_parameter(axis->names[i]) || find_row(pipeline, axis->names[i])) return true;
     return false;
 }
 
@@ -33,7 +33,7 @@ bool axis_assign(const struct axis *axis, struct glint_pipeline *pipeline, const
     struct glint_error own = {0};
     bool ok = true;
     for (size_t i = 0; ok && i < axis->name_count; i++) {
-        if (!axis->variant && !is_own(axis->names[i]) && !find_row(pipeline, axis->names[i])) continue;
+        if (!axis->variant && !is_pipeline_parameter(axis->names[i]) && !find_row(pipeline, axis->names[i])) continue;
         snprintf(assignment, sizeof assignment, "%s=%s", axis->names[i], value);
         ok = axis->variant ? glint_pipeline_use(pipeline, assignment, &own)
                            : glint_pipeline_set(pipeline, assignment, &own);
@@ -71,10 +71,10 @@ void axis_finish(struct axis *axis) {
 
 static bool add_value(struct axis *axis, const char *value, struct glint_error *err) {
     for (size_t i = 0; i < axis->count; i++)
-        if (!strcmp(axis->values[i], value)) return true; /* whole numbers near each other */
+        if (!strcmp(axis->values[i], value)) return true; /* rounding to whole numbers may repeat values */
     if (axis->count == AXIS_VALUES)
         return glint_fail(err, GLINT_ERROR_LIMIT, "--vary %s: expected at most %d values", axis->text, AXIS_VALUES);
-    if ((axis->count & (axis->count + 1)) == 0) { /* 0, 1, 3, 7: full */
+    if ((axis->count & (axis->count + 1)) == 0) { /* 0, 1, 3, 7, …: the array is full */
         void *larger = realloc(axis->values, 2 * (axis->count + 1) * sizeof *axis->values);
         if (!larger) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         axis->values = larger;
@@ -104,7 +104,7 @@ static bool read_list(struct axis *axis, const char *text, struct glint_error *e
     return true;
 }
 
-/* Doubles, or `count` values of equal ratios. */
+/* `count` values with equal ratios, or doublings if `count` is 0. */
 static bool add_ratios(struct axis *axis, size_t count, struct glint_error *err) {
     const double low = axis->low, high = axis->high;
     if (!(low > 0))
@@ -131,7 +131,8 @@ static bool add_steps(struct axis *axis, double step, struct glint_error *err) {
 
 static bool read_range(struct axis *axis, const char *text, struct glint_error *err) {
     char low[VALUE_SIZE], *end, *rest;
-    const char *dots = strstr(text, ".."); /* "4." would be a number */
+    const char *dots =
+        strstr(text, ".."); /* the lower end is copied, since strtod would parse "4." of "4..8" as a number */
     axis->range = true;
     snprintf(low, sizeof low, "%.*s", (int)(dots - text), text);
     axis->low = strtod(low, &end);
@@ -159,14 +160,15 @@ static bool read_range(struct axis *axis, const char *text, struct glint_error *
     return ratios ? add_ratios(axis, (size_t)number, err) : add_steps(axis, number, err);
 }
 
-/* The declaration that tells what kind of values the axis takes; none needed for variants and what is the pipeline's own. */
+/* Finds in the declarations what kind of values the axis takes. */
 static bool read_kind(struct axis *axis, const struct glint_pipeline *const *pipelines, size_t count, bool range,
                       struct glint_error *err) {
     for (size_t n = 0; n < axis->name_count; n++) {
         const struct glint_row *row = NULL;
         for (size_t p = 0; p < count && !row; p++) row = find_row(pipelines[p], axis->names[n]);
-        axis->whole |= is_own(axis->names[n]) || (row && row->type != GLINT_VALUE_FLOAT);
-        if (!row && !is_own(axis->names[n])) { /* its message says what there is */
+        axis->whole |= is_pipeline_parameter(axis->names[n]) || (row && row->type != GLINT_VALUE_FLOAT);
+        if (!row && !is_pipeline_parameter(
+                        axis->names[n])) { /* for the message of glint_pipeline_set, which lists the known names */
             struct glint_pipeline *copy = glint_pipeline_copy(pipelines[0], err);
             struct glint_error own = {0};
             char assignment[384];
@@ -201,7 +203,7 @@ void axis_value(const struct axis *axis, double at, char value[VALUE_SIZE]) {
     }
     double number;
     if (axis->log) number = axis->low * pow(axis->high / axis->low, at);
-    else if (axis->whole) number = axis->low + floor(at * (axis->high - axis->low + 1)); /* each as likely */
+    else if (axis->whole) number = axis->low + floor(at * (axis->high - axis->low + 1)); /* with equal probability */
     else number = axis->low + at * (axis->high - axis->low);
     if (axis->whole) number = round(number);
     snprintf(value, VALUE_SIZE, "%.7g", number > axis->high ? axis->high : number);

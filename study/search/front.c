@@ -1,4 +1,4 @@
-/* The Pareto front: what nothing else beats. */
+/* Pareto fronts. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -25,7 +25,7 @@ bool glint_pareto(const double *x, const double *y, size_t count, bool *on, stru
         if (!isnan(x[i]) && !isnan(y[i])) places[valid++] = (struct place){x[i], y[i], i};
     }
     qsort(places, valid, sizeof *places, by_x_then_y);
-    double lowest = 0; /* of those before: what is not lower is beaten by one of them, or equal to it */
+    double lowest = 0; /* y of the points before, which dominate or equal every point that is not lower */
     for (size_t i = 0; i < valid; i++) {
         if (i > 0 && !(places[i].y < lowest)) continue;
         on[places[i].point] = true;

@@ -1,113 +1,105 @@
-/* The search: profiles of single steps, the best sum of them, polishing, new starts. */
+/* The search: profiles of single steps, their best combination, polishing by COBYLA, restarts. */
 #include "search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
+#include "no_memory.h"
+#include "random.h"
 
-/* splitmix64, S. Vigna */
-static double next_unit(uint64_t *state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-/* A step of one axis away from the centre, and what it changes alone. */
+/* A step along one axis away from the centre, and how it changes the figures. */
 struct move {
     size_t axis;
-    double to, wanted, limited;
+    double to, objective, constraint;
 };
 struct profile {
-    double *centre; /* in steps */
+    double *centre; /* of the profile, in steps */
     struct glint_search_figures at;
     struct move *moves;
     size_t count;
-    size_t *chosen; /* one an axis: its move + 1, 0: it stays */
-    bool *skip;     /* axes that are left as they are */
-    double *weight; /* what a step of an axis changed when it was last looked at, a part of both figures */
-    double *before; /* an earlier centre */
-    size_t *order;  /* axes by weight */
+    size_t *chosen; /* for each axis the index of the chosen move + 1, or 0 */
+    bool *skip;     /* axes that are not varied */
+    double *weight; /* for each axis the relative change of both figures in its last evaluated step */
+    double *before; /* scratch memory: another point */
+    size_t *order;  /* axes by descending weight */
 };
 
-static bool matters(const struct search *search, const struct glint_search_figures *a,
-                    const struct glint_search_figures *b) {
-    if (search_answers(a) != search_answers(b)) return true;
-    return fabs(a->wanted - b->wanted) > 1e-9 * fabs(a->wanted) ||
-           fabs(a->limited - b->limited) > (search->options->noise + 1e-9) * fabs(a->limited);
+static bool is_significant(const struct search *search, const struct glint_search_figures *a,
+                           const struct glint_search_figures *b) {
+    if (search_is_valid(a) != search_is_valid(b)) return true;
+    return fabs(a->objective - b->objective) > 1e-9 * fabs(a->objective) ||
+           fabs(a->constraint - b->constraint) > (search->options->noise + 1e-9) * fabs(a->constraint);
 }
 
-/* Tries one move; false at an error. *tried: there was a try left for it. */
-static bool look_along(struct search *search, struct profile *profile, size_t axis, double to, bool *tried,
-                       struct glint_error *err) {
+/* Evaluates one move; false on an error. *evaluated is false if max_points are used up. */
+static bool evaluate_move(struct search *search, struct profile *profile, size_t axis, double to, bool *evaluated,
+                          struct glint_error *err) {
     const double from = profile->centre[axis];
     profile->centre[axis] = to;
     const struct glint_search_point *point = search_at(search, profile->centre, err);
     profile->centre[axis] = from;
-    *tried = point != NULL;
+    *evaluated = point != NULL;
     if (!point) return err->code == GLINT_OK;
-    if (matters(search, &profile->at, &point->figures)) search->result->matters[axis] = true;
-    if (!search_answers(&point->figures) || !search_answers(&profile->at)) return true;
-    const struct move move = {axis, to, point->figures.wanted - profile->at.wanted,
-                              point->figures.limited - profile->at.limited};
+    if (is_significant(search, &profile->at, &point->figures)) search->result->matters[axis] = true;
+    if (!search_is_valid(&point->figures) || !search_is_valid(&profile->at)) return true;
+    const struct move move = {axis, to, point->figures.objective - profile->at.objective,
+                              point->figures.constraint - profile->at.constraint};
     profile->moves[profile->count++] = move;
-    profile->weight[axis] =
-        fmax(profile->weight[axis], fabs(move.wanted / profile->at.wanted) + fabs(move.limited / profile->at.limited));
+    profile->weight[axis] = fmax(profile->weight[axis], fabs(move.objective / profile->at.objective) +
+                                                            fabs(move.constraint / profile->at.constraint));
     return true;
 }
 
-/* How many axes weigh more. */
-static size_t rank(const struct search *search, const double *weight, size_t axis) {
+/* The number of axes with a larger weight. */
+static size_t weight_rank(const struct search *search, const double *weight, size_t axis) {
     size_t heavier = 0;
     for (size_t a = 0; a < search->count; a++)
         heavier += weight[a] > weight[axis] || (weight[a] == weight[axis] && a < axis);
     return heavier;
 }
 
-/* Axes by their weight, the heaviest first. */
-static void put_in_order(const struct search *search, const double *weight, size_t *order) {
-    for (size_t a = 0; a < search->count; a++) order[rank(search, weight, a)] = a;
+/* Sorts the axes by descending weight. */
+static void order_axes(const struct search *search, const double *weight, size_t *order) {
+    for (size_t a = 0; a < search->count; a++) order[weight_rank(search, weight, a)] = a;
 }
 
-/* Where an axis is looked at alone: each other choice; a step below and above. The i-th; NAN: there is none, *more false: nor
-   is another. */
-static double place(const struct glint_search_axis *axis, double centre, double step, uint32_t i, bool *more) {
+/* The i-th position of an axis in a profile: each other choice, or a step below and a step above. NAN if it does not exist; *more is false past
+   the last one. */
+static double probe_position(const struct glint_search_axis *axis, double centre, double step, uint32_t i, bool *more) {
     *more = i < (axis->choices ? axis->choices : 2);
     if (!*more) return (double)NAN;
     if (axis->choices) return i == centre ? (double)NAN : i;
     return axis_move(axis, centre, i ? step : -step);
 }
 
-/* Axes alone, the `most` heaviest of them, in this order: what no try is left for is the lightest. */
-static bool take_profile(struct search *search, struct profile *profile, double step, size_t most,
-                         struct glint_error *err) {
+/* Evaluates the `most` axes of the largest weight one by one, in descending order, so that those of the lowest weight are left out if max_points
+   are used up. */
+static bool evaluate_profile(struct search *search, struct profile *profile, double step, size_t most,
+                             struct glint_error *err) {
     profile->count = 0;
-    put_in_order(search, profile->weight, profile->order);
+    order_axes(search, profile->weight, profile->order);
     for (size_t r = 0; r < most && r < search->count; r++) {
         const size_t a = profile->order[r];
-        bool tried = true, more = true;
+        bool evaluated = true, more = true;
         if (profile->skip[a]) continue;
         profile->weight[a] = 0;
         for (uint32_t i = 0; more; i++) {
-            const double to = place(&search->axes[a], profile->centre[a], step, i, &more);
-            if (isfinite(to) && !look_along(search, profile, a, to, &tried, err)) return false;
+            const double to = probe_position(&search->axes[a], profile->centre[a], step, i, &more);
+            if (isfinite(to) && !evaluate_move(search, profile, a, to, &evaluated, err)) return false;
         }
-        if (!tried) return true;
+        if (!evaluated) return true;
     }
     return true;
 }
 
-/* Tries that an axis alone takes. */
-static uint32_t price_of(struct search *search, struct profile *profile, size_t axis, double step) {
+/* The number of new points in an axis's profile. */
+static uint32_t count_new_points(struct search *search, struct profile *profile, size_t axis, double step) {
     const double from = profile->centre[axis];
     uint32_t price = 0;
     bool more = true;
     for (uint32_t i = 0; more; i++) {
-        const double to = place(&search->axes[axis], from, step, i, &more);
+        const double to = probe_position(&search->axes[axis], from, step, i, &more);
         if (!isfinite(to)) continue;
         profile->centre[axis] = to;
         price += !search_knows(search, profile->centre);
@@ -116,45 +108,48 @@ static uint32_t price_of(struct search *search, struct profile *profile, size_t 
     return price;
 }
 
-/* The first profile. Where tries do not suffice for every axis and for what then follows, a third of them screens all axes, and
-   those that weigh most are looked at alone. */
-static bool take_first_profile(struct search *search, struct profile *profile, double step, struct glint_error *err) {
-    static const double LIGHT = 0.01; /* of the heaviest: there is better to do with few tries */
-    const uint32_t left = search->options->tries - (uint32_t)search->result->count;
+/* The first profile. If max_points do not suffice for all axes and for the search afterwards, a third of the points is used for screening, and
+   only the axes of the largest effect are evaluated one by one. */
+static bool evaluate_first_profile(struct search *search, struct profile *profile, double step,
+                                   struct glint_error *err) {
+    static const double LIGHT = 0.01; /* relative to the largest weight: points are better spent otherwise */
+    const uint32_t left = search->options->max_points - (uint32_t)search->result->count;
     uint32_t price = 0, reserve = left / 4 > 8 ? left / 4 : 8;
     size_t most = 0;
-    for (size_t a = 0; a < search->count; a++) price += price_of(search, profile, a, step);
-    if (left >= price + reserve) return take_profile(search, profile, step, search->count, err);
+    for (size_t a = 0; a < search->count; a++) price += count_new_points(search, profile, a, step);
+    if (left >= price + reserve) return evaluate_profile(search, profile, step, search->count, err);
     if (!search_screen(search, profile->centre, &profile->at, left / 3 + 1, profile->weight, err)) return false;
-    put_in_order(search, profile->weight, profile->order);
+    order_axes(search, profile->weight, profile->order);
     price = (uint32_t)search->result->count + reserve;
-    for (; most < search->count && price < search->options->tries; most++) {
+    for (; most < search->count && price < search->options->max_points; most++) {
         if (profile->weight[profile->order[most]] <= LIGHT * profile->weight[profile->order[0]]) break;
-        price += price_of(search, profile, profile->order[most], step);
+        price += count_new_points(search, profile, profile->order[most], step);
     }
-    for (size_t a = 0; a < search->count; a++) search->result->matters[a] = true; /* none was shown not to */
-    return take_profile(search, profile, step, most, err);
+    for (size_t a = 0; a < search->count; a++)
+        search->result->matters[a] = true; /* no axis was shown to be without effect */
+    return evaluate_profile(search, profile, step, most, err);
 }
 
-/* For each axis the move that is worth most at this price of what is limited; returns what they all change of it. */
+/* Chooses for each axis the move that minimises objective + price · constraint (Lagrangian); returns the sum of their changes of the
+   constraint. */
 static double choose_point(const struct search *search, struct profile *profile, double price) {
     double sum = 0;
     memset(profile->chosen, 0, search->count * sizeof *profile->chosen);
     for (size_t i = 0; i < profile->count; i++) {
         const struct move *move = &profile->moves[i];
         const size_t old = profile->chosen[move->axis];
-        const double worth = move->wanted + price * move->limited;
-        const double other = old ? profile->moves[old - 1].wanted + price * profile->moves[old - 1].limited : 0;
+        const double worth = move->objective + price * move->constraint;
+        const double other = old ? profile->moves[old - 1].objective + price * profile->moves[old - 1].constraint : 0;
         if (worth < other) profile->chosen[move->axis] = i + 1;
     }
     for (size_t a = 0; a < search->count; a++)
-        if (profile->chosen[a]) sum += profile->moves[profile->chosen[a] - 1].limited;
+        if (profile->chosen[a]) sum += profile->moves[profile->chosen[a] - 1].constraint;
     return sum;
 }
 
-/* The lowest price at which the sum of moves fits. */
-static double fit(const struct search *search, struct profile *profile, double room) {
-    const double scale = fabs(profile->at.wanted / profile->at.limited) + 1e-30;
+/* Chooses moves at the lowest price at which their sum does not exceed `room`. */
+static double fit_moves(const struct search *search, struct profile *profile, double room) {
+    const double scale = fabs(profile->at.objective / profile->at.constraint) + 1e-30;
     double low = 1e-6 * scale, high = 1e6 * scale;
     double sum = choose_point(search, profile, 0);
     if (sum <= room) return sum;
@@ -166,39 +161,41 @@ static double fit(const struct search *search, struct profile *profile, double r
     return choose_point(search, profile, high);
 }
 
-/* Tries the chosen moves together; *limited receives what they came to. `worth` > 0: only those that change as much alone. */
-static bool try_sum(struct search *search, const struct profile *profile, double worth, double *limited,
-                    struct glint_error *err) {
+/* Evaluates the chosen moves together; *constraint receives the result. Moves that change the figures by less than `worth` are left out. */
+static bool evaluate_moves(struct search *search, const struct profile *profile, double worth, double *constraint,
+                           struct glint_error *err) {
     double *steps = malloc((search->count + 1) * sizeof *steps);
-    if (!steps) return no_memory(err);
+    if (!steps) return no_memory(err, "search");
     memcpy(steps, profile->centre, search->count * sizeof *steps);
     for (size_t a = 0; a < search->count; a++) {
         const struct move *move = profile->chosen[a] ? &profile->moves[profile->chosen[a] - 1] : NULL;
-        if (move && fabs(move->wanted) + fabs(move->limited) * fabs(profile->at.wanted / profile->at.limited) >= worth)
+        if (move &&
+            fabs(move->objective) + fabs(move->constraint) * fabs(profile->at.objective / profile->at.constraint) >=
+                worth)
             steps[a] = move->to;
     }
     const struct glint_search_point *point = search_at(search, steps, err);
-    if (point) *limited = point->figures.limited;
+    if (point) *constraint = point->figures.constraint;
     free(steps);
     return point || err->code == GLINT_OK;
 }
 
-/* The predicted best, with the prediction corrected by what came of it; then without the moves that change little. */
-static bool try_best_sums(struct search *search, struct profile *profile, struct glint_error *err) {
-    const double room = search->options->limit - profile->at.limited;
+/* Evaluates the best predicted combination, corrects the prediction by the result and repeats; then leaves out moves of little effect. */
+static bool evaluate_best_moves(struct search *search, struct profile *profile, struct glint_error *err) {
+    const double room = search->options->limit - profile->at.constraint;
     double correction = 0;
     for (int i = 0; i < 4; i++) {
-        double limited = NAN;
-        const double sum = fit(search, profile, room - correction);
-        if (!try_sum(search, profile, 0, &limited, err)) return false;
-        if (!isfinite(limited)) break;
-        const double off = limited - profile->at.limited - sum;
+        double constraint = NAN;
+        const double sum = fit_moves(search, profile, room - correction);
+        if (!evaluate_moves(search, profile, 0, &constraint, err)) return false;
+        if (!isfinite(constraint)) break;
+        const double off = constraint - profile->at.constraint - sum;
         if (fabs(off - correction) < 0.01 * fabs(search->options->limit)) break;
         correction = off;
     }
     for (double part = 0.003; part < 0.1; part *= 4) {
-        double limited;
-        if (!try_sum(search, profile, part * fabs(profile->at.wanted), &limited, err)) return false;
+        double constraint;
+        if (!evaluate_moves(search, profile, part * fabs(profile->at.objective), &constraint, err)) return false;
     }
     return true;
 }
@@ -209,16 +206,16 @@ static void centre_on(const struct search *search, struct profile *profile, size
     profile->at = search->result->points[point].figures;
 }
 
-/* Where the limit is far: all that makes less of what is limited, on the way to its range's end together; the way is halved. */
-static bool try_line(struct search *search, struct profile *profile, struct glint_error *err) {
+/* For a start far beyond the limit: moves all axes that lower the constraint towards the ends of their ranges, and bisects that line. */
+static bool bisect_to_limit(struct search *search, struct profile *profile, struct glint_error *err) {
     enum { HALVINGS = 5 };
     double *end = profile->before, low = 0, high = 1;
     double *steps = malloc((search->count + 1) * sizeof *steps);
-    if (!steps) return no_memory(err);
+    if (!steps) return no_memory(err, "search");
     memcpy(end, profile->centre, search->count * sizeof *end);
     for (size_t i = 0; i < profile->count; i++) {
         const struct move *move = &profile->moves[i];
-        if (search->axes[move->axis].choices || !(move->limited < 0)) continue;
+        if (search->axes[move->axis].choices || !(move->constraint < 0)) continue;
         end[move->axis] = move->to < profile->centre[move->axis] ? 0 : axis_length(&search->axes[move->axis]);
     }
     const struct glint_search_point *point = NULL;
@@ -226,16 +223,16 @@ static bool try_line(struct search *search, struct profile *profile, struct glin
         const double at = i ? (low + high) / 2 : high;
         for (size_t a = 0; a < search->count; a++) steps[a] = profile->centre[a] + at * (end[a] - profile->centre[a]);
         if (!(point = search_at(search, steps, err))) break;
-        if (point->figures.limited <= search->options->limit) high = at;
+        if (point->figures.constraint <= search->options->limit) high = at;
         else if (i) low = at;
-        else break; /* not even at the end */
+        else break; /* infeasible even at the end */
     }
     free(steps);
     return point || err->code == GLINT_OK;
 }
 
-/* On in the direction that led from the centre to the best point, as long as that gains (Hooke and Jeeves). */
-static bool go_on(struct search *search, struct profile *profile, struct glint_error *err) {
+/* Repeats the move from the centre to the best point as long as it improves (Hooke and Jeeves). */
+static bool follow_direction(struct search *search, struct profile *profile, struct glint_error *err) {
     for (bool gains = true; gains;) {
         const size_t best = search->result->best;
         memcpy(profile->before, profile->centre, search->count * sizeof *profile->before);
@@ -251,24 +248,25 @@ static bool go_on(struct search *search, struct profile *profile, struct glint_e
     return true;
 }
 
-/* Around the best point until no step of `least` or more gains: of a few axes first, of all when these gain no more. */
-static bool descend(struct search *search, struct profile *profile, double step, double least,
-                    struct glint_error *err) {
+/* Searches around the best point until no step of size `least` or more improves it, first along a few axes, then along all. */
+static bool descend_from_best(struct search *search, struct profile *profile, double step, double least,
+                              struct glint_error *err) {
     enum { FEW = 6 };
     size_t most = FEW;
-    while (step >= least && !search_spent(search)) {
+    while (step >= least && !search_is_spent(search)) {
         const size_t before = search->result->best;
         centre_on(search, profile, before);
-        if (!take_profile(search, profile, step, most, err) || !try_best_sums(search, profile, err)) return false;
+        if (!evaluate_profile(search, profile, step, most, err) || !evaluate_best_moves(search, profile, err))
+            return false;
         if (search->result->best != before) {
-            if (!go_on(search, profile, err)) return false;
+            if (!follow_direction(search, profile, err)) return false;
         } else if (most < search->count) most = search->count;
         else step /= 2, most = FEW;
     }
     return true;
 }
 
-/* What moved anything most in the last profile, as far as COBYLA is good for. */
+/* The numeric axes of the largest effect in the last profile, as many as COBYLA can handle well. */
 static size_t pick_numbers(const struct search *search, const struct profile *profile, size_t *axes) {
     enum { MOST = 16 };
     size_t count = 0;
@@ -277,17 +275,17 @@ static size_t pick_numbers(const struct search *search, const struct profile *pr
             const struct move *move = &profile->moves[i];
             bool known = search->axes[move->axis].choices != 0;
             for (size_t k = 0; k < count; k++) known |= axes[k] == move->axis;
-            if (!known && (fabs(move->wanted) > worth * fabs(profile->at.wanted) ||
-                           fabs(move->limited) > worth * fabs(profile->at.limited)))
+            if (!known && (fabs(move->objective) > worth * fabs(profile->at.objective) ||
+                           fabs(move->constraint) > worth * fabs(profile->at.constraint)))
                 axes[count++] = move->axis;
         }
     return count;
 }
 
-static bool polish(struct search *search, struct profile *profile, struct glint_error *err) {
-    const size_t left = search->options->tries - search->result->count;
+static bool polish_best(struct search *search, struct profile *profile, struct glint_error *err) {
+    const size_t left = search->options->max_points - search->result->count;
     size_t *axes = calloc(search->count + 1, sizeof *axes);
-    if (!axes) return no_memory(err);
+    if (!axes) return no_memory(err, "search");
     const size_t count = pick_numbers(search, profile, axes);
     centre_on(search, profile, search->result->best);
     const bool ok = !count || search_polish(search, profile->centre, axes, count, (uint32_t)(left / 2 + 1), err);
@@ -295,8 +293,8 @@ static bool polish(struct search *search, struct profile *profile, struct glint_
     return ok;
 }
 
-/* Off the best point by two steps on a fourth of the axes; the next descent starts from what is better then. */
-static bool throw_off(struct search *search, struct profile *profile, struct glint_error *err) {
+/* Displaces the best point at random by up to two steps on a quarter of the axes and evaluates a profile there. */
+static bool displace_best(struct search *search, struct profile *profile, struct glint_error *err) {
     centre_on(search, profile, search->result->best);
     for (size_t a = 0; a < search->count; a++) {
         const struct glint_search_axis *axis = &search->axes[a];
@@ -309,13 +307,13 @@ static bool throw_off(struct search *search, struct profile *profile, struct gli
     const struct glint_search_point *point = search_at(search, profile->centre, err);
     if (!point) return err->code == GLINT_OK;
     profile->at = point->figures;
-    return !search_answers(&profile->at) ||
-           (take_profile(search, profile, 1, search->count, err) && try_best_sums(search, profile, err));
+    return !search_is_valid(&profile->at) ||
+           (evaluate_profile(search, profile, 1, search->count, err) && evaluate_best_moves(search, profile, err));
 }
 
-static bool try_known(struct search *search, struct profile *profile, struct glint_error *err) {
-    const double *values = search->options->known;
-    for (size_t i = 0; i < search->options->known_count; i++, values += search->count) {
+static bool evaluate_initial(struct search *search, struct profile *profile, struct glint_error *err) {
+    const double *values = search->options->initial;
+    for (size_t i = 0; i < search->options->initial_count; i++, values += search->count) {
         for (size_t a = 0; a < search->count; a++) profile->before[a] = axis_steps(&search->axes[a], values[a]);
         if (!search_at(search, profile->before, err) && err->code != GLINT_OK) return false;
     }
@@ -327,62 +325,63 @@ static bool run_search(struct search *search, struct profile *profile, struct gl
     const struct glint_search_point *start = search_at(search, profile->centre, err);
     if (!start) return err->code == GLINT_OK;
     profile->at = start->figures;
-    if (!search_answers(&start->figures))
-        return glint_fail(err, GLINT_ERROR_USAGE, "the start has no figures: nothing can be compared with it");
-    if (!try_known(search, profile, err) || !take_first_profile(search, profile, 2, err)) return false;
+    if (!search_is_valid(&start->figures))
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "the start point is invalid, so that no other point can be compared with it");
+    if (!evaluate_initial(search, profile, err) || !evaluate_first_profile(search, profile, 2, err)) return false;
     const size_t begun = search->result->best;
     for (size_t a = 0; a < search->count; a++) {
-        if (search_spent(search)) search->result->matters[a] = true;
-        profile->skip[a] = !search->result->matters[a] && !search->axes[a].hidden;
+        if (search_is_spent(search)) search->result->matters[a] = true;
+        profile->skip[a] = !search->result->matters[a] && !search->axes[a].keep;
     }
-    if (!try_best_sums(search, profile, err)) return false;
-    const bool helped = search->result->within && search->result->best != begun;
-    if (!helped && profile->at.limited > search->options->limit && !try_line(search, profile, err)) return false;
+    if (!evaluate_best_moves(search, profile, err)) return false;
+    const bool helped = search->result->feasible && search->result->best != begun;
+    if (!helped && profile->at.constraint > search->options->limit && !bisect_to_limit(search, profile, err))
+        return false;
     double least = 0.5;
-    while (!search_spent(search)) {
+    while (!search_is_spent(search)) {
         const size_t before = search->result->count;
-        if (!descend(search, profile, 2, least, err) || !polish(search, profile, err) ||
-            !throw_off(search, profile, err))
+        if (!descend_from_best(search, profile, 2, least, err) || !polish_best(search, profile, err) ||
+            !displace_best(search, profile, err))
             return false;
         least = fmax(least / 2, 0.03);
-        if (search->result->count == before && least == 0.03) return true; /* every point around it is known */
+        if (search->result->count == before && least == 0.03)
+            return true; /* all points around the best one are evaluated */
     }
     return true;
 }
 
 bool glint_search(const struct glint_search_axis *axes, size_t count, const struct glint_search_options *options,
-                  glint_search_try try_point, void *user, struct glint_search_result *result, struct glint_error *err) {
+                  glint_search_evaluate evaluate, void *user, struct glint_search_result *result,
+                  struct glint_error *err) {
     struct glint_error own = {0};
     struct search search = {.axes = axes,
                             .count = count,
                             .options = options,
-                            .try_point = try_point,
+                            .evaluate = evaluate,
                             .user = user,
                             .result = result,
                             .random = options->seed,
-                            .scratch = calloc(count + 1, sizeof(double))};
+                            .scratch = calloc(4 * count + 1, sizeof(double))};
     size_t moves = 2;
     for (size_t a = 0; a < count; a++) moves += axes[a].choices > 2 ? axes[a].choices : 2;
-    struct profile profile = {.centre = calloc(count + 1, sizeof(double)),
-                              .moves = calloc(moves, sizeof *profile.moves),
-                              .chosen = calloc(count + 1, sizeof *profile.chosen),
+    struct profile profile = {.moves = calloc(moves, sizeof *profile.moves),
                               .skip = calloc(count + 1, sizeof *profile.skip),
-                              .weight = calloc(count + 1, sizeof(double)),
-                              .before = calloc(count + 1, sizeof(double)),
-                              .order = calloc(count + 1, sizeof *profile.order)};
+                              .order = calloc(2 * count + 1, sizeof *profile.order)};
     *result = (struct glint_search_result){.axes = count, .matters = calloc(count + 1, sizeof *result->matters)};
-    bool ok = (search.scratch && profile.centre && profile.moves && profile.chosen && profile.skip && profile.weight &&
-               profile.before && profile.order && result->matters) ||
-              no_memory(&own);
-    ok = ok && run_search(&search, &profile, &own);
+    bool ok = (search.scratch && profile.moves && profile.skip && profile.order && result->matters) ||
+              no_memory(&own, "search");
+    if (ok) {
+        profile.centre = search.scratch + count;
+        profile.weight = profile.centre + count;
+        profile.before = profile.weight + count;
+        profile.chosen = profile.order + count;
+        ok = run_search(&search, &profile, &own);
+    }
     if (!ok) glint_fail(err, own.code, "%s", own.message);
     free(profile.order);
-    free(profile.before);
-    free(profile.weight);
     free(profile.skip);
-    free(profile.chosen);
     free(profile.moves);
-    free(profile.centre);
     free(search.scratch);
     return ok;
 }

@@ -1,4 +1,4 @@
-/* Parts of the search: axes as steps, points that were tried, the polishing by COBYLA. */
+/* Internal parts of the search: axes measured in steps, evaluated points, screening, polishing by COBYLA. */
 #ifndef GLINT_STUDY_SEARCH_H
 #define GLINT_STUDY_SEARCH_H
 
@@ -8,36 +8,35 @@ struct search {
     const struct glint_search_axis *axes;
     size_t count;
     const struct glint_search_options *options;
-    glint_search_try try_point;
+    glint_search_evaluate evaluate;
     void *user;
     struct glint_search_result *result;
-    size_t room;
     uint64_t random;
-    double *scratch; /* values of the point under way */
+    double *scratch; /* values of the current point */
 };
 
-/* Where a value lies on its axis in steps, 0 to axis_length, and the value there; of choices the choice. */
+/* Converts a value to steps from the lower end of its axis, 0 to axis_length, and back. For choices both are the choice. */
 double axis_steps(const struct glint_search_axis *axis, double value);
 double axis_length(const struct glint_search_axis *axis);
 double axis_value_at(const struct glint_search_axis *axis, double steps);
-/* Steps of the next other value at least `step` away (negative: below); NAN when the range ends there. */
+/* The position of the next different value at least `step` (which may be negative) away; NAN if the range ends there. */
 double axis_move(const struct glint_search_axis *axis, double from, double step);
 
 /* search_points.c */
-/* Whether a try came to figures at all. */
-bool search_answers(const struct glint_search_figures *figures);
-/* The figures at a place given in steps, tried now or before; NULL when that failed, or, `err` untouched, when no try is left.
-   Errors of all parts begin as GLINT_OK. */
+/* Whether both figures are finite. */
+bool search_is_valid(const struct glint_search_figures *figures);
+/* The point at a position in steps, which is evaluated if it is new. NULL on an error, or without an error if max_points are used up; so err->code
+   must be GLINT_OK before the call. */
 const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err);
-/* Whether they are known without a try. */
+/* Whether the point is already evaluated. */
 bool search_knows(struct search *search, const double *steps);
-bool search_spent(const struct search *search);
-/* Weighs all axes with some `tries` around the centre, whose figures are `at`: what each, or the group that it is still in,
-   changes of both figures, shared out evenly; 0: nothing, at most SEARCH_HEAVIEST, where there was no answer. */
+bool search_is_spent(const struct search *search);
+/* Estimates the weight of all axes with about `tries` points around the centre, whose figures are `at`: the relative change of both figures by the
+   axis, or by the group that it is still in divided by its size; at most SEARCH_HEAVIEST, which is also the weight of invalid points. */
 #define SEARCH_HEAVIEST 1.0
 bool search_screen(struct search *search, const double *centre, const struct glint_search_figures *at, uint32_t tries,
                    double *weight, struct glint_error *err);
-/* COBYLA from `centre` over the listed axes, none of them a choice. */
+/* Runs COBYLA from `centre` over the listed axes, which must be numeric. */
 bool search_polish(struct search *search, const double *centre, const size_t *axes, size_t count, uint32_t tries,
                    struct glint_error *err);
 

@@ -1,4 +1,4 @@
-/* Axes in steps, so that one step of any of them is worth a look. */
+/* Measures axes in steps, such that a step of any axis is a noticeable change. */
 #include "search.h"
 
 #include <math.h>
@@ -12,15 +12,15 @@ enum glint_search_scale glint_search_scale(double lowest, double highest, double
     return lowest >= 0 && highest > 16 * from ? GLINT_SEARCH_DOUBLING : GLINT_SEARCH_LINEAR;
 }
 
-/* Added to what is above the lowest value before it is doubled: a fourth of the start, so that zero is two steps away. */
-static double ground(const struct glint_search_axis *axis) {
+/* The smallest value that is doubled. If the range begins at 0, it is a quarter of the start, so that 0 is about two steps away. */
+static double doubling_base(const struct glint_search_axis *axis) {
     if (axis->lowest > 0) return axis->lowest;
     if (axis->start > 0) return axis->start / 4;
     return fmin(axis->highest, 1) / 100;
 }
-/* What is doubled begins there, where a step begins at the lowest value. */
-static double offset(const struct glint_search_axis *axis) {
-    return axis->lowest > 0 ? 0 : ground(axis);
+/* Added to a value before it is doubled, so that 0 can be reached. */
+static double doubling_offset(const struct glint_search_axis *axis) {
+    return axis->lowest > 0 ? 0 : doubling_base(axis);
 }
 
 double axis_steps(const struct glint_search_axis *axis, double value) {
@@ -28,7 +28,7 @@ double axis_steps(const struct glint_search_axis *axis, double value) {
     if (axis->scale == GLINT_SEARCH_LINEAR)
         return axis->highest > axis->lowest ? LINEAR_STEPS * (value - axis->lowest) / (axis->highest - axis->lowest)
                                             : 0;
-    return log2((value + offset(axis)) / ground(axis));
+    return log2((value + doubling_offset(axis)) / doubling_base(axis));
 }
 
 double axis_length(const struct glint_search_axis *axis) {
@@ -41,9 +41,9 @@ double axis_value_at(const struct glint_search_axis *axis, double steps) {
     if (fabs(steps - axis_steps(axis, axis->start)) < 1e-9) return axis->start;
     if (axis->scale == GLINT_SEARCH_LINEAR)
         value = axis->lowest + steps * (axis->highest - axis->lowest) / LINEAR_STEPS;
-    else value = ground(axis) * exp2(steps) - offset(axis);
+    else value = doubling_base(axis) * exp2(steps) - doubling_offset(axis);
     if (axis->whole) value = round(value);
-    else { /* four digits are enough, and people read them */ char text[32];
+    else { /* rounded to four digits for readability */ char text[32];
         snprintf(text, sizeof text, "%.4g", value);
         value = strtod(text, NULL);
     }

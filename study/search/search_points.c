@@ -1,13 +1,11 @@
-/* Points that were tried, and which of them is the best. */
+/* The evaluated points, and the best of them. */
 #include "search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
+#include "no_memory.h"
 
 void glint_search_result_finish(struct glint_search_result *result) {
     for (size_t i = 0; i < result->count; i++) free(result->points[i].values);
@@ -16,46 +14,42 @@ void glint_search_result_finish(struct glint_search_result *result) {
     *result = (struct glint_search_result){0};
 }
 
-bool search_answers(const struct glint_search_figures *figures) {
-    return isfinite(figures->wanted) && isfinite(figures->limited);
+bool search_is_valid(const struct glint_search_figures *figures) {
+    return isfinite(figures->objective) && isfinite(figures->constraint);
 }
 
 bool glint_search_better(const struct glint_search_figures *a, const struct glint_search_figures *b, double limit) {
-    if (!search_answers(a) || !search_answers(b)) return search_answers(a) && !search_answers(b);
-    const bool in = a->limited <= limit, other = b->limited <= limit;
+    if (!search_is_valid(a) || !search_is_valid(b)) return search_is_valid(a) && !search_is_valid(b);
+    const bool in = a->constraint <= limit, other = b->constraint <= limit;
     if (in != other) return in;
-    if (in) return a->wanted < b->wanted || (a->wanted == b->wanted && a->limited < b->limited);
-    return a->limited < b->limited || (a->limited == b->limited && a->wanted < b->wanted);
+    if (in) return a->objective < b->objective || (a->objective == b->objective && a->constraint < b->constraint);
+    return a->constraint < b->constraint || (a->constraint == b->constraint && a->objective < b->objective);
 }
 
-bool search_spent(const struct search *search) {
-    return search->result->count >= search->options->tries;
+bool search_is_spent(const struct search *search) {
+    return search->result->count >= search->options->max_points;
 }
 
 static bool add_point(struct search *search, const double *values, const struct glint_search_figures *figures,
                       struct glint_error *err) {
     struct glint_search_result *result = search->result;
-    if (result->count == search->room) {
-        const size_t room = 2 * search->room + 64;
-        struct glint_search_point *larger = realloc(result->points, room * sizeof *larger);
-        if (!larger) return no_memory(err);
-        result->points = larger;
-        search->room = room;
-    }
+    struct glint_search_point *larger = realloc(result->points, (result->count + 1) * sizeof *larger);
+    if (!larger) return no_memory(err, "search");
+    result->points = larger;
     struct glint_search_point point = {malloc((search->count + 1) * sizeof(double)), *figures};
-    if (!point.values) return no_memory(err);
+    if (!point.values) return no_memory(err, "search");
     memcpy(point.values, values, search->count * sizeof(double));
     const size_t i = result->count++;
     result->points[i] = point;
-    const double limit = search->options->limit, least = result->points[result->least].figures.limited;
+    const double limit = search->options->limit, least = result->points[result->lowest].figures.constraint;
     if (glint_search_better(figures, &result->points[result->best].figures, limit)) result->best = i;
-    if (search_answers(figures) && !(figures->limited >= least)) result->least = i;
-    result->within = result->points[result->best].figures.limited <= limit;
+    if (search_is_valid(figures) && !(figures->constraint >= least)) result->lowest = i;
+    result->feasible = result->points[result->best].figures.constraint <= limit;
     return true;
 }
 
-/* The point at `steps`, or NULL; their values are in `scratch` then. */
-static const struct glint_search_point *known_at(struct search *search, const double *steps) {
+/* The evaluated point at `steps`, or NULL. In either case `scratch` receives its values. */
+static const struct glint_search_point *find_point(struct search *search, const double *steps) {
     const struct glint_search_result *result = search->result;
     for (size_t i = 0; i < search->count; i++) search->scratch[i] = axis_value_at(&search->axes[i], steps[i]);
     for (size_t i = 0; i < result->count; i++)
@@ -65,15 +59,15 @@ static const struct glint_search_point *known_at(struct search *search, const do
 }
 
 bool search_knows(struct search *search, const double *steps) {
-    return known_at(search, steps) != NULL;
+    return find_point(search, steps) != NULL;
 }
 
 const struct glint_search_point *search_at(struct search *search, const double *steps, struct glint_error *err) {
     struct glint_search_result *result = search->result;
     struct glint_search_figures figures = {NAN, NAN};
-    const struct glint_search_point *known = known_at(search, steps);
+    const struct glint_search_point *known = find_point(search, steps);
     if (known) return known;
-    if (search_spent(search) || !search->try_point(search->user, search->scratch, &figures, err) ||
+    if (search_is_spent(search) || !search->evaluate(search->user, search->scratch, &figures, err) ||
         !add_point(search, search->scratch, &figures, err))
         return NULL;
     return &result->points[result->count - 1];

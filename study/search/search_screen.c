@@ -1,67 +1,69 @@
-/* Screening: with fewer tries than single steps would take, which axes are worth looking at one by one. Sequential bifurcation
-   (B. Bettonvil and J. P. C. Kleijnen, "Searching for important factors in simulation models with many factors", 1997): all
-   axes move together, and the group that changes the figures most is halved, again and again. */
+/* Screening: finds the axes of the largest effect with fewer points than single steps on all axes would take, by sequential bifurcation
+   (B. Bettonvil and J. P. C. Kleijnen, "Searching for important factors in simulation models with many factors", 1997): all axes move
+   together, and the group that changes the figures most is halved repeatedly. */
 #include "search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Axes that moved together, and by which factors (as logarithms) both figures changed; infinite when there was no answer. */
+/* Axes that moved together, and the logarithms of the factors by which both figures changed; infinite if the point was invalid. */
 struct group {
     size_t first, count;
-    double wanted, limited;
+    double objective, constraint;
 };
 
-static double factor(double to, double from) {
+static double relative_change(double to, double from) {
     if (to > 0 && from > 0) return log(to / from);
     return from != 0 ? (to - from) / fabs(from) : to - from;
 }
 
-/* 0: the axes change nothing, or no more than noise. */
+/* The relative change of both figures by a group, 0 if it is no larger than the noise. */
 static double weight_of(const struct search *search, const struct group *group) {
-    const double wanted = fabs(group->wanted), limited = fabs(group->limited);
-    return (wanted > 1e-9 ? wanted : 0) + (limited > search->options->noise + 1e-9 ? limited : 0);
+    const double objective = fabs(group->objective), constraint = fabs(group->constraint);
+    return (objective > 1e-9 ? objective : 0) + (constraint > search->options->noise + 1e-9 ? constraint : 0);
 }
 
-/* Two steps down, which is where costs are saved; up where the range ends; the next choice. */
-static double moved(const struct glint_search_axis *axis, double from) {
+/* A value two steps lower, which usually lowers the cost, or higher if the range ends; or the next choice. */
+static double moved_value(const struct glint_search_axis *axis, double from) {
     if (axis->choices) return (double)(((uint32_t)from + 1) % axis->choices);
     const double down = axis_move(axis, from, -2), up = axis_move(axis, from, 2);
     return isfinite(down) ? down : isfinite(up) ? up : from;
 }
 
-/* *tried: there was a try left for it. */
+/* *evaluated is false if max_points are used up. */
 static bool measure_effects(struct search *search, const double *centre, const struct glint_search_figures *at,
-                            struct group *group, double *steps, bool *tried, struct glint_error *err) {
+                            struct group *group, double *steps, bool *evaluated, struct glint_error *err) {
     memcpy(steps, centre, search->count * sizeof *steps);
-    for (size_t a = group->first; a < group->first + group->count; a++) steps[a] = moved(&search->axes[a], centre[a]);
+    for (size_t a = group->first; a < group->first + group->count; a++)
+        steps[a] = moved_value(&search->axes[a], centre[a]);
     const struct glint_search_point *point = search_at(search, steps, err);
-    *tried = point != NULL;
+    *evaluated = point != NULL;
     if (!point) return err->code == GLINT_OK;
-    const bool answers = search_answers(&point->figures);
-    group->wanted = answers ? factor(point->figures.wanted, at->wanted) : INFINITY;
-    group->limited = answers ? factor(point->figures.limited, at->limited) : 0;
+    const bool answers = search_is_valid(&point->figures);
+    group->objective = answers ? relative_change(point->figures.objective, at->objective) : INFINITY;
+    group->constraint = answers ? relative_change(point->figures.constraint, at->constraint) : 0;
     return true;
 }
 
-/* The second half is what the first leaves of the whole, as far as that is known. */
-static bool split(struct search *search, const double *centre, const struct glint_search_figures *at,
-                  struct group *whole, struct group *rest, double *steps, bool *tried, struct glint_error *err) {
+/* Halves a group. The effect of the second half is the difference between those of the whole and of the first half, if these are known. */
+static bool split_group(struct search *search, const double *centre, const struct glint_search_figures *at,
+                        struct group *whole, struct group *rest, double *steps, bool *evaluated,
+                        struct glint_error *err) {
     struct group half = {.first = whole->first, .count = whole->count / 2};
     *rest = (struct group){.first = half.first + half.count, .count = whole->count - half.count};
-    if (!measure_effects(search, centre, at, &half, steps, tried, err) || !*tried) return err->code == GLINT_OK;
-    if (isfinite(whole->wanted) && isfinite(half.wanted)) {
-        rest->wanted = whole->wanted - half.wanted;
-        rest->limited = whole->limited - half.limited;
-    } else if (!measure_effects(search, centre, at, rest, steps, tried, err)) return false;
-    else if (!*tried) rest->wanted = INFINITY;
+    if (!measure_effects(search, centre, at, &half, steps, evaluated, err) || !*evaluated) return err->code == GLINT_OK;
+    if (isfinite(whole->objective) && isfinite(half.objective)) {
+        rest->objective = whole->objective - half.objective;
+        rest->constraint = whole->constraint - half.constraint;
+    } else if (!measure_effects(search, centre, at, rest, steps, evaluated, err)) return false;
+    else if (!*evaluated) rest->objective = INFINITY;
     *whole = half;
-    *tried = true;
+    *evaluated = true;
     return true;
 }
 
-static size_t heaviest(const struct search *search, const struct group *groups, size_t count) {
+static size_t heaviest_group(const struct search *search, const struct group *groups, size_t count) {
     size_t best = count;
     for (size_t g = 0; g < count; g++)
         if (groups[g].count > 1 && weight_of(search, &groups[g]) > 0 &&
@@ -76,14 +78,14 @@ bool search_screen(struct search *search, const double *centre, const struct gli
     struct group *groups = calloc(search->count + 1, sizeof *groups);
     double *steps = calloc(search->count + 1, sizeof *steps);
     size_t count = 1, g = 0;
-    bool tried = true, ok = (groups && steps) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    bool evaluated = true, ok = (groups && steps) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (ok) {
         groups[0] = (struct group){.first = 0, .count = search->count};
-        ok = measure_effects(search, centre, at, &groups[0], steps, &tried, err);
+        ok = measure_effects(search, centre, at, &groups[0], steps, &evaluated, err);
     }
-    while (ok && tried && search->result->count < last && (g = heaviest(search, groups, count)) < count) {
-        ok = split(search, centre, at, &groups[g], &groups[count], steps, &tried, err);
-        count += ok && tried;
+    while (ok && evaluated && search->result->count < last && (g = heaviest_group(search, groups, count)) < count) {
+        ok = split_group(search, centre, at, &groups[g], &groups[count], steps, &evaluated, err);
+        count += ok && evaluated;
     }
     for (size_t k = 0; ok && k < count; k++)
         for (size_t a = groups[k].first; a < groups[k].first + groups[k].count; a++)

@@ -1,10 +1,12 @@
-/* The points of a space: grids, Latin hypercubes, their order. */
+/* The points of a space: grids, Latin hypercubes, and their order. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "axis.h"
+#include "no_memory.h"
+#include "random.h"
 
 enum { POINTS = 100000 };
 
@@ -13,12 +15,8 @@ struct glint_space {
     struct axis *axes;
     size_t axis_count;
     char (*values)[VALUE_SIZE]; /* axis_count a point */
-    size_t count, room;
+    size_t count;
 };
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
 
 void glint_space_destroy(struct glint_space **pointer) {
     struct glint_space *space = *pointer;
@@ -31,7 +29,7 @@ void glint_space_destroy(struct glint_space **pointer) {
     free(space);
 }
 
-/* A pipeline for each variant that an axis chooses, so that parameters of any of them are known. */
+/* Creates a pipeline for each variant that an axis chooses, so that the parameters of all variants are known. */
 static bool list_variants(const struct glint_space *space, struct glint_pipeline **pipelines, size_t *count,
                           struct glint_error *err) {
     if (!(pipelines[(*count)++] = glint_pipeline_copy(space->base, err))) return false;
@@ -58,17 +56,18 @@ static bool init_axes(struct glint_space *space, const char *const *axes, bool v
     return true;
 }
 
-static struct glint_space *create(const struct glint_pipeline *base, const char *const *axes, struct glint_error *err) {
+static struct glint_space *create_space(const struct glint_pipeline *base, const char *const *axes,
+                                        struct glint_error *err) {
     struct glint_space *space = calloc(1, sizeof *space);
     struct glint_pipeline **pipelines = NULL;
     size_t count = 0, variants = 1;
-    bool ok = space != NULL || no_memory(err);
+    bool ok = space != NULL || no_memory(err, "parameter space");
     while (ok && axes[space->axis_count]) space->axis_count++;
-    if (ok && !space->axis_count) ok = glint_fail(err, GLINT_ERROR_USAGE, "expected something to vary");
-    ok = ok && ((space->axes = calloc(space->axis_count, sizeof *space->axes)) || no_memory(err)) &&
+    if (ok && !space->axis_count) ok = glint_fail(err, GLINT_ERROR_USAGE, "expected an axis to vary");
+    ok = ok && ((space->axes = calloc(space->axis_count, sizeof *space->axes)) || no_memory(err, "parameter space")) &&
          (space->base = glint_pipeline_copy(base, err)) && init_axes(space, axes, true, NULL, 0, err);
     for (size_t a = 0; ok && a < space->axis_count; a++) variants += space->axes[a].count;
-    ok = ok && ((pipelines = calloc(variants, sizeof *pipelines)) || no_memory(err)) &&
+    ok = ok && ((pipelines = calloc(variants, sizeof *pipelines)) || no_memory(err, "parameter space")) &&
          list_variants(space, pipelines, &count, err) &&
          init_axes(space, axes, false, (const struct glint_pipeline *const *)pipelines, count, err);
     for (size_t i = 0; pipelines && i < variants; i++)
@@ -82,8 +81,8 @@ static char *value_at(const struct glint_space *space, size_t point, size_t axis
     return space->values[point * space->axis_count + axis];
 }
 
-/* The base with the point's variants and then its values; values that nothing takes become "". */
-static struct glint_pipeline *build(const struct glint_space *space, size_t point, struct glint_error *err) {
+/* The base pipeline with the point's variants and then its values. Values without a parameter in that pipeline become "". */
+static struct glint_pipeline *build_pipeline(const struct glint_space *space, size_t point, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_copy(space->base, err);
     bool ok = pipeline != NULL;
     for (int variants = 1; variants >= 0; variants--)
@@ -97,29 +96,25 @@ static struct glint_pipeline *build(const struct glint_space *space, size_t poin
     return pipeline;
 }
 
-/* Room for one more, whose values are zero. */
+/* Adds a point whose values are all "". */
 static bool add_point(struct glint_space *space, struct glint_error *err) {
     if (space->count == POINTS)
         return glint_fail(err, GLINT_ERROR_LIMIT, "expected at most %d points; fewer values, or a sample", POINTS);
-    if (space->count == space->room) {
-        const size_t room = 2 * space->room + 64;
-        void *larger = realloc(space->values, room * space->axis_count * sizeof *space->values);
-        if (!larger) return no_memory(err);
-        space->values = larger;
-        space->room = room;
-    }
+    void *larger = realloc(space->values, (space->count + 1) * space->axis_count * sizeof *space->values);
+    if (!larger) return no_memory(err, "parameter space");
+    space->values = larger;
     memset(value_at(space, space->count++, 0), 0, space->axis_count * sizeof *space->values);
     return true;
 }
 
-/* Point `number` of the grid, unless a value that it has no use for would only repeat another point. */
+/* Adds point `number` of the grid, unless it repeats another point since it has no parameter for one of its values. */
 static bool add_grid_point(struct glint_space *space, size_t number, struct glint_error *err) {
     if (!add_point(space, err)) return false;
     const size_t point = space->count - 1;
     size_t rest = number;
     for (size_t a = space->axis_count; a-- > 0; rest /= space->axes[a].count)
         memcpy(value_at(space, point, a), space->axes[a].values[rest % space->axes[a].count], VALUE_SIZE);
-    struct glint_pipeline *pipeline = build(space, point, err);
+    struct glint_pipeline *pipeline = build_pipeline(space, point, err);
     if (!pipeline) return false;
     glint_pipeline_destroy(&pipeline);
     bool repeats = false;
@@ -132,7 +127,7 @@ static bool add_grid_point(struct glint_space *space, size_t number, struct glin
 
 struct glint_space *glint_space_create(const struct glint_pipeline *base, const char *const *axes,
                                        struct glint_error *err) {
-    struct glint_space *space = create(base, axes, err);
+    struct glint_space *space = create_space(base, axes, err);
     double points = 1;
     for (size_t a = 0; space && a < space->axis_count; a++) points *= (double)space->axes[a].count;
     bool ok = space != NULL;
@@ -144,27 +139,15 @@ struct glint_space *glint_space_create(const struct glint_pipeline *base, const 
     return space;
 }
 
-/* splitmix64, S. Vigna: the same numbers everywhere. */
-static uint64_t next_random(uint64_t *state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-}
-
-static double next_unit(uint64_t *state) {
-    return (double)(next_random(state) >> 11) * 0x1p-53;
-}
-
 struct glint_space *glint_space_create_hypercube(const struct glint_pipeline *base, const char *const *axes,
                                                  uint32_t count, uint64_t seed, struct glint_error *err) {
     if (count == 0 || count > POINTS) {
         glint_fail(err, GLINT_ERROR_USAGE, "a Latin hypercube: expected 1 to %d points, found %u", POINTS, count);
         return NULL;
     }
-    struct glint_space *space = create(base, axes, err);
+    struct glint_space *space = create_space(base, axes, err);
     uint32_t *strata = calloc(count, sizeof *strata);
-    bool ok = space && (strata || no_memory(err));
+    bool ok = space && (strata || no_memory(err, "parameter space"));
     for (uint32_t i = 0; ok && i < count; i++) ok = add_point(space, err);
     for (size_t a = 0; ok && a < space->axis_count; a++) {
         for (uint32_t i = 0; i < count; i++) { /* Fisher and Yates */
@@ -176,7 +159,7 @@ struct glint_space *glint_space_create_hypercube(const struct glint_pipeline *ba
             axis_value(&space->axes[a], (strata[i] + next_unit(&seed)) / count, value_at(space, i, a));
     }
     for (uint32_t i = 0; ok && i < count; i++) {
-        struct glint_pipeline *pipeline = build(space, i, err);
+        struct glint_pipeline *pipeline = build_pipeline(space, i, err);
         ok = pipeline != NULL;
         if (ok) glint_pipeline_destroy(&pipeline);
     }
@@ -198,11 +181,11 @@ const char *glint_space_value(const struct glint_space *space, size_t point, siz
     return value_at(space, point, axis);
 }
 struct glint_pipeline *glint_space_pipeline(const struct glint_space *space, size_t point, struct glint_error *err) {
-    return build(space, point, err);
+    return build_pipeline(space, point, err);
 }
 
-/* Where the axis first makes a difference; before all for what no slot of the list names. */
-static size_t place_of(const struct axis *axis, const char *const *slots) {
+/* The index of the first slot that the axis changes, from 1; 0 if it is none of the list. */
+static size_t first_slot_index(const struct axis *axis, const char *const *slots) {
     size_t earliest = SIZE_MAX;
     for (size_t n = 0; n < axis->name_count; n++) {
         const size_t length = strcspn(axis->names[n], ".");
@@ -215,21 +198,21 @@ static size_t place_of(const struct axis *axis, const char *const *slots) {
     return earliest;
 }
 
-/* What a value is sorted by: its place in a list, or itself in a range. */
-static double rank_of(const struct axis *axis, const char *value) {
+/* The sort key of a value: its index in a list, or the number itself in a range. */
+static double sort_value(const struct axis *axis, const char *value) {
     if (axis->range || !value[0]) return value[0] ? strtod(value, NULL) : -HUGE_VAL;
     size_t i = 0;
     while (i < axis->count && strcmp(axis->values[i], value) != 0) i++;
     return (double)i;
 }
 
-/* A point while they are sorted: by its ranks on the axes, the earliest axis first. */
+/* A point with its sort keys, those of the axis with the earliest slot first. */
 struct sorting {
     size_t point, axes;
     double *ranks;
 };
 
-static int by_order(const void *a, const void *b) {
+static int compare_points(const void *a, const void *b) {
     const struct sorting *x = a, *y = b;
     for (size_t i = 0; i < x->axes; i++)
         if (x->ranks[i] != y->ranks[i]) return x->ranks[i] < y->ranks[i] ? -1 : 1;
@@ -238,9 +221,9 @@ static int by_order(const void *a, const void *b) {
 
 static void order_axes(const struct glint_space *space, const char *const *slots, size_t *order) {
     for (size_t a = 0; a < space->axis_count; a++) {
-        const size_t place = place_of(&space->axes[a], slots);
+        const size_t place = first_slot_index(&space->axes[a], slots);
         size_t i = a;
-        for (; i > 0 && place_of(&space->axes[order[i - 1]], slots) > place; i--) order[i] = order[i - 1];
+        for (; i > 0 && first_slot_index(&space->axes[order[i - 1]], slots) > place; i--) order[i] = order[i - 1];
         order[i] = a;
     }
 }
@@ -251,14 +234,14 @@ bool glint_space_sort(struct glint_space *space, const char *const *slots, struc
     double *ranks = calloc(space->count * axes + 1, sizeof *ranks);
     size_t *order = calloc(axes + 1, sizeof *order);
     char(*values)[VALUE_SIZE] = calloc(space->count * axes + 1, sizeof *values);
-    const bool ok = (sorting && ranks && order && values) || no_memory(err);
+    const bool ok = (sorting && ranks && order && values) || no_memory(err, "parameter space");
     if (ok) order_axes(space, slots, order);
     for (size_t i = 0; ok && i < space->count; i++) {
         sorting[i] = (struct sorting){i, axes, ranks + i * axes};
         for (size_t a = 0; a < axes; a++)
-            ranks[i * axes + a] = rank_of(&space->axes[order[a]], value_at(space, i, order[a]));
+            ranks[i * axes + a] = sort_value(&space->axes[order[a]], value_at(space, i, order[a]));
     }
-    if (ok) qsort(sorting, space->count, sizeof *sorting, by_order);
+    if (ok) qsort(sorting, space->count, sizeof *sorting, compare_points);
     for (size_t i = 0; ok && i < space->count; i++)
         memcpy(values[i * axes], value_at(space, sorting[i].point, 0), axes * sizeof *values);
     if (ok) memcpy(space->values, values, space->count * axes * sizeof *values);

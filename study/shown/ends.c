@@ -1,4 +1,4 @@
-/* What a run gives, and why its rays ended: what its images say by themselves, without a truth. */
+/* Coverage of a run's reflection, and why its rays ended, according to the run's own images. */
 #include "glint/probe.h"
 #include "glint/study.h"
 #include "values.h"
@@ -10,51 +10,52 @@
 
 enum { REASONS = GLINT_END_REASONS, TRACERS = 8 };
 
-static struct glint_probe_word reason_of(size_t group) {
-    return glint_probe_word("end reason", (float)(group % REASONS));
+static struct glint_probe_label end_label(size_t group) {
+    return glint_probe_label("end reason", (float)(group % REASONS));
 }
 
-/* The texel of an image of another size that a pixel falls into. */
+/* The texel of an image of another resolution that contains a pixel. */
 static size_t texel_of(const struct glint_image *image, size_t pixel, uint32_t width, uint32_t height) {
     size_t x = pixel % width * image->width / width, y = pixel / width * image->height / height;
     return y * image->width + x;
 }
 
-uint8_t *glint_study_given(struct glint_replay *replay, const struct glint_pixels *reflection,
-                           struct glint_error *err) {
+uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_pixels *reflection,
+                              struct glint_error *err) {
     const struct glint_image *image = study_image(replay, GLINT_ROLE_CONTRIBUTION);
     size_t pixels = (size_t)reflection->width * reflection->height;
-    uint8_t *given = malloc(pixels);
+    uint8_t *coverage = malloc(pixels);
     float *contribution = NULL;
-    if (!given) glint_fail(err, GLINT_ERROR_MEMORY, "reflection: out of memory");
-    if (given && image && !(contribution = study_values(replay, image, GLINT_F32, err))) {
-        free(given);
+    if (!coverage) glint_fail(err, GLINT_ERROR_MEMORY, "reflection: out of memory");
+    if (coverage && image && !(contribution = study_values(replay, image, GLINT_F32, err))) {
+        free(coverage);
         return NULL;
     }
-    for (size_t i = 0; given && i < pixels; i++) {
+    for (size_t i = 0; coverage && i < pixels; i++) {
         float part = reflection->components > 3 ? reflection->values[i * reflection->components + 3] : 1;
         if (contribution)
             part *= contribution[texel_of(image, i, reflection->width, reflection->height) * image->components];
-        given[i] = part >= 0.5F;
+        coverage[i] = part >= 0.5F;
     }
     free(contribution);
-    return given;
+    return coverage;
 }
 
-/* One pass's images of diagnostics. */
+/* The diagnostic images of a tracer. */
 struct tracer {
     char name[32];
     const struct glint_image *end;
     uint32_t *reasons;
 };
 
-static const struct glint_image *image_of(struct glint_replay *replay, const struct tracer *tracer, const char *what) {
+static const struct glint_image *diagnostic_image(struct glint_replay *replay, const struct tracer *tracer,
+                                                  const char *what) {
     char name[64];
     snprintf(name, sizeof name, "%s_%s", tracer->name, what);
     return glint_replay_find_image(replay, name);
 }
 
-/* Passes with end reasons, in the order in which they ran; those of another size trace other rays. */
+/* Finds passes with end reasons, in order of execution. A pass whose images have another size traces other rays and is left out. */
 static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, size_t *count, struct glint_error *err) {
     size_t passes = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &passes);
@@ -75,8 +76,8 @@ static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, si
     return true;
 }
 
-/* Where a ray ended: tracer and reason of the last tracer that had it, or 0 without a ray. */
-static size_t group_of(const struct tracer *tracers, size_t count, size_t texel) {
+/* The group of a ray, which is the last tracer that traced it and its end reason; 0 if there is no ray. */
+static size_t end_group(const struct tracer *tracers, size_t count, size_t texel) {
     for (size_t t = count; t-- > 0;) {
         uint32_t reason = tracers[t].reasons[texel];
         if (reason > 0 && reason < REASONS) return t * REASONS + reason;
@@ -84,9 +85,9 @@ static size_t group_of(const struct tracer *tracers, size_t count, size_t texel)
     return 0;
 }
 
-/* Takes the rays out that no reflecting surface sends: each starts at the pixel of its texel that was picked. */
-static bool forget_rays(struct glint_replay *replay, struct tracer *tracers, size_t count, const uint8_t *surfaces,
-                        const struct glint_pixels *full, struct glint_error *err) {
+/* Clears rays that do not start from a reflecting surface. A ray starts at the pixel that was picked in its texel. */
+static bool clear_hidden_rays(struct glint_replay *replay, struct tracer *tracers, size_t count,
+                              const uint8_t *surfaces, const struct glint_pixels *full, struct glint_error *err) {
     const struct glint_image *image = study_image(replay, GLINT_ROLE_RAY_PICK), *end = tracers[0].end;
     uint32_t *pick = image ? study_values(replay, image, GLINT_U32, err) : NULL;
     const uint32_t scale = end->width == full->width && end->height == full->height ? 1 : 2;
@@ -102,15 +103,15 @@ static bool forget_rays(struct glint_replay *replay, struct tracer *tracers, siz
     return true;
 }
 
-/* Sum of each tracer's image `what` over all rays. */
-static bool add_up(struct glint_replay *replay, const struct tracer *tracers, size_t count, const char *what,
-                   double *sum, struct glint_error *err) {
+/* Sums the diagnostic image `what` of all tracers over all rays. */
+static bool sum_diagnostic(struct glint_replay *replay, const struct tracer *tracers, size_t count, const char *what,
+                           double *sum, struct glint_error *err) {
     for (size_t t = 0; t < count; t++) {
-        const struct glint_image *image = image_of(replay, &tracers[t], what);
+        const struct glint_image *image = diagnostic_image(replay, &tracers[t], what);
         uint32_t *values = image ? study_values(replay, image, GLINT_U32, err) : NULL;
         if (image && !values) return false;
         for (size_t i = 0; image && i < (size_t)image->width * image->height; i++)
-            if (group_of(tracers, count, i)) *sum += (double)values[i * image->components];
+            if (end_group(tracers, count, i)) *sum += (double)values[i * image->components];
         free(values);
     }
     return true;
@@ -131,13 +132,14 @@ static double symmetric_error(const struct glint_pixels *found, const struct gli
     return sum;
 }
 
-static void summarize(const struct tracer *tracers, size_t count, const struct group *groups, struct glint_ends *ends) {
+static void fill_end_rows(const struct tracer *tracers, size_t count, const struct group *groups,
+                          struct glint_ends *ends) {
     enum { ROWS = sizeof ends->rows / sizeof ends->rows[0] };
     for (size_t g = 0; g < count * REASONS; g++) ends->rays += groups[g].rays;
     for (size_t g = 0; g < count * REASONS && ends->count < ROWS; g++) {
         if (groups[g].rays == 0) continue;
         struct glint_end_row *row = &ends->rows[ends->count++];
-        const struct glint_probe_word reason = reason_of(g);
+        const struct glint_probe_label reason = end_label(g);
         *row = (struct glint_end_row){.reason = reason.name,
                                       .text = reason.text,
                                       .rays = groups[g].rays,
@@ -157,38 +159,39 @@ bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, cons
     double steps = 0, fetches = 0;
     *ends = (struct glint_ends){0};
     bool ok = find_tracers(replay, tracers, &count, err) &&
-              (!surfaces || !count || forget_rays(replay, tracers, count, surfaces, found, err)) &&
-              add_up(replay, tracers, count, "steps", &steps, err) &&
-              add_up(replay, tracers, count, "fetches", &fetches, err);
+              (!surfaces || !count || clear_hidden_rays(replay, tracers, count, surfaces, found, err)) &&
+              sum_diagnostic(replay, tracers, count, "steps", &steps, err) &&
+              sum_diagnostic(replay, tracers, count, "fetches", &fetches, err);
     size_t texels = ok && count ? (size_t)tracers[0].end->width * tracers[0].end->height : 0;
     for (size_t i = 0; i < texels; i++) {
-        size_t g = group_of(tracers, count, i);
+        size_t g = end_group(tracers, count, i);
         if (g) groups[g].rays++;
     }
     for (size_t i = 0; texels && compared && i < (size_t)found->width * found->height; i++) {
-        size_t g = compared[i] ? group_of(tracers, count, texel_of(tracers[0].end, i, found->width, found->height)) : 0;
+        size_t g =
+            compared[i] ? end_group(tracers, count, texel_of(tracers[0].end, i, found->width, found->height)) : 0;
         double error = g ? symmetric_error(found, truth, i) : NAN;
         if (!isfinite(error)) continue;
         groups[g].pixels++;
         groups[g].error += error;
     }
-    if (ok) summarize(tracers, count, groups, ends);
+    if (ok) fill_end_rows(tracers, count, groups, ends);
     if (ends->rays) ends->steps = steps / (double)ends->rays;
     if (ends->rays) ends->fetches = fetches / (double)ends->rays;
     for (size_t t = 0; t < TRACERS; t++) free(tracers[t].reasons);
     return ok;
 }
 
-enum { SOURCE_SCREEN = 1, SOURCE_CUBE_MAP, SOURCE_FALLBACK, SOURCE_SKY, SOURCE_NOTHING, SOURCES = SOURCE_NOTHING };
+enum { SOURCE_SCREEN = 1, SOURCE_CUBE_MAP, SOURCE_FALLBACK, SOURCE_SKY, SOURCE_MISS, SOURCES = SOURCE_MISS };
 static const char *const source_names[SOURCES] = {"screen", "cube map", "fallback", "sky", "nothing found"};
 
-static uint8_t source_of(const struct tracer *tracers, size_t group) {
+static uint8_t ray_source(const struct tracer *tracers, size_t group) {
     if (group == 0) return 0;
     const size_t reason = group % REASONS;
     if (reason == GLINT_END_HIT)
         return strcmp(tracers[group / REASONS].name, "screen") ? SOURCE_CUBE_MAP : SOURCE_SCREEN;
     if (reason == GLINT_END_SKY) return SOURCE_SKY;
-    return reason == GLINT_END_FALLBACK ? SOURCE_FALLBACK : SOURCE_NOTHING;
+    return reason == GLINT_END_FALLBACK ? SOURCE_FALLBACK : SOURCE_MISS;
 }
 
 bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t height, struct glint_classes *source,
@@ -200,7 +203,7 @@ bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t he
     if (ok && count && !(source->labels = malloc(pixels)))
         ok = glint_fail(err, GLINT_ERROR_MEMORY, "sources of reflections: out of memory");
     for (size_t i = 0; ok && count && i < pixels; i++)
-        source->labels[i] = source_of(tracers, group_of(tracers, count, texel_of(tracers[0].end, i, width, height)));
+        source->labels[i] = ray_source(tracers, end_group(tracers, count, texel_of(tracers[0].end, i, width, height)));
     for (size_t t = 0; t < TRACERS; t++) free(tracers[t].reasons);
     return ok;
 }

@@ -1,4 +1,4 @@
-/* The picture that a run ends with, and what lies over its opaque surfaces. */
+/* The final picture of a run, and its error where transparent surfaces or water cover the opaque ones. */
 #include "glint/study.h"
 
 #include <math.h>
@@ -7,17 +7,6 @@
 
 #include "values.h"
 
-static const struct glint_image *picture_of(struct glint_replay *replay, const struct glint_pass *pass) {
-    const struct glint_image *last = NULL;
-    for (size_t i = 0; i < pass->row_count; i++) {
-        const struct glint_row *row = &pass->rows[i];
-        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
-        const struct glint_image *image = glint_replay_find_image(replay, row->name);
-        if (image) last = image;
-    }
-    return last;
-}
-
 const struct glint_image *glint_study_picture(struct glint_replay *replay) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
@@ -25,7 +14,8 @@ const struct glint_image *glint_study_picture(struct glint_replay *replay) {
     bool composed = false;
     for (size_t i = 0; i < count; i++) {
         composed = composed || glint_pass_role(results[i].pass, GLINT_ROLE_COMPOSED);
-        const struct glint_image *image = composed && results[i].shown ? picture_of(replay, results[i].pass) : NULL;
+        const struct glint_image *image =
+            composed && results[i].shown ? study_radiance(replay, results[i].pass, NULL) : NULL;
         if (image) last = image;
     }
     return last;
@@ -40,7 +30,7 @@ static bool reads_part(const struct glint_pass *pass, const char *part) {
     return false;
 }
 
-bool glint_study_draws(struct glint_replay *replay, const char *part) {
+bool glint_study_reads_part(struct glint_replay *replay, const char *part) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     for (size_t i = 0; i < count; i++)
@@ -48,8 +38,8 @@ bool glint_study_draws(struct glint_replay *replay, const char *part) {
     return false;
 }
 
-bool glint_study_over(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
-                      struct glint_image_error *error, struct glint_error *err) {
+bool glint_study_overlay_error(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
+                               struct glint_image_error *error, struct glint_error *err) {
     static const char *const rgb[] = {"R", "G", "B"}, *const depth[] = {"depth.Z"};
     const struct glint_part_info *scene = glint_capture_find(capture, GLINT_PART_SCENE),
                                  *over = glint_capture_find(capture, part);

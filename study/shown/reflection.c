@@ -1,4 +1,4 @@
-/* What runs are compared with, and what of them: the last reflection, the truth, the class of each pixel. */
+/* The reflection of a run, the capture's truth, the class of each pixel's surface, the reference of a pipeline. */
 #include "glint/study.h"
 #include "question.h"
 #include "values.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool composes(const struct glint_pass *pass) {
+static bool is_compose(const struct glint_pass *pass) {
     return pass && glint_pass_role(pass, GLINT_ROLE_COMPOSED);
 }
 
@@ -28,30 +28,18 @@ uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error 
     return surfaces;
 }
 
-/* The last of the pass's images that holds a reflection at full resolution, of those that `compose` reads where the run
-   has it: water and glass are laid over the picture afterwards, and maps that only they read are no reflection of it. */
-static const struct glint_image *reflection_of(struct glint_replay *replay, const struct glint_pass *pass,
-                                               const struct glint_pass *compose) {
-    const struct glint_image *last = NULL;
-    for (size_t i = 0; i < pass->row_count; i++) {
-        const struct glint_row *row = &pass->rows[i];
-        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
-        const struct glint_image *image = glint_replay_find_image(replay, row->name);
-        if (image && (!compose || glint_pass_row(compose, GLINT_ROW_READ, row->name))) last = image;
-    }
-    return last;
-}
-
+/* Only images that `compose` reads count, if the run has it: water and glass are composed afterwards, and images that only they read are not
+   reflections in the opaque surfaces. */
 const struct glint_image *glint_study_reflection_image(struct glint_replay *replay) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     const struct glint_image *last = NULL;
     const struct glint_pass *compose = NULL;
     for (size_t i = 0; i < count; i++)
-        if (results[i].shown && composes(results[i].pass)) compose = results[i].pass;
+        if (results[i].shown && is_compose(results[i].pass)) compose = results[i].pass;
     for (size_t i = 0; i < count; i++) {
         const struct glint_image *image =
-            results[i].ran && results[i].pass != compose ? reflection_of(replay, results[i].pass, compose) : NULL;
+            results[i].ran && results[i].pass != compose ? study_radiance(replay, results[i].pass, compose) : NULL;
         if (image) last = image;
     }
     return last;
@@ -73,7 +61,7 @@ bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixe
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
         const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
-        if (composes(pass)) compose = pass;
+        if (is_compose(pass)) compose = pass;
     }
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
@@ -86,12 +74,10 @@ bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixe
     }
     if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection to compare with");
     *pixels = (struct glint_pixels){last->width, last->height, last->components, NULL};
-    pixels->values = malloc((size_t)last->width * last->height * last->components * sizeof *pixels->values);
-    return pixels->values ? glint_run_read(run, last, GLINT_F32, pixels->values, err)
-                          : glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", last->name);
+    return (pixels->values = study_run_values(run, last, err)) != NULL;
 }
 
-/* The value of a parameter as text, as glint_pipeline_set takes it; false when the pipeline has no such parameter. */
+/* The value of a parameter as text for glint_pipeline_set; false if the pipeline has no such parameter. */
 static bool value_text(const struct glint_pipeline *pipeline, const char *slot, const char *name, char text[64]) {
     const struct glint_pass *pass = glint_pipeline_find(pipeline, slot);
     const struct glint_row *row = pass ? glint_pass_parameter(pass, name) : NULL;
@@ -102,7 +88,7 @@ static bool value_text(const struct glint_pipeline *pipeline, const char *slot, 
     return true;
 }
 
-/* What is asked for, and not how well it is answered: the i-th row QUESTION of the pipeline's passes; NULL: no more. */
+/* The i-th row with role QUESTION among the pipeline's passes; NULL past the last. */
 static const struct glint_row *question_row(const struct glint_pipeline *pipeline, size_t i,
                                             const struct glint_pass **pass) {
     for (size_t p = 0; p < glint_pipeline_pass_count(pipeline); p++) {
@@ -115,7 +101,7 @@ static const struct glint_row *question_row(const struct glint_pipeline *pipelin
     return NULL;
 }
 
-/* The lobe that the pipeline's rays are drawn from. */
+/* The lobe that the pipeline's rays are drawn from, or the default if it draws none. */
 static void find_lobe(const struct glint_pipeline *pipeline, char lobe[64]) {
     const char *name;
     const struct glint_pass *any = glint_pass_with_role(GLINT_ROLE_LOBE, &name);
@@ -123,7 +109,7 @@ static void find_lobe(const struct glint_pipeline *pipeline, char lobe[64]) {
     if (!value_text(pipeline, any->slot, name, lobe)) snprintf(lobe, 64, "%s", row->choices[(size_t)row->initial]);
 }
 
-/* Of each pixel, 0 where the part declares none. Where no draw arrived nothing is known, of which that is said. */
+/* The relative standard error of each pixel: 0 if the part declares none, +inf where no sample arrived. */
 static bool truth_errors(struct glint_capture *capture, const struct glint_part_info *part, float **error,
                          struct glint_error *err) {
     const char *const channels[] = {glint_part_has_channel(part, "error") ? "error" : NULL, "weight"};

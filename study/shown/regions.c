@@ -1,4 +1,4 @@
-/* What a capture says of each pixel: how rough its surface is, how it is seen, from how far, how far it reflects. */
+/* Partitions of a capture's pixels: by roughness, viewing angle, distance and hit distance. */
 #include "glint/study.h"
 
 #include <math.h>
@@ -28,14 +28,14 @@ struct regions {
     uint32_t width, height;
 };
 
-/* The first bin that holds `value`, from 1. */
+/* The first bin that contains `value`, from 1. */
 static uint8_t bin_of(const double limits[LIMITS], double value) {
     uint8_t bin = 1;
     for (int k = 0; k < LIMITS && value > limits[k]; k++) bin++;
     return bin;
 }
 
-/* The direction from the eye through a pixel's centre, as long as it gets to depth 1. */
+/* The view ray through a pixel's centre, scaled to view depth 1. */
 static void direction_of(const struct regions *r, size_t x, size_t y, double world[3]) {
     const double u = ((double)x + 0.5) / r->width, v = ((double)y + 0.5) / r->height;
     for (int k = 0; k < 3; k++) world[k] = r->directions[k][0] * u + r->directions[k][1] * v + r->directions[k][2];
@@ -60,7 +60,7 @@ static void label_rows(void *user, size_t first, size_t last) {
     }
 }
 
-/* The first set's labels are there, which says that the part is. */
+/* The labels of the first partition must be set; so the G-buffer exists. */
 static bool label_all(struct glint_capture *capture, struct glint_classes *sets, size_t count,
                       struct glint_error *err) {
     static const char *const distance[] = {"distance.Z"};

@@ -1,4 +1,4 @@
-/* Compares where traced rays ended with the truth that the capture carries. */
+/* Compares the end points of traced rays with the truth of the capture. */
 #include "glint/probe.h"
 #include "glint/study.h"
 
@@ -12,27 +12,23 @@
 enum { REASONS = GLINT_END_REASONS, TRACERS = 2, GROUPS = TRACERS * REASONS };
 static const char *const tracers[TRACERS] = {"screen", "cube map"};
 
-/* One image of the run, or NULL when the run has none of that name and it may be missing. */
-struct pixels {
-    uint32_t width, height, components;
-    union {
-        float *f;
-        uint32_t *u;
-        void *any;
-    } data;
+/* The images of the run that are compared, by role. */
+enum { NORMAL, PICK, TRAVELLED, FINISHED, SCREEN_END, CUBEMAP_END, SCREEN_FETCHES, CUBEMAP_FETCHES, RADIANCE, IMAGES };
+static const struct {
+    enum glint_pass_role role;
+    enum glint_type type;
+    const char *required; /* what to call it in the error message if it is missing; NULL: it is optional */
+} inputs[IMAGES] = {
+    [NORMAL] = {GLINT_ROLE_RAY_NORMAL, GLINT_F32, "normals"},
+    [PICK] = {GLINT_ROLE_RAY_PICK, GLINT_U32, "picked pixels"},
+    [TRAVELLED] = {GLINT_ROLE_RAY_DISTANCE, GLINT_F32, "travelled distances"},
+    [FINISHED] = {GLINT_ROLE_SCREEN_FINISHED, GLINT_U32, NULL},
+    [SCREEN_END] = {GLINT_ROLE_SCREEN_END, GLINT_U32, NULL},
+    [CUBEMAP_END] = {GLINT_ROLE_CUBEMAP_END, GLINT_U32, NULL},
+    [SCREEN_FETCHES] = {GLINT_ROLE_SCREEN_FETCHES, GLINT_U32, NULL},
+    [CUBEMAP_FETCHES] = {GLINT_ROLE_CUBEMAP_FETCHES, GLINT_U32, NULL},
+    [RADIANCE] = {GLINT_ROLE_RAY_RADIANCE, GLINT_F32, NULL},
 };
-
-/* `required`: what the image is called where it is missed; NULL: it may be missing. */
-static bool get_image(struct glint_replay *replay, enum glint_pass_role role, enum glint_type type,
-                      const char *required, struct pixels *out, struct glint_error *err) {
-    const struct glint_image *image = study_image(replay, role);
-    if (!image && !required) return true;
-    if (!image)
-        return glint_fail(err, GLINT_ERROR_USAGE, "the run has no image of %s: expected one with diagnostics on",
-                          required);
-    *out = (struct pixels){image->width, image->height, image->components, {NULL}};
-    return (out->data.any = study_values(replay, image, type, err)) != NULL;
-}
 
 struct sample {
     double error, radiance_error;
@@ -44,9 +40,9 @@ static int by_error(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Samples are sorted by error, so that each group's are too. */
-static void summarize(const struct sample *samples, size_t count, uint32_t first, uint32_t last,
-                      struct glint_trace_row *row) {
+/* Samples are sorted by error, and so are those of each group. */
+static void fill_trace_row(const struct sample *samples, size_t count, uint32_t first, uint32_t last,
+                           struct glint_trace_row *row) {
     size_t right = 0, seen = 0, lit = 0;
     for (size_t i = 0; i < count; ++i) {
         if (samples[i].group < first || samples[i].group > last) continue;
@@ -72,22 +68,26 @@ static void summarize(const struct sample *samples, size_t count, uint32_t first
 static void fill_table(struct sample *samples, size_t count, struct glint_trace_table *table) {
     qsort(samples, count, sizeof *samples, by_error);
     for (uint32_t group = 0; group < GROUPS; ++group) {
-        const struct glint_probe_word reason = glint_probe_word("end reason", (float)(group % REASONS));
+        const struct glint_probe_label reason = glint_probe_label("end reason", (float)(group % REASONS));
         struct glint_trace_row row = {.tracer = tracers[group / REASONS], .reason = reason.name, .text = reason.text};
-        summarize(samples, count, group, group, &row);
+        fill_trace_row(samples, count, group, group, &row);
         if (row.rays > 0) table->rows[table->count++] = row;
     }
     struct glint_trace_row all = {.tracer = "all", .reason = "all", .text = "all rays"};
-    summarize(samples, count, 0, GROUPS - 1, &all);
+    fill_trace_row(samples, count, 0, GROUPS - 1, &all);
     table->rows[table->count++] = all;
 }
 
-/* What is compared: images of the run at its resolution, the truth at the capture's. */
+/* Images of the run in the pipeline's resolution, and the truth in the capture's. */
 struct inputs {
-    struct pixels normal, pick, travelled, finished, screen_end, cubemap_end, screen_fetches, cubemap_fetches,
-        reflection;
-    float *mirror, *radiance; /* distance, visible; R G B, weight */
-    uint32_t width, height;   /* of the truth */
+    union {
+        float *f;
+        uint32_t *u;
+        void *any;
+    } images[IMAGES];               /* NULL if the run does not have one */
+    uint32_t run_width, run_height; /* of the images */
+    float *mirror, *radiance;       /* distance, visible; R G B, weight */
+    uint32_t width, height;         /* of the truth */
 };
 
 static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct glint_capture *capture,
@@ -97,41 +97,37 @@ static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct g
     if (!in->mirror) return false;
     in->width = glint_capture_find(capture, "truth.mirror")->width;
     in->height = glint_capture_find(capture, "truth.mirror")->height;
-    if (glint_capture_find(capture, "truth.reflection.ggx")) {
-        in->radiance = study_channels(capture, "truth.reflection.ggx", radiance, 4, err);
-        if (!in->radiance) return false;
+    if (glint_capture_find(capture, "truth.reflection.ggx") &&
+        !(in->radiance = study_channels(capture, "truth.reflection.ggx", radiance, 4, err)))
+        return false;
+    for (int k = 0; k < IMAGES; k++) {
+        const struct glint_image *image = study_image(replay, inputs[k].role);
+        if (!image && inputs[k].required)
+            return glint_fail(err, GLINT_ERROR_USAGE, "the run has no image of %s: expected a run with diagnostics",
+                              inputs[k].required);
+        if (image && !(in->images[k].any = study_values(replay, image, inputs[k].type, err))) return false;
+        if (k == TRAVELLED) in->run_width = image->width, in->run_height = image->height;
     }
-    return get_image(replay, GLINT_ROLE_RAY_NORMAL, GLINT_F32, "normals", &in->normal, err) &&
-           get_image(replay, GLINT_ROLE_RAY_PICK, GLINT_U32, "picked pixels", &in->pick, err) &&
-           get_image(replay, GLINT_ROLE_RAY_DISTANCE, GLINT_F32, "travelled distances", &in->travelled, err) &&
-           get_image(replay, GLINT_ROLE_SCREEN_FINISHED, GLINT_U32, NULL, &in->finished, err) &&
-           get_image(replay, GLINT_ROLE_SCREEN_END, GLINT_U32, NULL, &in->screen_end, err) &&
-           get_image(replay, GLINT_ROLE_CUBEMAP_END, GLINT_U32, NULL, &in->cubemap_end, err) &&
-           get_image(replay, GLINT_ROLE_SCREEN_FETCHES, GLINT_U32, NULL, &in->screen_fetches, err) &&
-           get_image(replay, GLINT_ROLE_CUBEMAP_FETCHES, GLINT_U32, NULL, &in->cubemap_fetches, err) &&
-           get_image(replay, GLINT_ROLE_RAY_RADIANCE, GLINT_F32, NULL, &in->reflection, err);
+    return true;
 }
 
 static void free_inputs(struct inputs *in) {
-    struct pixels *images[] = {&in->normal,     &in->pick,           &in->travelled,
-                               &in->finished,   &in->screen_end,     &in->cubemap_end,
-                               &in->reflection, &in->screen_fetches, &in->cubemap_fetches};
-    for (size_t i = 0; i < sizeof images / sizeof images[0]; ++i) free(images[i]->data.any);
+    for (int k = 0; k < IMAGES; k++) free(in->images[k].any);
     free(in->mirror);
     free(in->radiance);
 }
 
-/* Reasons of images that the run lacks are 0, not traced. */
-static uint32_t reason_at(const struct pixels *image, size_t i) {
-    uint32_t reason = image->data.u ? image->data.u[i] : 0;
+/* 0 (not traced) if the run lacks the image. */
+static uint32_t reason_at(const struct inputs *in, int image, size_t i) {
+    uint32_t reason = in->images[image].u ? in->images[image].u[i] : 0;
     return reason < REASONS ? reason : 0;
 }
 
 static double radiance_error(const struct inputs *in, size_t texel, size_t pixel) {
-    if (!in->reflection.data.f || !in->radiance || !(in->radiance[4 * pixel + 3] > 0)) return NAN;
+    if (!in->images[RADIANCE].f || !in->radiance || !(in->radiance[4 * pixel + 3] > 0)) return NAN;
     double sum = 0;
     for (size_t k = 0; k < 3; ++k) {
-        double found = (double)in->reflection.data.f[4 * texel + k], truth = (double)in->radiance[4 * pixel + k];
+        double found = (double)in->images[RADIANCE].f[4 * texel + k], truth = (double)in->radiance[4 * pixel + k];
         sum += fabs(found - truth) / (found + truth + GLINT_SYMMETRIC_EPSILON) / 3;
     }
     return sum;
@@ -142,39 +138,39 @@ static uint32_t truth_end(const struct inputs *in, size_t pixel) {
     return in->mirror[2 * pixel + 1] > 0.5F ? GLINT_TRUTH_ON_SCREEN : GLINT_TRUTH_ELSEWHERE;
 }
 
-/* Rays of all surfaces: the arrays have room for one a texel. */
+/* Rays of all surfaces, at most one a texel. */
 struct rays {
     float *found, *truth;
     uint8_t *surfaces;
-    struct sample *samples; /* of surfaces up to max_roughness */
+    struct sample *samples; /* rays of surfaces up to max_roughness */
     size_t count, sample_count;
     double fetches[GLINT_SURFACE_COUNT]; /* sums */
     double max_roughness;
 };
 
-static double fetches_at(const struct pixels *image, size_t i) {
-    return image->data.u ? (double)image->data.u[i] : 0;
+static double fetches_at(const struct inputs *in, int image, size_t i) {
+    return in->images[image].u ? (double)in->images[image].u[i] : 0;
 }
 
-/* One texel of the run, unless it has no ray to compare. */
+/* Compares the ray of a texel, if it has one. */
 static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) {
-    uint32_t scale = in->travelled.width == in->width && in->travelled.height == in->height ? 1 : 2;
-    uint32_t pick = in->pick.data.u[i] < 4 && scale == 2 ? in->pick.data.u[i] : 0;
-    uint32_t x = scale * (uint32_t)(i % in->travelled.width) + (pick & 1);
-    uint32_t y = scale * (uint32_t)(i / in->travelled.width) + (pick >> 1);
+    uint32_t scale = in->run_width == in->width && in->run_height == in->height ? 1 : 2;
+    uint32_t pick = in->images[PICK].u[i] < 4 && scale == 2 ? in->images[PICK].u[i] : 0;
+    uint32_t x = scale * (uint32_t)(i % in->run_width) + (pick & 1);
+    uint32_t y = scale * (uint32_t)(i / in->run_width) + (pick >> 1);
     if (x >= in->width || y >= in->height) return;
     size_t pixel = (size_t)y * in->width + x;
-    bool on_screen = in->finished.data.u && in->finished.data.u[i] != 0;
-    bool by_screen = on_screen || !in->cubemap_end.data.u; /* nothing traces on where the screen ends */
-    uint32_t reason = reason_at(by_screen ? &in->screen_end : &in->cubemap_end, i);
-    float distance = in->mirror[2 * pixel], travelled = in->travelled.data.f[i],
-          roughness = in->normal.data.f[4 * i + 3];
+    bool on_screen = in->images[FINISHED].u && in->images[FINISHED].u[i] != 0;
+    bool by_screen = on_screen || !in->images[CUBEMAP_END].u; /* no tracer continues where the screen ends */
+    uint32_t reason = reason_at(in, by_screen ? SCREEN_END : CUBEMAP_END, i);
+    float distance = in->mirror[2 * pixel], travelled = in->images[TRAVELLED].f[i],
+          roughness = in->images[NORMAL].f[4 * i + 3];
     if (reason == 0 || !(distance > 0)) return;
     rays->found[rays->count] = travelled;
     rays->truth[rays->count] = distance;
     enum glint_surface surface = glint_surface_of((double)roughness);
     rays->surfaces[rays->count++] = (uint8_t)surface;
-    rays->fetches[surface] += fetches_at(&in->screen_fetches, i) + fetches_at(&in->cubemap_fetches, i);
+    rays->fetches[surface] += fetches_at(in, SCREEN_FETCHES, i) + fetches_at(in, CUBEMAP_FETCHES, i);
     if (!(roughness <= (float)rays->max_roughness)) return;
     rays->samples[rays->sample_count++] =
         (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),
@@ -196,7 +192,7 @@ bool glint_study_trace(struct glint_replay *replay, struct glint_capture *captur
     struct rays rays = {.max_roughness = max_roughness};
     *table = (struct glint_trace_table){0};
     bool ok = read_inputs(&in, replay, capture, err);
-    size_t texels = (size_t)in.travelled.width * in.travelled.height;
+    size_t texels = (size_t)in.run_width * in.run_height;
     if (ok) ok = allocate_rays(&rays, texels, err);
     for (size_t i = 0; ok && i < texels; ++i) compare_texel(&in, i, &rays);
     if (ok && rays.sample_count > 0) fill_table(rays.samples, rays.sample_count, table);

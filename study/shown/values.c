@@ -1,7 +1,10 @@
-/* Values of runs and captures in memory. */
+/* Reads images of runs and channels of captures into memory. */
 #include "values.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include "no_memory.h"
 
 const struct glint_image *study_image(const struct glint_replay *replay, enum glint_pass_role role) {
     size_t count;
@@ -33,4 +36,24 @@ float *study_channels(struct glint_capture *capture, const char *name, const cha
     if (values && glint_capture_read(capture, part, channels, count, GLINT_F32, values, 0, err)) return values;
     free(values);
     return NULL;
+}
+
+float *study_run_values(struct glint_run *run, const struct glint_run_image *image, struct glint_error *err) {
+    float *values = malloc((size_t)image->width * image->height * image->components * sizeof *values);
+    if (!values) no_memory(err, image->name);
+    if (values && glint_run_read(run, image, GLINT_F32, values, err)) return values;
+    free(values);
+    return NULL;
+}
+
+const struct glint_image *study_radiance(struct glint_replay *replay, const struct glint_pass *pass,
+                                         const struct glint_pass *reader) {
+    const struct glint_image *last = NULL;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
+        const struct glint_image *image = glint_replay_find_image(replay, row->name);
+        if (image && (!reader || glint_pass_row(reader, GLINT_ROW_READ, row->name))) last = image;
+    }
+    return last;
 }

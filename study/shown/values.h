@@ -1,16 +1,21 @@
-/* Values of runs and captures in memory. */
+/* Reads images of runs and channels of captures into memory. */
 #ifndef GLINT_STUDY_VALUES_H
 #define GLINT_STUDY_VALUES_H
 
 #include "glint/replay.h"
 
-/* The image of the last run that has a role, of the last pass in its order that makes one; NULL: the run has none. */
+/* The image of the last run that has a role; if several passes have it, that of the last one. NULL if there is none. */
 const struct glint_image *study_image(const struct glint_replay *replay, enum glint_pass_role role);
-/* An image's values, GLINT_F32 or GLINT_U32, and channels of a part, interleaved floats. The caller frees them; NULL with an
-   error. */
+/* The values of an image as GLINT_F32 or GLINT_U32, and channels of a part as interleaved floats. The caller frees them; NULL on failure. */
 void *study_values(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
                    struct glint_error *err);
 float *study_channels(struct glint_capture *capture, const char *part, const char *const *channels, size_t count,
                       struct glint_error *err);
+
+/* The same of an image of a run folder, as GLINT_F32. */
+float *study_run_values(struct glint_run *run, const struct glint_run_image *image, struct glint_error *err);
+/* The last of a pass's images of the last run that holds radiance at full resolution; `reader`: only of those that this pass reads (NULL: any). */
+const struct glint_image *study_radiance(struct glint_replay *replay, const struct glint_pass *pass,
+                                         const struct glint_pass *reader);
 
 #endif

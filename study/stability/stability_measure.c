@@ -1,6 +1,7 @@
-/* Replays a frame as it is and with perturbed values, and gathers what that changes. */
+/* Replays a frame unperturbed and with perturbed values, and compares the images. */
 #include "measuring.h"
 #include "values.h"
+#include "no_memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -27,10 +28,6 @@ static void measuring_finish(struct measuring *m) {
     free(m->surfaces);
 }
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "stability: out of memory");
-}
-
 /* ---- Runs ---- */
 
 static bool run_frame(const struct measuring *m, const struct glint_pipeline *pipeline, uint32_t seed,
@@ -46,31 +43,30 @@ static bool run_frame(const struct measuring *m, const struct glint_pipeline *pi
            glint_replay_run(m->replay, pipeline, &options, glint_report_part, part, err);
 }
 
-/* Of float or uint. */
 static uint32_t *read_bits(const struct measuring *m, const struct glint_image *image, struct glint_error *err) {
     return study_values(m->replay, image, glint_format_is_uint(image->format) ? GLINT_U32 : GLINT_F32, err);
 }
 
-/* ---- What there is to look at ---- */
+/* ---- Which images are measured ---- */
 
-static bool lies_over_picture(enum glint_size_class size) {
+static bool is_per_pixel(enum glint_size_class size) {
     return size == GLINT_SIZE_FULL || size == GLINT_SIZE_HALF || size == GLINT_SIZE_EIGHTH ||
            size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_HALF_MIPS3;
 }
-/* Tables and lists are what the host or a sorting makes of the frame. */
-static bool is_looked_at(const struct glint_image *image) {
+/* Tables, lists and MIP levels are not measured, nor are ids of the capture. */
+static bool is_measured(const struct glint_image *image) {
     const enum glint_size_class size = image->row->size;
     const bool uint = glint_format_is_uint(image->format);
     if (image->level || size == GLINT_SIZE_LIST || (!image->pass && uint)) return false;
-    return !uint || lies_over_picture(size);
+    return !uint || is_per_pixel(size);
 }
-/* What tracers did on the way is a count, not a choice. */
+/* Numbers of steps and fetches are counts, not decisions. */
 static bool is_decision(const struct glint_image *image) {
     return glint_format_is_uint(image->format) && strcmp(image->row->unit, "steps") != 0 &&
            strcmp(image->row->unit, "fetches") != 0;
 }
 
-static bool track(struct measuring *m, const struct glint_image *from, struct glint_error *err) {
+static bool track_image(struct measuring *m, const struct glint_image *from, struct glint_error *err) {
     struct glint_stability *s = m->out;
     struct glint_stability_image *image = &s->images[s->image_count];
     struct tracked *t = &m->tracked[s->image_count++];
@@ -81,13 +77,13 @@ static bool track(struct measuring *m, const struct glint_image *from, struct gl
                                             .width = from->width,
                                             .height = from->height,
                                             .components = from->components,
-                                            .over_picture = lies_over_picture(from->row->size),
-                                            .decides = is_decision(from)};
+                                            .per_pixel = is_per_pixel(from->row->size),
+                                            .discrete = is_decision(from)};
     *t = (struct tracked){.out = image, .input = -1, .decision = -1};
     if (!image->name || !(t->base = read_bits(m, from, err)) || !(image->flips = calloc(texels, 1)) ||
-        (!image->decides && !(image->change = calloc(texels, sizeof *image->change))))
-        return no_memory(err);
-    if (!image->decides) texels_begin(t);
+        (!image->discrete && !(image->change = calloc(texels, sizeof *image->change))))
+        return no_memory(err, "stability");
+    if (!image->discrete) texels_begin(t);
     return true;
 }
 
@@ -95,14 +91,14 @@ static bool track_all(struct measuring *m, const struct glint_pass *pass, struct
     for (size_t i = 0; i < glint_replay_image_count(m->replay); i++) {
         const struct glint_image *image = glint_replay_image(m->replay, i);
         const bool counts = glint_format_is_uint(image->format) && !is_decision(image);
-        if (image->pass == pass && is_looked_at(image) && !counts && !track(m, image, err)) return false;
+        if (image->pass == pass && is_measured(image) && !counts && !track_image(m, image, err)) return false;
     }
     return true;
 }
 
-/* ---- What depends on what ---- */
+/* ---- Dependencies ---- */
 
-/* What one pass reads, as far as it was tracked; its own decisions are among what its images depend on. */
+/* Sets which inputs and decisions the images of a pass depend on, which include its own decisions. */
 static void link_pass(struct measuring *m, const struct glint_pass *pass) {
     uint64_t inputs = 0;
     uint32_t decisions = 0, own = 0;
@@ -135,7 +131,7 @@ static bool link_all(struct measuring *m, struct glint_error *err) {
     for (size_t i = 0; i < m->out->image_count; i++) {
         struct tracked *t = &m->tracked[i];
         if (!t->out->pass) t->inputs = (uint64_t)1 << (t->input = inputs++ % INPUTS_MAX);
-        if (t->out->decides) t->decision = decisions++ % DECISIONS_MAX;
+        if (t->out->discrete) t->decision = decisions++ % DECISIONS_MAX;
     }
     if (inputs > INPUTS_MAX || decisions > DECISIONS_MAX)
         return glint_fail(err, GLINT_ERROR_LIMIT,
@@ -157,35 +153,37 @@ static bool begin_measuring(struct measuring *m, struct glint_error *err) {
     s->images = calloc(images + 1, sizeof *s->images);
     m->tracked = calloc(images + 1, sizeof *m->tracked);
     for (int k = 0; k < 3; k++) m->decided[k] = calloc(pixels, sizeof *m->decided[k]);
-    if (!s->images || !m->tracked || !m->decided[0] || !m->decided[1] || !m->decided[2]) return no_memory(err);
+    if (!s->images || !m->tracked || !m->decided[0] || !m->decided[1] || !m->decided[2])
+        return no_memory(err, "stability");
     bool ok = track_all(m, NULL, err);
     for (size_t p = 0; ok && p < count; p++)
         if (results[p].shown) ok = track_all(m, results[p].pass, err);
     return ok && link_all(m, err);
 }
 
-/* ---- A seed ---- */
+/* ---- Comparing a seed ---- */
 
 static bool compare_image(const struct measuring *m, struct tracked *t, struct glint_error *err) {
     const struct glint_image *image = glint_replay_find_image(m->replay, t->out->name);
     if (!image || image->width != t->out->width || image->height != t->out->height)
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
-                          "stability: image %s: the perturbed frame has none, or another size; --all runs every pass",
-                          t->out->name);
+        return glint_fail(
+            err, GLINT_ERROR_UNSUPPORTED,
+            "stability: image %s: the perturbed frame lacks it, or it has another size; --all runs every pass",
+            t->out->name);
     uint32_t *bits = read_bits(m, image, err);
-    if (bits && t->out->decides) texels_decided(m, t, bits);
+    if (bits && t->out->discrete) texels_decided(m, t, bits);
     else if (bits) texels_changed(m, t, bits);
     free(bits);
     return bits != NULL;
 }
 
-/* Decisions come first: what changed is counted by them. */
+/* Decisions come first, since texels with flipped decisions are left out of the changes. */
 static bool compare_all(const struct measuring *m, struct glint_error *err) {
     const struct glint_stability *s = m->out;
     memset(m->decided[0], 0, (size_t)s->width * s->height * sizeof *m->decided[0]);
     for (int decides = 1; decides >= 0; decides--) {
         for (size_t i = 0; i < s->image_count; i++)
-            if (s->images[i].decides == decides && !compare_image(m, &m->tracked[i], err)) return false;
+            if (s->images[i].discrete == decides && !compare_image(m, &m->tracked[i], err)) return false;
         if (decides) texels_spread(m);
     }
     return true;

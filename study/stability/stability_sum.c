@@ -1,4 +1,4 @@
-/* Amplification, and where it starts, from what all seeds changed. */
+/* Computes amplification, and in which pass it starts, from the changes of all seeds. */
 #include "measuring.h"
 
 #include <math.h>
@@ -6,14 +6,11 @@
 #include <string.h>
 
 #include "glint/sort.h"
+#include "no_memory.h"
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "stability: out of memory");
-}
-
-/* Whether a texel of an image over the picture shows something that reflects; elsewhere any counts. */
+/* Whether a texel is compared: it must cover a reflecting pixel, unless the image is not per_pixel. */
 static bool is_compared(const struct measuring *m, const struct glint_stability_image *image, uint32_t x, uint32_t y) {
-    if (!image->over_picture) return true;
+    if (!image->per_pixel) return true;
     const struct footprint f = footprint_of(m->out, image, x, y);
     for (uint32_t v = f.y0; v < f.y1; v++)
         for (uint32_t u = f.x0; u < f.x1; u++)
@@ -21,9 +18,9 @@ static bool is_compared(const struct measuring *m, const struct glint_stability_
     return false;
 }
 
-/* ---- What the inputs moved by ---- */
+/* ---- Changes of the inputs ---- */
 
-static void finish_changes(const struct measuring *m) {
+static void normalise_changes(const struct measuring *m) {
     for (size_t i = 0; i < m->out->image_count; i++) {
         const struct glint_stability_image *image = &m->out->images[i];
         for (size_t k = 0; image->change && k < (size_t)image->width * image->height; k++) {
@@ -33,7 +30,7 @@ static void finish_changes(const struct measuring *m) {
     }
 }
 
-/* Root mean square of an input over the frame. */
+/* Root mean square change of each input over the frame. */
 static void find_means(struct measuring *m) {
     for (size_t i = 0; i < m->out->image_count; i++) {
         const struct glint_stability_image *image = &m->out->images[i];
@@ -49,12 +46,12 @@ static void find_means(struct measuring *m) {
     }
 }
 
-/* Mean square of one input over the pixels of a texel. */
-static double moved_there(const struct measuring *m, const struct tracked *input,
-                          const struct glint_stability_image *image, uint32_t x, uint32_t y) {
+/* Mean square change of an input over the pixels of a texel. */
+static double input_change(const struct measuring *m, const struct tracked *input,
+                           const struct glint_stability_image *image, uint32_t x, uint32_t y) {
     const double mean = m->input_mean[input->input],
                  least = GLINT_STABILITY_LEAST * GLINT_STABILITY_LEAST * mean * mean;
-    if (!input->out->over_picture || !image->over_picture) return mean * mean;
+    if (!input->out->per_pixel || !image->per_pixel) return mean * mean;
     const struct footprint f = footprint_of(m->out, image, x, y);
     double sum = 0, count = 0;
     for (uint32_t v = f.y0; v < f.y1; v++)
@@ -65,18 +62,18 @@ static double moved_there(const struct measuring *m, const struct tracked *input
     return fmax(count > 0 ? sum / count : 0, least);
 }
 
-static bool amplify(const struct measuring *m, const struct tracked *t, struct glint_error *err) {
+static bool find_amplification(const struct measuring *m, const struct tracked *t, struct glint_error *err) {
     struct glint_stability_image *image = t->out;
     if (!image->pass || !image->change) return true;
     image->amplification = calloc((size_t)image->width * image->height, sizeof *image->amplification);
-    if (!image->amplification) return no_memory(err);
+    if (!image->amplification) return no_memory(err, "stability");
     for (uint32_t y = 0; y < image->height; y++)
         for (uint32_t x = 0; x < image->width; x++) {
             const size_t at = (size_t)y * image->width + x;
             double square = 0;
             if (image->change[at] == 0) continue;
             for (size_t i = 0; i < m->out->image_count && !m->out->images[i].pass; i++)
-                if (t->inputs >> m->tracked[i].input & 1) square += moved_there(m, &m->tracked[i], image, x, y);
+                if (t->inputs >> m->tracked[i].input & 1) square += input_change(m, &m->tracked[i], image, x, y);
             image->amplification[at] = square > 0 ? image->change[at] / (float)sqrt(square) : INFINITY;
         }
     return true;
@@ -114,7 +111,7 @@ static bool sum_image(const struct measuring *m, const struct tracked *t, struct
     float *values = malloc((size_t)image->width * image->height * sizeof *values);
     size_t count = 0;
     double flips = 0;
-    if (!values) return no_memory(err);
+    if (!values) return no_memory(err, "stability");
     for (uint32_t y = 0; y < image->height; y++)
         for (uint32_t x = 0; x < image->width; x++) {
             const size_t at = (size_t)y * image->width + x;
@@ -132,12 +129,12 @@ static bool sum_image(const struct measuring *m, const struct tracked *t, struct
 
 /* ---- Passes ---- */
 
-struct seen {
-    float *amplification; /* a pixel: the pass's largest */
-    uint8_t *flips;       /* 1: a decision of the pass's; 2: an end reason */
+struct pass_sums {
+    float *amplification; /* for each pixel the largest of the pass's images */
+    uint8_t *flips;       /* for each pixel: bit 0: a decision flips; bit 1: an end reason flips */
 };
 
-static void see_image(const struct measuring *m, const struct glint_stability_image *image, struct seen *seen) {
+static void add_image(const struct measuring *m, const struct glint_stability_image *image, struct pass_sums *sums) {
     const uint8_t flip = is_end_reason(image->row) ? 3 : 1;
     for (uint32_t y = 0; y < image->height; y++)
         for (uint32_t x = 0; x < image->width; x++) {
@@ -146,45 +143,45 @@ static void see_image(const struct measuring *m, const struct glint_stability_im
             for (uint32_t v = f.y0; v < f.y1; v++)
                 for (uint32_t u = f.x0; u < f.x1; u++) {
                     const size_t pixel = (size_t)v * m->out->width + u;
-                    if (image->decides) seen->flips[pixel] |= image->flips[at] ? flip : 0;
-                    else if (image->amplification[at] > seen->amplification[pixel])
-                        seen->amplification[pixel] = image->amplification[at];
+                    if (image->discrete) sums->flips[pixel] |= image->flips[at] ? flip : 0;
+                    else if (image->amplification[at] > sums->amplification[pixel])
+                        sums->amplification[pixel] = image->amplification[at];
                 }
         }
 }
 
-static void count_pass(const struct measuring *m, struct glint_stability_pass *pass, struct seen *seen) {
+static void count_pass(const struct measuring *m, struct glint_stability_pass *pass, struct pass_sums *sums) {
     struct glint_stability *s = m->out;
     const size_t pixels = (size_t)s->width * s->height;
     size_t count = 0;
     for (size_t i = 0; i < pixels; i++) {
         if (!m->surfaces[i]) continue;
-        pass->flipped += seen->flips[i] & 1;
-        pass->ends += seen->flips[i] >> 1;
-        if (seen->flips[i] && !s->flip_start[i]) s->flip_start[i] = (uint32_t)pass->place, pass->flip_starts++;
-        if ((double)seen->amplification[i] > s->bound && !s->start[i])
+        pass->flipped += sums->flips[i] & 1;
+        pass->ends += sums->flips[i] >> 1;
+        if (sums->flips[i] && !s->flip_start[i]) s->flip_start[i] = (uint32_t)pass->place, pass->flip_starts++;
+        if ((double)sums->amplification[i] > s->bound && !s->start[i])
             s->start[i] = (uint32_t)pass->place, pass->starts++;
-        seen->amplification[count++] = seen->amplification[i];
+        sums->amplification[count++] = sums->amplification[i];
     }
-    pass->summary = summary_of(seen->amplification, count, s->bound);
+    pass->summary = summary_of(sums->amplification, count, s->bound);
 }
 
 static bool sum_pass(const struct measuring *m, const struct glint_pass *of, size_t place, struct glint_error *err) {
     struct glint_stability *s = m->out;
     const size_t pixels = (size_t)s->width * s->height;
     bool any = false;
-    for (size_t i = 0; i < s->image_count; i++) any |= s->images[i].pass == of && s->images[i].over_picture;
+    for (size_t i = 0; i < s->image_count; i++) any |= s->images[i].pass == of && s->images[i].per_pixel;
     if (!any) return true;
-    struct seen seen = {calloc(pixels, sizeof *seen.amplification), calloc(pixels, 1)};
-    const bool ok = (seen.amplification && seen.flips) || no_memory(err);
+    struct pass_sums sums = {calloc(pixels, sizeof *sums.amplification), calloc(pixels, 1)};
+    const bool ok = (sums.amplification && sums.flips) || no_memory(err, "stability");
     for (size_t i = 0; ok && i < s->image_count; i++)
-        if (s->images[i].pass == of && s->images[i].over_picture) see_image(m, &s->images[i], &seen);
+        if (s->images[i].pass == of && s->images[i].per_pixel) add_image(m, &s->images[i], &sums);
     struct glint_stability_pass *pass = &s->passes[s->pass_count++];
     *pass = (struct glint_stability_pass){.pass = of, .place = place};
-    if (ok) memcpy(s->amplification, seen.amplification, pixels * sizeof *s->amplification);
-    if (ok) count_pass(m, pass, &seen);
-    free(seen.amplification);
-    free(seen.flips);
+    if (ok) memcpy(s->amplification, sums.amplification, pixels * sizeof *s->amplification);
+    if (ok) count_pass(m, pass, &sums);
+    free(sums.amplification);
+    free(sums.flips);
     return ok;
 }
 
@@ -197,11 +194,11 @@ bool stability_sum_up(struct measuring *m, struct glint_error *err) {
     s->start = calloc(pixels, sizeof *s->start);
     s->flip_start = calloc(pixels, sizeof *s->flip_start);
     s->amplification = calloc(pixels, sizeof *s->amplification);
-    bool ok = (s->passes && s->start && s->flip_start && s->amplification) || no_memory(err);
-    if (ok) finish_changes(m);
+    bool ok = (s->passes && s->start && s->flip_start && s->amplification) || no_memory(err, "stability");
+    if (ok) normalise_changes(m);
     if (ok) find_means(m);
     for (size_t i = 0; ok && i < s->image_count; i++)
-        ok = amplify(m, &m->tracked[i], err) && sum_image(m, &m->tracked[i], err);
+        ok = find_amplification(m, &m->tracked[i], err) && sum_image(m, &m->tracked[i], err);
     for (size_t p = 0; ok && p < count; p++)
         if (results[p].ran && !results[p].pass->host) ok = sum_pass(m, results[p].pass, p + 1, err);
     return ok;

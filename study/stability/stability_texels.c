@@ -1,4 +1,4 @@
-/* Texel by texel: what a perturbed run changed. */
+/* Compares the texels of a perturbed run with those of the unperturbed one. */
 #include "measuring.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@ static bool is_relative(const char *unit) {
     return !strcmp(unit, "m") || !strcmp(unit, "1/m") || !strcmp(unit, "radiance");
 }
 
-/* Alpha is a share, whatever the colour's unit. */
-static uint32_t related(const struct tracked *t) {
+/* The number of components whose change is relative to their magnitude; alpha is a fraction, so that its change is absolute. */
+static uint32_t relative_components(const struct tracked *t) {
     const bool alpha = t->out->components == 4 && !strcmp(t->out->row->unit, "radiance");
     return !is_relative(t->out->row->unit) ? 0 : alpha ? 3 : t->out->components;
 }
@@ -27,7 +27,7 @@ static double magnitude(const float *v, uint32_t components) {
 void texels_begin(struct tracked *t) {
     struct glint_stability_image *image = t->out;
     const size_t texels = (size_t)image->width * image->height;
-    const uint32_t components = image->components, of_scale = related(t);
+    const uint32_t components = image->components, of_scale = relative_components(t);
     const bool lengths = image->row->unit[strlen(image->row->unit) - 1] == 'm';
     const float *base = (const float *)t->base;
     double sum = 0, count = 0;
@@ -37,7 +37,7 @@ void texels_begin(struct tracked *t) {
         for (uint32_t k = 0; k < components; k++) {
             const double v = fabs((double)base[i * components + k]);
             image->invalid += isnan(v) || (isinf(v) && !lengths);
-            image->beyond += v > HALF_LARGEST && isfinite(v);
+            image->overflowing += v > HALF_LARGEST && isfinite(v);
             if (!isfinite(v) || v <= image->peak) continue;
             image->peak = v;
             image->peak_x = (uint32_t)(i % image->width);
@@ -48,9 +48,9 @@ void texels_begin(struct tracked *t) {
     t->least_scale = of_scale && count > 0 ? 0.01 * sum / count : 1;
 }
 
-/* Square of the relative change; -1: from finite to infinite, to NaN, or back. */
+/* Square of the relative change; -1 if a value becomes infinite or NaN, or was so before. */
 static double change_of(const struct tracked *t, const float *before, const float *after) {
-    const uint32_t of_scale = related(t);
+    const uint32_t of_scale = relative_components(t);
     const double scale = fmax(magnitude(before, of_scale), t->least_scale);
     double square = 0;
     for (uint32_t k = 0; k < t->out->components; k++) {
@@ -77,7 +77,7 @@ void texels_decided(const struct measuring *m, struct tracked *t, const uint32_t
         }
 }
 
-/* Along one axis: `step` from pixel to pixel, `count` of them. */
+/* Spreads masks along a line of `count` pixels that are `step` apart. */
 static void spread_line(uint32_t *to, const uint32_t *from, uint32_t count, size_t step) {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t first = i < REACH_PX ? 0 : i - REACH_PX, last = i + REACH_PX < count ? i + REACH_PX : count - 1;
@@ -105,7 +105,7 @@ void texels_spread(const struct measuring *m) {
     parallel_rows(m->out->width, spread_lines, &(struct spreading){m, true});
 }
 
-static bool decided_otherwise(const struct measuring *m, const struct tracked *t, uint32_t x, uint32_t y) {
+static bool has_flipped(const struct measuring *m, const struct tracked *t, uint32_t x, uint32_t y) {
     const struct footprint f = footprint_of(m->out, t->out, x, y);
     const uint32_t *decided = m->decided[t->reaches];
     for (uint32_t v = f.y0; v < f.y1; v++)
@@ -122,7 +122,7 @@ struct changing {
     const float *values;
 };
 
-/* Until all seeds have run, `change` is the sum of squares. */
+/* `change` is a sum of squares until stability_sum_up. */
 static void change_rows(void *user, size_t first, size_t last) {
     const struct changing *c = user;
     const struct tracked *t = c->t;
@@ -132,8 +132,7 @@ static void change_rows(void *user, size_t first, size_t last) {
         for (size_t x = 0; x < image->width; x++) {
             const size_t i = y * image->width + x;
             const double square = change_of(t, base + i * image->components, c->values + i * image->components);
-            if (square < 0 ||
-                (t->decisions && image->over_picture && decided_otherwise(c->m, t, (uint32_t)x, (uint32_t)y)))
+            if (square < 0 || (t->decisions && image->per_pixel && has_flipped(c->m, t, (uint32_t)x, (uint32_t)y)))
                 image->flips[i]++;
             else image->change[i] += (float)square;
         }

@@ -13,8 +13,8 @@
 const struct glint_limits hostile_limits = {
     .file_bytes = 1 << 24, .memory_bytes = 32 << 20, .width = 1024, .parts = 64};
 
-/* A failure must name a code and a reason; what a program would do without them, nobody knows. */
-static bool told(bool ok, const struct glint_error *err) {
+/* Every failure must set a code and a message: callers decide and report by them. */
+static bool explained(bool ok, const struct glint_error *err) {
     if (!ok && (err->code == GLINT_OK || !err->message[0])) abort();
     return ok;
 }
@@ -31,9 +31,10 @@ static bool read_kind(struct glint_capture *capture, const struct glint_part_inf
     void *out = malloc((size_t)part->width * part->height * 4 * count);
     if (!out) abort();
     const enum glint_type type = integer ? GLINT_U32 : GLINT_F32;
-    bool ok = told(glint_capture_read_raw(capture, part, names, count, type, out, 1, err), err);
+    bool ok = explained(glint_capture_read_raw(capture, part, names, count, type, out, 1, err), err);
     if (ok)
-        ok = told(glint_capture_read(capture, part, names, count, integer ? GLINT_U32 : GLINT_F16, out, 2, err), err);
+        ok = explained(glint_capture_read(capture, part, names, count, integer ? GLINT_U32 : GLINT_F16, out, 2, err),
+                       err);
     free(out);
     return ok;
 }
@@ -51,9 +52,9 @@ static void ignore(void *user, const char *rule, const char *message) {
 bool hostile_use(const char *path, struct glint_error *err) {
     struct glint_error other = {0};
     size_t violations = 0;
-    told(glint_capture_validate(path, &hostile_limits, ignore, NULL, &violations, &other), &other);
+    explained(glint_capture_validate(path, &hostile_limits, ignore, NULL, &violations, &other), &other);
     struct glint_capture *capture = glint_capture_open(path, &hostile_limits, err);
-    bool ok = told(capture != NULL, err);
+    bool ok = explained(capture != NULL, err);
     for (size_t i = 0; capture && i < glint_capture_part_count(capture); i++)
         if (!read_part(capture, glint_capture_part(capture, i), err)) ok = false;
     glint_capture_close(&capture);

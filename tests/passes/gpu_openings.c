@@ -215,10 +215,10 @@ static void no_ray_comes_through_a_wall(void **state) {
     capture(gpu, 1, 1);
     gpu_run(gpu);
     uint32_t *end = gpu_uints(gpu, "cubemap_end", NULL, NULL);
-    struct count unseen = {0};
-    for (uint32_t i = 0; i < SIZE * SIZE; ++i) add(&unseen, end[i] == END_shadow_region);
-    print_count("rays of a closed room without a cube map: none is seen", unseen);
-    assert_int_equal(unseen.right, unseen.rays);
+    struct count in_shadow = {0};
+    for (uint32_t i = 0; i < SIZE * SIZE; ++i) add(&in_shadow, end[i] == END_shadow_region);
+    print_count("rays of a closed room without a cube map: none is seen", in_shadow);
+    assert_int_equal(in_shadow.right, in_shadow.rays);
     free(end);
 }
 

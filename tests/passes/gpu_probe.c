@@ -1,4 +1,4 @@
-/* Probed pixels of the street: what is told of them is what the run computed, and telling changes nothing. */
+/* Probed pixels of the street: the recorded values are those that the run computed, and recording changes no image. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -40,7 +40,7 @@ static void check_depth(const struct glint_probe_record *record, const struct im
         same(record, "farthest", hiz, x, y, 1);
     }
     if (!glint_probe_is(record, "cubemap_texel")) return;
-    const struct glint_probe_word of = glint_probe_word("image", glint_probe_value(record, "image"));
+    const struct glint_probe_label of = glint_probe_label("image", glint_probe_value(record, "image"));
     assert_non_null(of.name);
     const struct kept *image = level_of(images, of.name, number(record, "level"));
     const uint32_t faces = 6 * number(record, "place") + number(record, "face");
@@ -54,7 +54,7 @@ struct last {
 };
 
 static bool is_hit(const struct glint_probe_record *record, const char *unit, const char *value) {
-    const struct glint_probe_word word = glint_probe_word(unit, glint_probe_value(record, value));
+    const struct glint_probe_label word = glint_probe_label(unit, glint_probe_value(record, value));
     return word.name && strcmp(word.name, "hit") == 0;
 }
 
@@ -104,11 +104,11 @@ struct tally {
     size_t stories, rays, depths, screen_hits, cube_hits;
 };
 
-static void check_story(const struct glint_probe_story *story, const struct images *images, const uint32_t pixel[2],
+static void check_story(const struct glint_probe_trace *story, const struct images *images, const uint32_t pixel[2],
                         struct tally *tally) {
     struct last last = {0};
     const struct glint_probe_record *ray = NULL;
-    assert_int_equal(story->lost, 0);
+    assert_int_equal(story->dropped, 0);
     tally->stories += story->count > 0;
     for (size_t i = 0; i < story->count; i++) {
         const struct glint_probe_record *record = &story->records[i];
@@ -117,7 +117,7 @@ static void check_story(const struct glint_probe_story *story, const struct imag
         if (glint_probe_is(record, "screen_ray")) ray = record;
         if (glint_probe_is(record, "cubemap_ray") && ray) check_ray(ray, record), tally->rays++;
         if (texel || glint_probe_is(record, "screen_cell")) {
-            const struct glint_probe_word word = glint_probe_word("decision", glint_probe_value(record, "decision"));
+            const struct glint_probe_label word = glint_probe_label("decision", glint_probe_value(record, "decision"));
             assert_non_null(word.name);
             last.step = record;
             last.steps += strcmp(word.name, "sky") != 0 || glint_probe_is(record, "cubemap_texel");
@@ -146,7 +146,7 @@ static void test_stories(void **state) {
         probed_run(gpu, pixels, false, &probed);
         same_images(&plain, &probed);
         for (size_t i = 0; i < PIXELS; i++) {
-            struct glint_probe_story story;
+            struct glint_probe_trace story;
             check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
             check_story(&story, &plain, pixels[i], &tally);
             free(story.records);
@@ -164,7 +164,7 @@ static void test_stories(void **state) {
 /* ---- What later passes tell adds up to what they made ---- */
 
 /* The weighted mean of what was mixed in is the image, where anything was. */
-static size_t check_mixture(const struct glint_probe_story *story, const char *slot, const struct kept *image,
+static size_t check_mixture(const struct glint_probe_trace *story, const char *slot, const struct kept *image,
                             const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     double sum[3] = {0}, total = 0, largest = 0;
@@ -183,8 +183,8 @@ static size_t check_mixture(const struct glint_probe_story *story, const char *s
     return count;
 }
 
-/* A single colour is what the ray found; where a cube map shows some sky, both are told. */
-static size_t check_color(const struct glint_probe_story *story, const struct kept *image, const uint32_t at[2]) {
+/* A single colour is what the ray found; where a cube map shows some sky, both are recorded. */
+static size_t check_color(const struct glint_probe_trace *story, const struct kept *image, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;
     const struct glint_probe_record *first = of_slot(story, "resolve", "color", &i);
@@ -193,7 +193,7 @@ static size_t check_color(const struct glint_probe_story *story, const struct ke
     return 1;
 }
 
-static size_t check_composed(const struct glint_probe_story *story, const struct images *images, const uint32_t at[2]) {
+static size_t check_composed(const struct glint_probe_trace *story, const struct images *images, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;
     const struct glint_probe_record *weight = of_slot(story, "compose", "reflectance", &i);
@@ -218,7 +218,7 @@ static void test_sums(void **state) {
     arrange(gpu, words);
     probed_run(gpu, pixels, true, &images);
     for (size_t i = 0; i < PIXELS; i++) {
-        struct glint_probe_story story;
+        struct glint_probe_trace story;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
         check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
         blurred += check_mixture(&story, "blur", find(&images, "reflection_blurred"), texel) > 1;
@@ -237,7 +237,7 @@ static void test_sums(void **state) {
 static void test_errors(void **state) {
     struct gpu *gpu = *state;
     struct glint_error err = {0};
-    struct glint_probe_story story;
+    struct glint_probe_trace story;
     static const uint32_t outside[][2] = {{3, 3}, {WIDTH, 3}}, one[][2] = {{3, 3}};
     probed_scene(gpu, "street");
     gpu_reset(gpu);

@@ -1,5 +1,5 @@
-/* Probed pixels of the passes that mix: with the weights that they tell, what they tell of adds up to what they made; each colour
-   told is what its image holds; telling changes nothing. */
+/* Probed pixels of the passes that mix: the recorded parts, weighted as recorded, add up to the pass's result; each recorded
+   colour is what its image holds; recording changes no image. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,12 +14,12 @@
 
 static const char *const rgb[] = {"r", "g", "b"}, *const below[] = {"below_r", "below_g", "below_b"};
 
-static double told(const struct glint_probe_record *record, const char *name) {
+static double recorded(const struct glint_probe_record *record, const char *name) {
     return (double)glint_probe_value(record, name);
 }
 
 static const struct kept *image_of(const struct glint_probe_record *record, const struct images *images) {
-    const struct glint_probe_word of = glint_probe_word("image", glint_probe_value(record, "image"));
+    const struct glint_probe_label of = glint_probe_label("image", glint_probe_value(record, "image"));
     const float level = glint_probe_value(record, "level"); /* NaN: the record has none */
     assert_non_null(of.name);
     return level_of(images, of.name, level > 0 ? (uint32_t)level : 0);
@@ -32,10 +32,10 @@ struct mean {
 };
 
 static void mean_add(struct mean *mean, const struct glint_probe_record *record, double part) {
-    const double weight = told(record, "weight");
+    const double weight = recorded(record, "weight");
     for (int c = 0; c < 3; c++) {
-        mean->sum[c] += weight * told(record, rgb[c]);
-        mean->largest = fmax(mean->largest, fabs(weight * told(record, rgb[c])));
+        mean->sum[c] += weight * recorded(record, rgb[c]);
+        mean->largest = fmax(mean->largest, fabs(weight * recorded(record, rgb[c])));
     }
     mean->total += weight * part;
     mean->count++;
@@ -44,7 +44,7 @@ static void mean_add(struct mean *mean, const struct glint_probe_record *record,
 static void mean_is(const struct mean *mean, const struct glint_probe_record *record) {
     assert_true(mean->total > 0);
     for (int c = 0; c < 3; c++)
-        near(mean->sum[c] / mean->total, told(record, rgb[c]), mean->largest * (double)mean->count / mean->total);
+        near(mean->sum[c] / mean->total, recorded(record, rgb[c]), mean->largest * (double)mean->count / mean->total);
 }
 
 /* The colour between texels. Devices may interpolate with weights of eight bits, so that each axis may be off by one in 256 of
@@ -62,8 +62,8 @@ static void check_between(const struct glint_probe_record *record, const struct 
             low = fmin(low, texel), high = fmax(high, texel);
         }
         const double tolerance = (high - low) * 2 / 256 + fabs(high) * 0x1p-20;
-        if (!(fabs(sum - told(record, rgb[c])) <= tolerance))
-            fail_msg("%s at %g,%g is %.9g, told %.9g", image->name, x, y, sum, told(record, rgb[c]));
+        if (!(fabs(sum - recorded(record, rgb[c])) <= tolerance))
+            fail_msg("%s at %g,%g is %.9g, recorded %.9g", image->name, x, y, sum, recorded(record, rgb[c]));
     }
 }
 
@@ -75,10 +75,10 @@ static struct layered layered(const struct glint_probe_record *layer) {
     static const char *const share[] = {"share_r", "share_g", "share_b"};
     struct layered made = {0};
     for (int c = 0; c < 3; c++) {
-        const double s = told(layer, share[c]);
+        const double s = recorded(layer, share[c]);
         assert_true(s >= 0 && s <= 1);
-        made.color[c] = (1 - s) * told(layer, below[c]) + s * told(layer, rgb[c]);
-        made.largest = fmax(made.largest, fmax(fabs(told(layer, below[c])), fabs(told(layer, rgb[c]))));
+        made.color[c] = (1 - s) * recorded(layer, below[c]) + s * recorded(layer, rgb[c]);
+        made.largest = fmax(made.largest, fmax(fabs(recorded(layer, below[c])), fabs(recorded(layer, rgb[c]))));
     }
     return made;
 }
@@ -93,24 +93,24 @@ static void same_rgb(const struct glint_probe_record *record, const char *const 
 }
 
 /* One pixel's story and all images of its run. */
-struct told_pixel {
-    const struct glint_probe_story *story;
+struct recorded_pixel {
+    const struct glint_probe_trace *story;
     const struct images *images;
     const uint32_t *pixel, *texel;
 };
-static const struct glint_probe_record *next(const struct told_pixel *p, const char *slot, const char *kind,
+static const struct glint_probe_record *next(const struct recorded_pixel *p, const char *slot, const char *kind,
                                              size_t *at) {
     return of_slot(p->story, slot, kind, at);
 }
 
-/* ---- Passes: how many mixtures of several parts were told ---- */
+/* ---- Passes: the number of mixtures of several parts that were recorded ---- */
 
-static size_t check_blurred(const struct told_pixel *p) {
+static size_t check_blurred(const struct recorded_pixel *p) {
     struct mean mean = {0};
     size_t at = 0;
     const struct glint_probe_record *record;
     while ((record = next(p, "resolve", "sample", &at))) {
-        check_between(record, p->images, told(record, "x"), told(record, "y"));
+        check_between(record, p->images, recorded(record, "x"), recorded(record, "y"));
         mean_add(&mean, record, 1);
     }
     for (uint32_t c = 0; c < 3 && mean.count; c++)
@@ -125,7 +125,7 @@ static size_t check_blurred(const struct told_pixel *p) {
     return mean.count > 1;
 }
 
-static size_t check_contribution(const struct told_pixel *p) {
+static size_t check_contribution(const struct recorded_pixel *p) {
     size_t at = 0;
     const struct glint_probe_record *layer = next(p, "compose", "layer", &at);
     if (!layer) return 0;
@@ -133,15 +133,15 @@ static size_t check_contribution(const struct told_pixel *p) {
     same_rgb(layer, rgb, find(p->images, "reflection"), p->pixel[0], p->pixel[1]);
     same_rgb(layer, below, find(p->images, "lit"), p->pixel[0], p->pixel[1]);
     layered_is(&made, find(p->images, "composed"), p->pixel);
-    return told(layer, "share_r") > 0;
+    return recorded(layer, "share_r") > 0;
 }
 
-static size_t check_kf2(const struct told_pixel *p) {
+static size_t check_kf2(const struct recorded_pixel *p) {
     return check_blurred(p) + check_contribution(p);
 }
 
 /* The chain is looked at between texels and levels, with weights of eight bits again: three axes. */
-static size_t check_mips(const struct told_pixel *p) {
+static size_t check_mips(const struct recorded_pixel *p) {
     struct mean mean = {0};
     double weights = 0, high = 0;
     size_t at = 0;
@@ -149,9 +149,9 @@ static size_t check_mips(const struct told_pixel *p) {
         const uint32_t x = number(tap, "texel_x"), y = number(tap, "texel_y");
         same_rgb(tap, rgb, image_of(tap, p->images), x, y);
         same(tap, "part", image_of(tap, p->images), x, y, 3);
-        mean_add(&mean, tap, told(tap, "part"));
-        weights += told(tap, "weight");
-        for (int c = 0; c < 3; c++) high = fmax(high, told(tap, rgb[c]));
+        mean_add(&mean, tap, recorded(tap, "part"));
+        weights += recorded(tap, "weight");
+        for (int c = 0; c < 3; c++) high = fmax(high, recorded(tap, rgb[c]));
     }
     if (!mean.count) return 0;
     near(weights, 1, (double)mean.count);
@@ -160,14 +160,14 @@ static size_t check_mips(const struct told_pixel *p) {
         /* Both sums are off by so much, and the quotient by both. */
         const double tolerance = 3.0 / 256 * (high + fabs(found)) / mean.total + fabs(found) * 0x1p-20;
         if (!(fabs(mean.sum[c] / mean.total - found) <= tolerance))
-            fail_msg("told %.9g, found %.9g", mean.sum[c] / mean.total, found);
+            fail_msg("recorded %.9g, found %.9g", mean.sum[c] / mean.total, found);
     }
     return mean.count > 4; /* of two levels */
 }
 
-/* Taps that a level's texel is made of, or that a layer lies over another with: those of images that nobody writes again hold
-   what was told. */
-static size_t check_levels(const struct told_pixel *p) {
+/* Taps that a level's texel is made of, or that a layer lies over another with: images that no later pass overwrites hold what
+   was recorded. */
+static size_t check_levels(const struct recorded_pixel *p) {
     enum { TAPS = 64 };
     const struct glint_probe_record *taps[TAPS], *layer = NULL;
     struct mean mean = {0};
@@ -178,22 +178,22 @@ static size_t check_levels(const struct told_pixel *p) {
         if (glint_probe_is(record, "tap")) {
             assert_in_range(mean.count, 0, TAPS - 1);
             taps[mean.count] = record;
-            mean_add(&mean, record, told(record, "part"));
+            mean_add(&mean, record, recorded(record, "part"));
             continue;
         }
         const bool over = glint_probe_is(record, "layer");
         for (size_t t = 0; t < mean.count; t++) {
             const struct kept *image = image_of(taps[t], p->images);
-            if (over || strcmp(image->name, "reflection_across") == 0 || told(taps[t], "level") == 0)
+            if (over || strcmp(image->name, "reflection_across") == 0 || recorded(taps[t], "level") == 0)
                 same_rgb(taps[t], rgb, image, number(taps[t], "texel_x"), number(taps[t], "texel_y"));
         }
-        if (mean.count && !(over && told(record, "share_r") == 0)) mean_is(&mean, record);
+        if (mean.count && !(over && recorded(record, "share_r") == 0)) mean_is(&mean, record);
         mixtures += mean.count > 1;
         mean = (struct mean){0};
         if (over) layer = record;
         else if (layer) {
             const struct layered made = layered(layer);
-            for (int c = 0; c < 3; c++) near(made.color[c], told(record, rgb[c]), made.largest);
+            for (int c = 0; c < 3; c++) near(made.color[c], recorded(record, rgb[c]), made.largest);
             same_rgb(record, rgb, image_of(record, p->images), number(record, "texel_x"), number(record, "texel_y"));
             layer = NULL;
             levels++;
@@ -207,31 +207,31 @@ static size_t check_levels(const struct told_pixel *p) {
     return mixtures;
 }
 
-static size_t check_planar(const struct told_pixel *p) {
+static size_t check_planar(const struct recorded_pixel *p) {
     size_t at = 0;
     const struct glint_probe_record *record;
     const struct kept *map = find(p->images, "planar_depth"), *mirrored = find(p->images, "planar_reflection");
     while ((record = next(p, "planar", "mirrored_depth", &at))) {
-        const double x = told(record, "at_x"), y = told(record, "at_y");
+        const double x = recorded(record, "at_x"), y = recorded(record, "at_y");
         bool found = false; /* by a place that is known to one in 256 of a texel */
         for (int k = 0; k < 4; k++) {
             const double u = fmin(fmax(floor(x + (k & 1 ? 1 : -1) / 256.0), 0), map->width - 1);
             const double v = fmin(fmax(floor(y + (k >> 1 ? 1 : -1) / 256.0), 0), map->height - 1);
             const double depth_m = held(map, (uint32_t[]){(uint32_t)u, (uint32_t)v}, 0);
-            found |= depth_m == told(record, "depth_m");
+            found |= depth_m == recorded(record, "depth_m");
         }
-        if (!found) fail_msg("planar_depth at %g,%g does not hold %g", x, y, told(record, "depth_m"));
+        if (!found) fail_msg("planar_depth at %g,%g does not hold %g", x, y, recorded(record, "depth_m"));
     }
     at = 0;
     if (!(record = next(p, "planar", "sample", &at))) return 0;
-    check_between(record, p->images, told(record, "x"), told(record, "y"));
+    check_between(record, p->images, recorded(record, "x"), recorded(record, "y"));
     same_rgb(record, rgb, mirrored, p->pixel[0], p->pixel[1]);
     same(record, "weight", mirrored, p->pixel[0], p->pixel[1], 3);
     return 1;
 }
 
 /* The water over the bottom; the planar map over the surroundings; that over this. */
-static size_t check_water(const struct told_pixel *p) {
+static size_t check_water(const struct recorded_pixel *p) {
     const struct glint_probe_record *record, *layers[3];
     size_t at = 0, count = 0;
     while ((record = next(p, "water", "bottom", &at)))
@@ -242,27 +242,28 @@ static size_t check_water(const struct told_pixel *p) {
     assert_int_equal(count, 3);
     at = 0;
     const struct glint_probe_record *sample = next(p, "water", "sample", &at);
-    if (sample) check_between(sample, p->images, told(sample, "x"), told(sample, "y"));
+    if (sample) check_between(sample, p->images, recorded(sample, "x"), recorded(sample, "y"));
     for (int c = 0; c < 3; c++) {
-        const double bottom = sample ? told(sample, rgb[c]) : held(find(p->images, "composed"), p->pixel, (uint32_t)c);
-        assert_true(told(layers[0], rgb[c]) == bottom);
+        const double bottom =
+            sample ? recorded(sample, rgb[c]) : held(find(p->images, "composed"), p->pixel, (uint32_t)c);
+        assert_true(recorded(layers[0], rgb[c]) == bottom);
     }
     same_rgb(layers[0], below, find(p->images, "water_color"), p->pixel[0], p->pixel[1]);
     same_rgb(layers[1], rgb, find(p->images, "planar_reflection"), p->pixel[0], p->pixel[1]);
     const struct layered through = layered(layers[0]), mirrored = layered(layers[1]), all = layered(layers[2]);
     for (int c = 0; c < 3; c++) {
-        near(through.color[c], told(layers[2], below[c]), through.largest);
-        near(mirrored.color[c], told(layers[2], rgb[c]), mirrored.largest);
+        near(through.color[c], recorded(layers[2], below[c]), through.largest);
+        near(mirrored.color[c], recorded(layers[2], rgb[c]), mirrored.largest);
     }
     layered_is(&all, find(p->images, "composed_water"), p->pixel);
     return 1;
 }
 
-static size_t check_lake(const struct told_pixel *p) {
+static size_t check_lake(const struct recorded_pixel *p) {
     return check_planar(p) + check_water(p);
 }
 
-static size_t check_transparency(const struct told_pixel *p) {
+static size_t check_transparency(const struct recorded_pixel *p) {
     const struct glint_probe_record *record, *layers[2];
     struct mean mean = {0};
     size_t at = 0, count = 0;
@@ -279,7 +280,7 @@ static size_t check_transparency(const struct told_pixel *p) {
     same_rgb(layers[0], rgb, find(p->images, "transparent_color"), p->pixel[0], p->pixel[1]);
     same_rgb(layers[0], below, find(p->images, "composed"), p->pixel[0], p->pixel[1]);
     const struct layered through = layered(layers[0]), all = layered(layers[1]);
-    for (int c = 0; c < 3; c++) near(through.color[c], told(layers[1], below[c]), through.largest);
+    for (int c = 0; c < 3; c++) near(through.color[c], recorded(layers[1], below[c]), through.largest);
     layered_is(&all, find(p->images, "composed_transparent"), p->pixel);
     return mean.count > 1;
 }
@@ -288,7 +289,7 @@ static size_t check_transparency(const struct told_pixel *p) {
 
 static const struct way {
     const char *scene;
-    size_t (*check)(const struct told_pixel *pixel);
+    size_t (*check)(const struct recorded_pixel *pixel);
     const char *words[PROBED_WORDS];
 } ways[] = {
     {"street", check_kf2, {"downsample.share=0", "screen_trace=dda", "resolve=blurred", "compose=contribution"}},
@@ -317,11 +318,11 @@ static void mixtures(struct gpu *gpu, const struct way *way) {
         free_images(&plain);
     }
     for (size_t i = 0; i < PIXELS; i++) {
-        struct glint_probe_story story;
+        struct glint_probe_trace story;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
         check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-        assert_int_equal(story.lost, 0);
-        told_of += way->check(&(struct told_pixel){&story, &probed, pixels[i], texel});
+        assert_int_equal(story.dropped, 0);
+        told_of += way->check(&(struct recorded_pixel){&story, &probed, pixels[i], texel});
         free(story.records);
     }
     free_images(&probed);

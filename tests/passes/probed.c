@@ -104,10 +104,10 @@ void draw_pixels(uint32_t (*pixels)[2]) {
 
 void same(const struct glint_probe_record *record, const char *value, const struct kept *image, uint32_t x, uint32_t y,
           uint32_t component) {
-    const uint32_t told = bits_of(glint_probe_value(record, value)), found = bits_at(image, x, y, component);
-    if (told != found)
-        fail_msg("%s.%s is 0x%08x, but %s holds 0x%08x at %u,%u", record->kind->name, value, told, image->name, found,
-                 x, y);
+    const uint32_t recorded = bits_of(glint_probe_value(record, value)), found = bits_at(image, x, y, component);
+    if (recorded != found)
+        fail_msg("%s.%s is 0x%08x, but %s holds 0x%08x at %u,%u", record->kind->name, value, recorded, image->name,
+                 found, x, y);
 }
 
 uint32_t number(const struct glint_probe_record *record, const char *value) {
@@ -122,11 +122,12 @@ const struct kept *level_of(const struct images *images, const char *name, uint3
 
 /* Of six products. */
 enum { ROUNDINGS = 16 };
-void near(double told, double found, double largest) {
-    if (!(fabs(told - found) <= ROUNDINGS * 0x1p-24 * largest)) fail_msg("told %.9g, found %.9g", told, found);
+void near(double recorded, double found, double largest) {
+    if (!(fabs(recorded - found) <= ROUNDINGS * 0x1p-24 * largest))
+        fail_msg("recorded %.9g, found %.9g", recorded, found);
 }
 
-const struct glint_probe_record *of_slot(const struct glint_probe_story *story, const char *slot, const char *kind,
+const struct glint_probe_record *of_slot(const struct glint_probe_trace *story, const char *slot, const char *kind,
                                          size_t *at) {
     for (; *at < story->count; ++*at)
         if (glint_probe_is(&story->records[*at], kind) && strcmp(story->records[*at].pass->slot, slot) == 0)

@@ -36,13 +36,13 @@ void draw_pixels(uint32_t (*pixels)[2]);
 void probed_run(struct gpu *gpu, uint32_t (*pixels)[2], bool floats, struct images *images);
 
 /* The story's next record of this slot and kind from *at on; NULL: no more. */
-const struct glint_probe_record *of_slot(const struct glint_probe_story *story, const char *slot, const char *kind,
+const struct glint_probe_record *of_slot(const struct glint_probe_trace *story, const char *slot, const char *kind,
                                          size_t *at);
 uint32_t number(const struct glint_probe_record *record, const char *value);
 /* The record's value is what the image holds there, bit for bit. */
 void same(const struct glint_probe_record *record, const char *value, const struct kept *image, uint32_t x, uint32_t y,
           uint32_t component);
 /* Sums of floats: off by no more than a few roundings of the largest part. */
-void near(double told, double found, double largest);
+void near(double recorded, double found, double largest);
 
 #endif

@@ -72,7 +72,7 @@ static void a_shot_remembers_and_a_cut_forgets(void **state) {
         if (valid) {
             assert_true(at.depth == before);
             assert_true(at.level == level);
-        } else assert_true(isinf(at.depth)); /* depth_now's value for nothing */
+        } else assert_true(isinf(at.depth)); /* depth_now's fallback value */
         assert_true(depth_now(fixture) != before);
         before = depth_now(fixture);
         float *chain = made_read(fixture, "chain.level2");

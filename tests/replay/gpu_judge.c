@@ -28,16 +28,16 @@ static void errors_are_those_of_the_reflection(void **state) {
     struct glint_pixels found = {0};
     struct glint_image_errors errors;
     const float *noise;
-    if (!glint_judge_look(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    if (!glint_judge_evaluate(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
     fixture_run(fixture, NULL);
     assert_true(glint_study_reflection(fixture->replay, &found, &err));
     const struct glint_pixels *answer =
-        glint_judge_answer(judge, GLINT_ANSWER_REFERENCE, fixture->pipeline, &noise, NULL, NULL, &err);
+        glint_judge_target(judge, GLINT_TARGET_REFERENCE, fixture->pipeline, &noise, NULL, NULL, &err);
     assert_true(glint_study_image(&found, answer, 3, glint_judge_surfaces(judge), noise, &errors, &err));
-    const struct glint_metric_table *table = &verdict.errors[GLINT_ANSWER_REFERENCE];
+    const struct glint_metric_table *table = &verdict.errors[GLINT_TARGET_REFERENCE];
     assert_true(errors.of[0].pixels > 100 && table->rows[0].pixels == errors.of[0].pixels);
     assert_true(errors.of[0].rmse > 0 && table->rows[0].of[GLINT_METRIC_RMSE].value == errors.of[0].rmse);
-    assert_int_equal(verdict.errors[GLINT_ANSWER_TRUTH].count, 0);
+    assert_int_equal(verdict.errors[GLINT_TARGET_TRUTH].count, 0);
     fixture_says(&verdict.no_truth, "truth.reflection.ggx: missing");
     assert_true(verdict.ends.rays > 100 && verdict.fetches_px > 0 && verdict.steps_px > 0);
     glint_pixels_finish(&found);
@@ -57,7 +57,7 @@ static void rays_of_surfaces_that_reflect_nothing_are_not_counted(void **state) 
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
     assert_non_null(capture);
     struct glint_judge *judge = judge_of(fixture, capture, true);
-    if (!glint_judge_look(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    if (!glint_judge_evaluate(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
     bool traced = false;
     for (size_t i = 0; i < verdict.pass_count; i++)
         traced |= verdict.passes[i].executed && !strcmp(verdict.passes[i].pass->slot, "screen_trace");
@@ -90,18 +90,18 @@ static void what_the_truth_does_not_know_counts_nowhere(void **state) {
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
     assert_non_null(capture);
     struct glint_judge *judge = judge_of(fixture, capture, false);
-    if (!glint_judge_look(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    if (!glint_judge_evaluate(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
     const uint8_t *surfaces = glint_judge_surfaces(judge);
     size_t known = 0, given = 0, counted = 0;
     for (size_t i = 0; i < W * H; i++) {
         const bool reflects = i % W < W / 2 && surfaces[i] != GLINT_SURFACE_NONE;
-        known += reflects, given += reflects && verdict.given[i];
+        known += reflects, given += reflects && verdict.coverage[i];
     }
     for (size_t r = 0; r < verdict.ends.count; r++) {
         counted += verdict.ends.rows[r].pixels;
         assert_false(verdict.ends.rows[r].error > 0.95); /* as it is against 1000 */
     }
-    assert_int_equal(verdict.errors[GLINT_ANSWER_TRUTH].rows[0].pixels, known);
+    assert_int_equal(verdict.errors[GLINT_TARGET_TRUTH].rows[0].pixels, known);
     assert_true(counted > 100 && counted <= given);
     glint_verdict_finish(&verdict);
     glint_judge_destroy(&judge);

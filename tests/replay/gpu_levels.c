@@ -76,7 +76,7 @@ static void each_level_comes_from_the_one_before(void **state) {
                 assert_true(seen[(y * W + x) * 4 + i] ==
                             (float)expected[2 * i][fy < bottom ? fy : bottom][fx < right ? fx : right]);
             }
-    assert_true(seen[3] == 5); /* no pass makes cubes: the reader's value for nothing */
+    assert_true(seen[3] == 5); /* no pass makes cubes: the reader's fallback value */
     free(seen);
     float *beside = made_read(fixture, "beside"); /* written in every phase but last in phase 3, at level 0 */
     assert_true(beside[0] == 3);

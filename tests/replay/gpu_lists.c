@@ -128,10 +128,10 @@ static void wrong_declarations_are_refused(void **state) {
     struct glint_row list = *glint_pass_row(&made_worker, GLINT_ROW_READ, "list_a"), wrong = list;
     wrong.name = "depth_full";
     refused(fixture, "list_a", GLINT_ROW_READ, wrong,
-            "worker/made reads depth_full as utextureBuffer, but it is no list");
+            "worker/made reads depth_full as utextureBuffer, but it is not a list");
     wrong = list;
-    wrong.nothing = 0;
-    refused(fixture, "list_a", GLINT_ROW_READ, wrong, "list list_a: expected R32UI, and 0xFFFFFFFF for nothing");
+    wrong.fallback = 0;
+    refused(fixture, "list_a", GLINT_ROW_READ, wrong, "list list_a: expected R32UI and a fallback value of 0xFFFFFFFF");
     wrong = list;
     wrong.glsl = "utexture2D";
     refused(fixture, "list_a", GLINT_ROW_READ, wrong,

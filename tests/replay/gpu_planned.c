@@ -65,7 +65,7 @@ static void fall_back(struct pair *pair) {
 static void check_counted_faces(const struct pair *pair) {
     const struct glint_cube_faces *all = glint_replay_cube_faces(pair->whole),
                                   *some = glint_replay_cube_faces(pair->planned);
-    const uint32_t maps = pair->last.looked_at, crossed = glint_survey_faces(&pair->last, GLINT_SURVEY_CROSSED);
+    const uint32_t maps = pair->last.active_surveyed, crossed = glint_survey_faces(&pair->last, GLINT_SURVEY_CROSSED);
     assert_int_equal(all->uploaded, 2 * 6 * maps); /* colour and distance; three chains, the cocoon's and the cocoon */
     assert_int_equal(all->filtered, 5 * 6 * maps);
     assert_true(all->uploaded == all->uploaded_of && all->filtered == all->filtered_of);
@@ -91,10 +91,10 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
         assert_int_equal(differences_of_file(pair, path, &left_out), 0);
         const struct glint_survey *survey = &pair->last;
         if (p < 2) check_counted_faces(pair), check_ways(&pair->last, path);
-        if (p > 1 && survey->followed == 0) continue; /* its rays lie between pixels */
-        assert_true(survey->followed == survey->looked_at && survey->followed > 0);
+        if (p > 1 && survey->active_traced == 0) continue; /* its rays lie between pixels */
+        assert_true(survey->active_traced == survey->active_surveyed && survey->active_traced > 0);
         const uint32_t crossed = glint_survey_faces(survey, GLINT_SURVEY_CROSSED);
-        assert_true(crossed > 0 && crossed <= 4 * survey->followed);
+        assert_true(crossed > 0 && crossed <= 4 * survey->active_traced);
         assert_true(glint_survey_faces(survey, GLINT_SURVEY_NEARBY) >= crossed);
         assert_int_equal(glint_survey_faces(survey, GLINT_SURVEY_OPEN), 0);
     }
@@ -211,7 +211,7 @@ static void the_device_counts_as_the_host_does(void **state) {
         pair_check(capture && glint_replay_load(pair->planned, capture, &err), &err);
         pair_check(glint_replay_survey(pair->planned, &device, NULL, &err), &err);
         pair_check(glint_survey_capture(capture, &host, &err), &err);
-        assert_true(device->whole && !host.whole);
+        assert_true(device->on_device && !host.on_device);
         assert_int_equal(device->pixels, WIDTH * HEIGHT);
         assert_int_equal(device->sky, host.sky);
         check_pixels(&device->surfaces, &host.surfaces);
@@ -352,19 +352,19 @@ static void all_are_mirrors(struct glint_survey *s) {
     s->reflecting.roughness[1] = s->surfaces.roughness[1] = 0;
 }
 static void cubemaps_show_no_sky(struct glint_survey *s) {
-    for (uint32_t i = 0; i < s->looked_at; i++) s->active[i].open = 0;
+    for (uint32_t i = 0; i < s->active_surveyed; i++) s->active[i].open = 0;
 }
 static void no_sky_is_seen(struct glint_survey *s) {
     cubemaps_show_no_sky(s);
-    for (uint32_t i = 0; i < s->looked_at; i++) s->active[i].sky = 0;
+    for (uint32_t i = 0; i < s->active_surveyed; i++) s->active[i].sky = 0;
     s->sky = 0;
     s->has_fog = false;
 }
 static void rays_come_to_no_face(struct glint_survey *s) {
-    for (uint32_t i = 0; i < s->followed; i++) s->active[i].crossed = s->active[i].nearby = 0;
+    for (uint32_t i = 0; i < s->active_traced; i++) s->active[i].crossed = s->active[i].nearby = 0;
 }
 static void rays_come_near_no_other_face(struct glint_survey *s) {
-    for (uint32_t i = 0; i < s->followed; i++) s->active[i].nearby = 0;
+    for (uint32_t i = 0; i < s->active_traced; i++) s->active[i].nearby = 0;
 }
 static void there_are_no_cubemaps(struct glint_survey *s) {
     s->cubemaps = 0;

@@ -282,7 +282,7 @@ static void a_folder_of_something_else_is_refused(void **state) {
             "cubemap_trace.values.tolerance is 0.02 there and 0.03 here");
     fixture_run(fixture, NULL);
     fixture_write_run(fixture, "plain", plain);
-    refused(fixture, plain, NULL, "no reference");
+    refused(fixture, plain, NULL, "not a reference");
     /* Overwritten, with the other setting. */
     reference = open_reference(fixture, folder, "cubemap_trace.tolerance=0.03", true, &err);
     assert_non_null(reference);
@@ -397,7 +397,7 @@ static void check_change(const struct glint_reference_assumption *row, double tr
     assert_true(row->of[0].rmse == found->rmse);
 }
 
-static void what_thickness_decides_is_told(void **state) {
+static void the_share_decided_by_thickness_is_reported(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     char path[256], folder[256];
@@ -480,7 +480,7 @@ int main(void) {
         cmocka_unit_test(it_stops_at_the_noise_that_is_asked_for),
         cmocka_unit_test(a_folder_of_something_else_is_refused),
         cmocka_unit_test(captures_that_lack_something),
-        cmocka_unit_test(what_thickness_decides_is_told),
+        cmocka_unit_test(the_share_decided_by_thickness_is_reported),
         cmocka_unit_test(light_that_is_none_fails),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);

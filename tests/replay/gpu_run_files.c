@@ -206,7 +206,7 @@ static void a_run_does_not_replace_its_own_inputs(void **state) {
     fixture_write_run(fixture, "inputs", folder);
     fixture_run(fixture, &(struct glint_replay_options){.passes = last, .inputs = folder});
     assert_false(glint_replay_write(fixture->replay, folder, NULL, NULL, &err));
-    fixture_says(&err, "the inputs of this run lie here");
+    fixture_says(&err, "this folder holds the inputs of the run");
     assert_true(exists(folder, "run.json"));
     assert_true(exists(folder, "02-downsample.exr"));
 }

@@ -68,7 +68,7 @@ static void what_was_stored_comes_back(void **state) {
     write_text(place.file, "first");
     cache_store(place.folder, keys[0], place.file, UINT64_MAX);
     write_text(place.file, "changed"); /* in place: the entry is a copy */
-    assert_true(cache_give(place.folder, keys[0], place.back));
+    assert_true(cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "first");
     write_text(place.back, "changed");
     assert_true(cache_find(place.folder, keys[0], path, sizeof path));
@@ -76,7 +76,7 @@ static void what_was_stored_comes_back(void **state) {
     assert_false(cache_find(place.folder, keys[1], path, sizeof path));
     write_text(place.file, "second");
     cache_store(place.folder, keys[0], place.file, UINT64_MAX);
-    assert_true(cache_give(place.folder, keys[0], place.back));
+    assert_true(cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "second");
     assert_int_equal(count_files(place.folder), 1); /* nothing half written, nothing old */
     end(&place);
@@ -93,7 +93,7 @@ static void a_damaged_entry_is_none(void **state) {
         cache_store(place.folder, keys[0], place.file, UINT64_MAX);
         assert_true(cache_find(place.folder, keys[0], path, sizeof path));
         write_text(path, give ? "firs" : "worst");
-        if (give) assert_false(cache_give(place.folder, keys[0], place.back));
+        if (give) assert_false(cache_copy(place.folder, keys[0], place.back));
         else assert_false(cache_find(place.folder, keys[0], path, sizeof path));
         assert_int_equal(access(place.back, F_OK), -1);
     }
@@ -129,7 +129,7 @@ static void a_folder_that_cannot_be_written_keeps_nothing(void **state) {
     write_text(place.file, "first");
     cache_store(place.file, keys[0], place.file, UINT64_MAX); /* a file is there already */
     assert_false(cache_find(place.file, keys[0], path, sizeof path));
-    assert_false(cache_give(place.file, keys[0], place.back));
+    assert_false(cache_copy(place.file, keys[0], place.back));
     expect_text(place.file, "first");
     end(&place);
 }

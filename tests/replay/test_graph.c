@@ -115,7 +115,7 @@ static void readers_of_a_dropped_pass_get_nothing(void **state) {
     const char *const skip[] = {"zeta", NULL};
     MAKE(&made, &alpha, &mid, &zeta);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.skip = skip}, &err));
-    assert_int_equal(graph_find(&graph, "z")->source, SOURCE_NOTHING);
+    assert_int_equal(graph_find(&graph, "z")->source, SOURCE_FALLBACK);
     assert_int_equal(graph_find(&graph, "a")->source, SOURCE_MADE);
     graph_finish(&graph);
 }
@@ -152,7 +152,7 @@ static void what_a_dropped_pass_would_have_passed_on_is_the_captures(void **stat
     assert_null(graph_find(&graph, "l"));
     graph_finish(&graph);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.skip = skip}, &err));
-    assert_int_equal(graph_find(&graph, "l")->source, SOURCE_NOTHING); /* that is no fact of the frame's */
+    assert_int_equal(graph_find(&graph, "l")->source, SOURCE_FALLBACK); /* that is no fact of the frame's */
     graph_finish(&graph);
     char shader[] = "own.comp";
     made.passes[0].shader = shader;
@@ -182,7 +182,7 @@ static void diagnostic_images_exist_only_on_request(void **state) {
     struct glint_error err;
     MAKE(&made, &alpha, &zeta);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    assert_int_equal(graph_find(&graph, "why")->source, SOURCE_NOTHING);
+    assert_int_equal(graph_find(&graph, "why")->source, SOURCE_FALLBACK);
     assert_false(graph_find(&graph, "why")->wanted);
     graph_finish(&graph);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.diagnostics = true}, &err));
@@ -281,7 +281,7 @@ static void what_is_assumed_is_a_number_of_the_pass(void **state) {
     struct glint_error err;
     MAKE(&made, &sure);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    fixture_says(&err, "sure/v: ASSUMED w: expected a number");
+    fixture_says(&err, "sure/v: ASSUMED w: expected a numeric parameter");
     assert_null(strstr(err.message, "there"));
 }
 

@@ -71,7 +71,7 @@ static struct glint_search_result search(double limit, uint32_t tries, uint64_t 
     struct glint_search_result result;
     struct glint_error err = {0};
     const struct glint_search_options options = {
-        .limit = limit, .tries = tries, .seed = seed, .noise = 3 * calls->noise};
+        .limit = limit, .max_points = tries, .seed = seed, .noise = 3 * calls->noise};
     if (!glint_search(axes, AXES, &options, try_march, calls, &result, &err)) fail_msg("%s", err.message);
     assert_int_equal(result.count, calls->count);
     assert_true(result.count <= tries);
@@ -87,10 +87,11 @@ static void the_best_point_within_a_limit_is_found(void **state) {
         struct glint_search_result result = search(limits[i], 250, 1, &calls);
         const struct glint_search_point *best = &result.points[result.best];
         const double least = truly_least(limits[i]);
-        assert_true(result.within && best->figures.limited <= limits[i]);
-        assert_true(best->figures.wanted == error_at(best->values) && best->figures.limited == cost_at(best->values));
-        assert_true(best->figures.wanted >= least - 1e-3); /* the width's own best lies between two grid values */
-        assert_true(best->figures.wanted < 1.02 * least);
+        assert_true(result.feasible && best->figures.constraint <= limits[i]);
+        assert_true(best->figures.objective == error_at(best->values) &&
+                    best->figures.constraint == cost_at(best->values));
+        assert_true(best->figures.objective >= least - 1e-3); /* the width's own best lies between two grid values */
+        assert_true(best->figures.objective < 1.02 * least);
         assert_int_equal((int)best->values[KIND], 1);
         assert_true(result.matters[STEPS] && result.matters[WIDTH] && result.matters[KIND] && !result.matters[IDLE]);
         assert_true(best->values[IDLE] == 0.5); /* left alone */
@@ -114,7 +115,7 @@ static void what_was_found_before_an_error_is_kept(void **state) {
     struct calls calls = {.stop_after = 40};
     struct glint_search_result result;
     struct glint_error err = {0};
-    const struct glint_search_options options = {.limit = 76, .tries = 200, .seed = 1};
+    const struct glint_search_options options = {.limit = 76, .max_points = 200, .seed = 1};
     assert_false(glint_search(axes, AXES, &options, try_march, &calls, &result, &err));
     assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
     assert_int_equal(result.count, 40);
@@ -128,9 +129,9 @@ static void what_no_point_reaches_is_said(void **state) {
     (void)state;
     struct calls calls = {0};
     struct glint_search_result result = search(1, 300, 1, &calls);
-    assert_false(result.within);
-    assert_true(result.points[result.best].figures.limited == 3 &&
-                result.points[result.least].figures.limited == 3); /* one step, one cell, no extra */
+    assert_false(result.feasible);
+    assert_true(result.points[result.best].figures.constraint == 3 &&
+                result.points[result.lowest].figures.constraint == 3); /* one step, one cell, no extra */
     glint_search_result_finish(&result);
 }
 
@@ -141,12 +142,13 @@ static void known_points_are_never_lost(void **state) {
     struct glint_search_result result;
     struct glint_error err = {0};
     const double known[] = {10, 18, 0.0199, 0, 1, 0.5, 2, 3, 0.5, 0, 2, -1};
-    const struct glint_search_options options = {.limit = 38, .tries = 20, .seed = 1, .known = known, .known_count = 2};
+    const struct glint_search_options options = {
+        .limit = 38, .max_points = 20, .seed = 1, .initial = known, .initial_count = 2};
     assert_true(glint_search(axes, AXES, &options, try_march, &calls, &result, &err));
     for (size_t k = 0; k < 2; k++)
         for (size_t a = 0; a < AXES; a++)
             assert_true(fabs(result.points[1 + k].values[a] - known[k * AXES + a]) < 1e-4);
-    assert_true(result.within && result.points[result.best].figures.wanted <= error_at(result.points[1].values));
+    assert_true(result.feasible && result.points[result.best].figures.objective <= error_at(result.points[1].values));
     glint_search_result_finish(&result);
 }
 
@@ -171,8 +173,8 @@ static void what_matters_under_another_choice_is_found(void **state) {
     (void)state;
     for (int hidden = 0; hidden < 2; hidden++) {
         const struct glint_search_axis two[] = {
-            {.choices = 2}, {.lowest = 1, .highest = 64, .start = 32, .whole = true, .hidden = hidden}};
-        const struct glint_search_options options = {.limit = 6, .tries = 80, .seed = 1};
+            {.choices = 2}, {.lowest = 1, .highest = 64, .start = 32, .whole = true, .keep = hidden}};
+        const struct glint_search_options options = {.limit = 6, .max_points = 80, .seed = 1};
         struct glint_search_result result;
         struct glint_error err = {0};
         assert_true(glint_search(two, 2, &options, try_hidden, NULL, &result, &err));
@@ -191,8 +193,8 @@ static bool try_many(void *user, const double *v, struct glint_search_figures *f
     (void)user, (void)err;
     *figures = (struct glint_search_figures){0};
     for (int i = 0; i < MANY; i++) {
-        figures->wanted += weight_of(i) / v[i];
-        figures->limited += v[i] / weight_of(i / 2);
+        figures->objective += weight_of(i) / v[i];
+        figures->constraint += v[i] / weight_of(i / 2);
     }
     return true;
 }
@@ -208,12 +210,12 @@ static void twenty_numbers_take_some_hundred_tries(void **state) {
     }
     struct glint_search_result result;
     struct glint_error err = {0};
-    const struct glint_search_options options = {.limit = start / 4, .tries = 250, .seed = 1};
+    const struct glint_search_options options = {.limit = start / 4, .max_points = 250, .seed = 1};
     const double least = sum * sum / options.limit;
     assert_true(glint_search(many, MANY, &options, try_many, NULL, &result, &err));
     const struct glint_search_figures *best = &result.points[result.best].figures;
-    print_message("# %g of at least %g\n", best->wanted, least);
-    assert_true(result.within && best->wanted >= least && best->wanted < 1.05 * least);
+    print_message("# %g of at least %g\n", best->objective, least);
+    assert_true(result.feasible && best->objective >= least && best->objective < 1.05 * least);
     glint_search_result_finish(&result);
 }
 
@@ -233,8 +235,8 @@ static bool try_sixty(void *user, const double *v, struct glint_search_figures *
                                              20 + v[UP] + 4 * v[COSTLY]};
     for (int a = 0; a < SIXTY; a++) { /* the others change a little each */
         if (a == UP || a == CHOICE || a == COSTLY) continue;
-        figures->wanted += 1e-4 * (8 - v[a]);
-        figures->limited += 1e-3 * v[a];
+        figures->objective += 1e-4 * (8 - v[a]);
+        figures->constraint += 1e-3 * v[a];
     }
     return true;
 }
@@ -248,14 +250,14 @@ static void few_tries_are_spent_on_what_matters(void **state) {
         sixty[a] = (struct glint_search_axis){
             .lowest = 1, .highest = 64, .start = 8, .whole = true, .scale = GLINT_SEARCH_DOUBLING};
     sixty[CHOICE] = (struct glint_search_axis){.choices = 2};
-    const struct glint_search_options options = {.limit = 61, .tries = FORTY, .seed = 1};
+    const struct glint_search_options options = {.limit = 61, .max_points = FORTY, .seed = 1};
     if (!glint_search(sixty, SIXTY, &options, try_sixty, &touched, &result, &err)) fail_msg("%s", err.message);
     assert_true(touched.count <= FORTY);
     for (int a = 0; a < SIXTY; a++) assert_true(touched.axis[a] && result.matters[a]);
     const struct glint_search_point *best = &result.points[result.best];
     /* The start errs 2.55 at 60.5; of these three alone, 32 and 2 with the choice taken are within the limit and err 1.45. */
-    assert_true(result.within && best->values[CHOICE] == 1);
-    assert_true(best->figures.wanted < 1.6);
+    assert_true(result.feasible && best->values[CHOICE] == 1);
+    assert_true(best->figures.objective < 1.6);
     glint_search_result_finish(&result);
 }
 
@@ -277,13 +279,13 @@ static void odd_searches_end(void **state) {
     (void)state;
     struct glint_search_result result;
     struct glint_error err = {0};
-    struct glint_search_options options = {.limit = 76, .tries = 50};
+    struct glint_search_options options = {.limit = 76, .max_points = 50};
     assert_false(glint_search(axes, AXES, &options, no_figures, NULL, &result, &err));
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     glint_search_result_finish(&result);
     struct calls calls = {0};
     result = search(76, 1, 1, &calls);
-    assert_true(result.count == 1 && !result.within && result.matters[IDLE]); /* not known */
+    assert_true(result.count == 1 && !result.feasible && result.matters[IDLE]); /* not known */
     glint_search_result_finish(&result);
     err = (struct glint_error){0};
     assert_true(glint_search(axes, 0, &options, no_figures, NULL, &result, &err) || err.code == GLINT_ERROR_USAGE);

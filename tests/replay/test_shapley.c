@@ -211,14 +211,14 @@ static bool look(void *user, struct glint_error *err) {
     watch->permutations = found->permutations;
     return true;
 }
-static void what_is_known_is_told_at_once(void **state) {
+static void known_values_are_returned_at_once(void **state) {
     (void)state;
     struct glint_error err = {0};
     for (size_t exact = 0; exact <= PLAYERS; exact += PLAYERS)
         for (size_t stop = 0; stop < 3; stop++) {
             struct watch watch = {.stop_at = stop};
             const struct glint_game game = {
-                .players = PLAYERS, .values = GAMES, .play = play_watched, .news = look, .user = &watch};
+                .players = PLAYERS, .values = GAMES, .play = play_watched, .update = look, .user = &watch};
             const struct glint_shapley_options options = {.exact = exact, .permutations = 20};
             const bool done = glint_shapley(&game, &options, &watch.found, &err);
             assert_int_equal(done, stop == 0);
@@ -262,7 +262,7 @@ int main(void) {
         cmocka_unit_test(all_coalitions_give_the_closed_forms), cmocka_unit_test(ends_are_those_of_one_exchange),
         cmocka_unit_test(intervals_hold_what_they_say),         cmocka_unit_test(opposite_orders_cancel),
         cmocka_unit_test(drawing_stops_at_the_interval),        cmocka_unit_test(the_same_seed_draws_the_same),
-        cmocka_unit_test(what_is_known_is_told_at_once),        cmocka_unit_test(failures_end_the_game),
+        cmocka_unit_test(known_values_are_returned_at_once),    cmocka_unit_test(failures_end_the_game),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,7 +167,7 @@ static void refused(const char *const *axes, const char *says) {
 
 static void what_is_wrong_is_named(void **state) {
     (void)state;
-    refused((const char *const[]){NULL}, "something to vary");
+    refused((const char *const[]){NULL}, "an axis to vary");
     refused(AXES("screen_trace.steps"), "expected SLOT.PARAMETER=A..B");
     refused(AXES("=4"), "expected SLOT.PARAMETER=A..B");
     refused(AXES("screen_trace.steps="), "found 'screen_trace.steps='");

@@ -44,7 +44,7 @@ void check_ways(const struct glint_survey *survey, const char *path) {
                                                     GLINT_F32, pixels, 0, &err);
     if (!read) fail_msg("%s", err.message);
     uint32_t come_to = 0;
-    for (uint32_t i = 0; i < survey->followed; i++) {
+    for (uint32_t i = 0; i < survey->active_traced; i++) {
         const struct glint_survey_cubemap *map = &survey->active[i];
         char name[32];
         snprintf(name, sizeof name, "cubemap.%03u", map->number);

@@ -116,10 +116,10 @@ static void the_replay_says_so_too(void **state) {
     json_t *json = json_load_file(path, 0, NULL);
     assert_non_null(json);
     const json_t *warnings = json_object_get(json, "warnings");
-    size_t told = 0;
+    size_t warned = 0;
     for (size_t i = 0; i < json_array_size(warnings); i++)
-        told += strstr(json_string_value(json_array_get(warnings, i)), "orthonormal to") != NULL;
-    assert_int_equal(told, 2);
+        warned += strstr(json_string_value(json_array_get(warnings, i)), "orthonormal to") != NULL;
+    assert_int_equal(warned, 2);
     json_decref(json);
 }
 

@@ -211,8 +211,8 @@ struct score {
 };
 
 /* One damaged capture; whether the only finding is the right one. */
-static void try_damage(const struct damage *damage, int scene, double strength, struct score *told,
-                       struct score *untold) {
+static void try_damage(const struct damage *damage, int scene, double strength, struct score *detectable,
+                       struct score *undetectable) {
     struct rewrite *r = malloc(sizeof *r);
     assert_non_null(r);
     rewrite_load(r, base(scene, damage->base));
@@ -223,7 +223,7 @@ static void try_damage(const struct damage *damage, int scene, double strength, 
     if (!damaged) return;
     json_t *json = lint(in_folder("damaged.exr"));
     const size_t found = json_array_size(json_object_get(json, "findings"));
-    struct score *score = damage->finding ? told : untold;
+    struct score *score = damage->finding ? detectable : undetectable;
     const bool right = damage->finding ? found >= 1 && !strcmp(first_finding(json), damage->finding) : found == 0;
     score->tried++;
     score->right += right;
@@ -234,23 +234,23 @@ static void try_damage(const struct damage *damage, int scene, double strength, 
 }
 
 static void mistakes_are_found_and_named(void **state) {
-    struct score told = {0, 0}, untold = {0, 0};
+    struct score detectable = {0, 0}, undetectable = {0, 0};
     uint32_t random = 12345;
     (void)state;
     for (size_t d = 0; d < damage_count; d++)
         for (int s = 0; s < SCENES; s++)
             for (int k = 0; k < (seeds ? seeds : (int)d % SCENES == s); k++) {
                 random = random * 1664525 + 1013904223;
-                try_damage(&damages[d], s, random / 4294967296.0, &told, &untold);
+                try_damage(&damages[d], s, random / 4294967296.0, &detectable, &undetectable);
             }
     print_message(
-        "# %d of %d that can be told are found and named right; %d of %d that cannot be told give no finding\n",
-        told.right, told.tried, untold.right, untold.tried);
-    assert_true(told.tried >= (seeds ? 150 * seeds : 54) && 20 * told.right >= 19 * told.tried);
-    assert_true(untold.tried >= (seeds ? 15 * seeds : 5) && untold.right == untold.tried);
+        "# %d of %d that can be detected are found and named right; %d of %d that cannot be detected give no finding\n",
+        detectable.right, detectable.tried, undetectable.right, undetectable.tried);
+    assert_true(detectable.tried >= (seeds ? 150 * seeds : 54) && 20 * detectable.right >= 19 * detectable.tried);
+    assert_true(undetectable.tried >= (seeds ? 15 * seeds : 5) && undetectable.right == undetectable.tried);
 }
 
-static void what_cannot_be_told_is_listed(void **state) {
+static void undecidable_mistakes_are_listed(void **state) {
     (void)state;
     json_t *json = lint(base(1, BASE_PLAIN));
     char *text = json_dumps(json_object_get(json, "undecided"), 0);
@@ -354,7 +354,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(nothing_is_found_in_any_right_capture),
         cmocka_unit_test(a_volume_that_something_drives_through_is_named),
         cmocka_unit_test(mistakes_are_found_and_named),
-        cmocka_unit_test(what_cannot_be_told_is_listed),
+        cmocka_unit_test(undecidable_mistakes_are_listed),
         cmocka_unit_test(fix_declares_and_leaves_every_pixel),
         cmocka_unit_test(fix_writes_what_stands_under_sky),
         cmocka_unit_test(fix_leaves_what_it_would_make_worse),

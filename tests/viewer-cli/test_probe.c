@@ -68,10 +68,10 @@ static void a_story_agrees_with_the_run(void **state) {
             json_t *json = parse_json(text);
             const json_t *pass =
                 named(json_object_get(json_object_get(json, "story"), "passes"), "slot", "screen_trace");
-            const json_t *end = last_step(pass, "screen_end"), *told = json_object_get(end, "travelled_m");
+            const json_t *end = last_step(pass, "screen_end"), *travelled = json_object_get(end, "travelled_m");
             const float found = far[(y / 2) * width + x / 2];
-            if (json_is_null(told)) assert_true(isinf(found));
-            else assert_true((float)json_number_value(told) == found);
+            if (json_is_null(travelled)) assert_true(isinf(found));
+            else assert_true((float)json_number_value(travelled) == found);
             hits += strcmp(word(end, "end"), "hit") == 0;
             skies += strcmp(word(end, "end"), "sky") == 0;
             json_decref(json);

@@ -58,13 +58,13 @@ static void it_is_kept_and_goes_on(void **state) {
 static void how_far_it_is_is_told_on_request(void **state) {
     (void)state;
     struct outcome silent = glint("reference", in_folder("room.exr"), "--rays=16", NULL),
-                   told = glint("reference", in_folder("room.exr"), "--rays=16", "--progress", NULL);
+                   progress = glint("reference", in_folder("room.exr"), "--rays=16", "--progress", NULL);
     assert_int_equal(silent.status, 0);
-    assert_int_equal(told.status, 0);
+    assert_int_equal(progress.status, 0);
     assert_string_equal(silent.err, "");
-    assert_contains(told.err, "0 of 16 rays: 0.0 %");
+    assert_contains(progress.err, "0 of 16 rays: 0.0 %");
     outcome_free(&silent);
-    outcome_free(&told);
+    outcome_free(&progress);
 }
 
 /* Against itself nothing is left; against both, both answers are those of one each. */
@@ -124,7 +124,7 @@ static void what_cannot_be_is_said(void **state) {
     glint_fails(1, "No such file", "reference", in_folder("absent.exr"));
     glint_fails(2, "screen_trace.values.thickness is 0.01 there and 0.02 here", "reference", in_folder("room.exr"),
                 "-o", in_folder("kept"), "--set=screen_trace.thickness=0.02");
-    glint_fails(2, "a run that is no reference", "reference", in_folder("room.exr"), "-o", in_folder("run"));
+    glint_fails(2, "a run that is not a reference", "reference", in_folder("room.exr"), "-o", in_folder("run"));
     glint_fails(2, "between 0 and 1", "reference", in_folder("room.exr"), "--noise=1");
     glint_fails(2, "expected a whole number", "reference", in_folder("room.exr"), "--rays=0");
     glint_fails(2, "one capture", "reference", in_folder("room.exr"), in_folder("matte.exr"));

@@ -49,10 +49,10 @@ static double fetches_of(struct counts counts) {
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("one.json"), "--folder", in_folder(folder),
                           PLAIN, screen, cubes, "--budget-fetches=100%", "--reference=truth", "--tries=1", "--repeat=0",
                           "--vary=cubemap_trace.secant", "--json");
-    json_t *told = parse_json(text);
-    const double fetches = number(contender(told, 0, "start"), "fetches_px");
+    json_t *search = parse_json(text);
+    const double fetches = number(contender(search, 0, "start"), "fetches_px");
     free(text);
-    json_decref(told);
+    json_decref(search);
     return fetches;
 }
 

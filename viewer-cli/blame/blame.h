@@ -12,7 +12,7 @@
 
 /* Values of a coalition (a set of replaced players): errors by class of pixels against reference and truth, the chosen one first, and
    texture fetches. */
-enum { BLAME_CLASSES = GLINT_SURFACE_COUNT, BLAME_FETCHES = GLINT_ANSWER_COUNT * BLAME_CLASSES, BLAME_VALUES };
+enum { BLAME_CLASSES = GLINT_SURFACE_COUNT, BLAME_FETCHES = GLINT_TARGET_COUNT * BLAME_CLASSES, BLAME_VALUES };
 extern const char *const blame_classes[BLAME_CLASSES];
 
 /* Milliseconds per frame, NAN if not timed: added when only this player is replaced; saved when only this player is kept. */
@@ -55,7 +55,7 @@ static inline size_t blame_value(size_t answer, size_t class) {
     return answer * BLAME_CLASSES + class;
 }
 /* Whether the first (place 0) or the second value is against the reference or the truth. */
-static inline enum glint_answer blame_answer(const struct blame *blame, size_t place) {
+static inline enum glint_target blame_answer(const struct blame *blame, size_t place) {
     return (place == 0) == answer_args_kind(&blame->against);
 }
 /* The error that disappears when only this player is replaced; the error that appears when only this player is kept; its share of

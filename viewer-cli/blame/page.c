@@ -128,11 +128,11 @@ static void add_classes(const struct blame *blame, const struct blame_sum *sum, 
 }
 
 static void add_sum(const struct blame *blame, json_t *document, const char *title, const struct blame_sum *sum) {
-    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
+    for (size_t a = 0; a < GLINT_TARGET_COUNT; a++) {
         const size_t v = blame_value(a, 0);
         char text[500], how[96];
         if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
-        const char *answer = glint_answer_name(blame_answer(blame, a));
+        const char *answer = glint_target_name(blame_answer(blame, a));
         snprintf(text, sizeof text, "%.300s, against the %s", title, answer);
         json_t *blocks = page_section(document, text);
         page_chart(blocks, shares_chart(blame, sum, a, text));

@@ -49,9 +49,9 @@ static bool fail_coalition(const struct work *work, uint32_t coalition, const st
 
 static json_t *look_json(const struct blame *blame, const struct glint_verdict *verdict) {
     json_t *errors = json_object();
-    for (int k = 0; k < GLINT_ANSWER_COUNT; k++)
+    for (int k = 0; k < GLINT_TARGET_COUNT; k++)
         if (verdict->errors[k].count)
-            json_object_set_new(errors, glint_answer_name((enum glint_answer)k),
+            json_object_set_new(errors, glint_target_name((enum glint_target)k),
                                 errors_json(&verdict->errors[k], blame->metrics));
     return json_pack("{s:o, s:f, s:f, s:f}", "errors", errors, "fetches_px", verdict->fetches_px, "run_seconds",
                      verdict->run_seconds, "metric_seconds", verdict->metric_seconds);
@@ -74,13 +74,13 @@ static bool replay_coalition(struct work *work, uint32_t coalition, struct glint
     struct glint_verdict verdict = {0};
     struct glint_error own = {0};
     if (!pipeline) return false;
-    bool ok =
-        run_before(work, pipeline, &own) && glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
+    bool ok = run_before(work, pipeline, &own) &&
+              glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
     if (ok && work->blame->against.truth && verdict.no_truth.code != GLINT_OK)
         ok = glint_fail(&own, verdict.no_truth.code, "%s", verdict.no_truth.message);
-    for (int k = 0; ok && k < GLINT_ANSWER_COUNT; k++)
+    for (int k = 0; ok && k < GLINT_TARGET_COUNT; k++)
         ok = !verdict.errors[k].count ||
-             glint_metrics_valid(&verdict.errors[k], glint_answer_name((enum glint_answer)k), &own);
+             glint_metrics_valid(&verdict.errors[k], glint_target_name((enum glint_target)k), &own);
     if (ok) ok = place_line(work, coalition, look_json(work->blame, &verdict), err);
     else if (own.code == GLINT_ERROR_INTERRUPTED) *err = own;
     else fail_coalition(work, coalition, &own, err);
@@ -145,7 +145,7 @@ static bool take_turns(struct work *work, struct glint_error *err) {
 /* Makes the reference before the coalitions, because it can take longer than they do. */
 static bool find_answer(struct work *work, struct glint_error *err) {
     const float *error;
-    return work->blame->against.truth || glint_judge_answer(work->judge, GLINT_ANSWER_REFERENCE, work->blame->base,
+    return work->blame->against.truth || glint_judge_target(work->judge, GLINT_TARGET_REFERENCE, work->blame->base,
                                                             &error, progress_report, work->blame->progress, err);
 }
 
@@ -157,7 +157,7 @@ static bool tell_progress(void *user, struct glint_error *err) {
 static bool find_shares(struct work *work, struct glint_error *err) {
     struct blame *blame = work->blame;
     const struct glint_game game = {
-        .players = blame->count, .values = BLAME_VALUES, .play = play, .news = tell_progress, .user = work};
+        .players = blame->count, .values = BLAME_VALUES, .play = play, .update = tell_progress, .user = work};
     const size_t whole = (size_t)1 << blame->count,
                  drawn = 2 * blame->count + 2 + blame->options.permutations * blame->count;
     work->done = 0;

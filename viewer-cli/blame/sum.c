@@ -22,8 +22,8 @@ static double number_of(const json_t *json) {
 
 void blame_values(const struct blame *blame, const json_t *line, double values[BLAME_VALUES]) {
     const json_t *errors = json_object_get(line, "errors");
-    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
-        const json_t *classes = json_object_get(errors, glint_answer_name(blame_answer(blame, a)));
+    for (size_t a = 0; a < GLINT_TARGET_COUNT; a++) {
+        const json_t *classes = json_object_get(errors, glint_target_name(blame_answer(blame, a)));
         for (size_t k = 0; k < BLAME_CLASSES; k++)
             values[blame_value(a, k)] = number_of(
                 json_object_get(json_object_get(classes, blame_classes[k]), glint_metric(blame->metric)->name));

@@ -44,14 +44,14 @@ static void print_players(const struct blame *blame, const struct blame_sum *sum
 }
 
 static void print_sum(const struct blame *blame, const char *title, const struct blame_sum *sum) {
-    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
+    for (size_t a = 0; a < GLINT_TARGET_COUNT; a++) {
         const size_t v = blame_value(a, 0);
         char how[96];
         if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
         blame_how(sum, how);
         printf("%s: the %s of %s against the %s is %s, that of its reference %s; shares of the difference %s (%s):\n\n",
                title, glint_metric(blame->metric)->title, glint_pipeline_name(blame->base),
-               glint_answer_name(blame_answer(blame, a)), number_text(sum->shapley.none[v]),
+               glint_target_name(blame_answer(blame, a)), number_text(sum->shapley.none[v]),
                number_text(sum->shapley.all[v]), number_text(blame_total(sum, v)), how);
         print_players(blame, sum, a);
         putchar('\n');
@@ -109,7 +109,7 @@ void blame_print_times(const struct blame *blame) {
            "ms); saves:\n"
            "time saved when only this player is kept and all others are replaced\ntimes: median of %u alternating "
            "rounds on %s%s\n",
-           glint_answer_name(blame_answer(blame, 0)), blame->rounds, device->name,
+           glint_target_name(blame_answer(blame, 0)), blame->rounds, device->name,
            device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
 }
 
@@ -123,7 +123,7 @@ static json_t *player_json(const struct blame_sum *sum, size_t p, size_t v) {
 /* {ANSWER: {CLASS: {"preset", "reference", "players": {NAME: …}}}} */
 static json_t *errors_of(const struct blame *blame, const struct blame_sum *sum) {
     json_t *answers = json_object();
-    for (size_t a = 0; a < GLINT_ANSWER_COUNT; a++) {
+    for (size_t a = 0; a < GLINT_TARGET_COUNT; a++) {
         json_t *classes = json_object();
         for (size_t k = 0; k < BLAME_CLASSES; k++) {
             const size_t v = blame_value(a, k);
@@ -137,7 +137,7 @@ static json_t *errors_of(const struct blame *blame, const struct blame_sum *sum)
                                               "reference", json_number(sum->shapley.all[v]), "players", players));
             json_decref(players);
         }
-        if (json_object_size(classes)) json_object_set(answers, glint_answer_name(blame_answer(blame, a)), classes);
+        if (json_object_size(classes)) json_object_set(answers, glint_target_name(blame_answer(blame, a)), classes);
         json_decref(classes);
     }
     return answers;
@@ -174,7 +174,7 @@ json_t *blame_json(const struct blame *blame) {
     }
     return json_pack("{s:i, s:b, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:o, s:o}", "format", 1, "complete",
                      blame->complete, "preset", glint_pipeline_name(blame->base), "metric",
-                     glint_metric(blame->metric)->name, "against", glint_answer_name(blame_answer(blame, 0)), "device",
+                     glint_metric(blame->metric)->name, "against", glint_target_name(blame_answer(blame, 0)), "device",
                      "name", device->name, "is_cpu", device->is_cpu, "rounds", (json_int_t)blame->rounds,
                      "reference_rays", (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS),
                      "players", players, "captures", captures, "mean", sum_json(blame, &blame->mean));

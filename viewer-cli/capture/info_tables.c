@@ -227,15 +227,15 @@ static const char *faces_text(uint8_t faces, char text[32]) {
 static void print_cubemaps(const struct glint_survey *survey) {
     static const char *const titles[] = {">cube map", "<faces with sky", "<faces that rays may reach", NULL};
     char text[32];
-    if (survey->looked_at == 0) return;
+    if (survey->active_surveyed == 0) return;
     printf("%u of %u faces of the active cube maps show sky; rays may reach %u%s:\n",
-           glint_survey_faces(survey, GLINT_SURVEY_SKY), 6 * survey->looked_at,
-           glint_survey_faces(survey, GLINT_SURVEY_CROSSED), survey->followed ? "" : " (known for mirrors only)");
+           glint_survey_faces(survey, GLINT_SURVEY_SKY), 6 * survey->active_surveyed,
+           glint_survey_faces(survey, GLINT_SURVEY_CROSSED), survey->active_traced ? "" : " (known for mirrors only)");
     struct table *table = table_create(titles);
-    for (uint32_t i = 0; i < survey->looked_at; i++) {
+    for (uint32_t i = 0; i < survey->active_surveyed; i++) {
         table_cell(table, "%u", survey->active[i].number);
         table_cell(table, "%s", faces_text(survey->active[i].sky, text));
-        table_cell(table, "%s", faces_text(survey->followed ? survey->active[i].crossed : 63, text));
+        table_cell(table, "%s", faces_text(survey->active_traced ? survey->active[i].crossed : 63, text));
     }
     table_print(table, stdout);
     table_destroy(&table);

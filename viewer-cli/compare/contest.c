@@ -144,8 +144,9 @@ static bool read_picture(struct glint_judge *judge, struct showing *s, struct an
     snprintf(a->picture_name, sizeof a->picture_name, "%s", image->name);
     bool ok = pixels_read(replay, image, &a->picture, err);
     for (int k = 0; ok && k < CONTEST_OVER; k++) {
-        s->over[k].drawn = glint_study_draws(replay, contest_over[k]);
-        ok = glint_study_over(&a->picture, glint_judge_capture(judge), contest_over[k], &s->over[k].error, err);
+        s->over[k].drawn = glint_study_reads_part(replay, contest_over[k]);
+        ok =
+            glint_study_overlay_error(&a->picture, glint_judge_capture(judge), contest_over[k], &s->over[k].error, err);
     }
     return ok;
 }
@@ -155,17 +156,17 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
                                struct glint_error *err) {
     const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
     const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
-    if (!glint_judge_look(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
-                          err) ||
+    if (!glint_judge_evaluate(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
+                              err) ||
         !note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err))
         return false;
     s->ends = a->verdict.ends;
-    count_given(s, a->verdict.given, surfaces, (size_t)a->verdict.reflection.width * a->verdict.reflection.height);
+    count_given(s, a->verdict.coverage, surfaces, (size_t)a->verdict.reflection.width * a->verdict.reflection.height);
     s->compared = a->verdict.no_truth.code == GLINT_OK;
     snprintf(s->failure, sizeof s->failure, "%s", a->verdict.no_truth.message);
     if (!s->compared) return true;
-    a->truth = glint_judge_answer(contest->judge, GLINT_ANSWER_TRUTH, pipeline, &a->truth_error, NULL, NULL, err);
-    return a->truth && masked_errors(a, a->verdict.given, surfaces, &s->own, err);
+    a->truth = glint_judge_target(contest->judge, GLINT_TARGET_TRUTH, pipeline, &a->truth_error, NULL, NULL, err);
+    return a->truth && masked_errors(a, a->verdict.coverage, surfaces, &s->own, err);
 }
 
 /* Times one round in which every pass is executed, after a warm-up round. */
@@ -227,7 +228,7 @@ static bool share_pixels(const struct contest *contest, struct showing *showings
     if (ok) memset(mask, 1, pixels);
     for (size_t i = 0; ok && i < contest->count; i++)
         for (size_t k = 0; showings[i].compared && showings[i].given[0] && k < pixels; k++)
-            mask[k] &= answers[i].verdict.given[k];
+            mask[k] &= answers[i].verdict.coverage[k];
     for (size_t i = 0; ok && i < contest->count; i++)
         if (showings[i].compared) ok = masked_errors(&answers[i], mask, surfaces, &showings[i].shared, err);
     free(mask);

@@ -45,7 +45,7 @@ static bool draw_error(struct contest_pictures *p, size_t column, const struct a
     struct glint_pixels error = {0};
     uint8_t *mask = malloc(count + 1);
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.given[i] && surfaces[i] != GLINT_SURFACE_NONE;
+    for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.coverage[i] && surfaces[i] != GLINT_SURFACE_NONE;
     ok = ok && pixels_difference(&a->verdict.reflection, a->truth, a->truth_error, mask, &error, err) &&
          draw_picture(p, ERROR, column, &error, "error of covered pixels", label, label, err);
     glint_pixels_finish(&error);
@@ -62,7 +62,7 @@ static bool draw_given(struct contest_pictures *p, size_t column, const struct a
     given.values = calloc(count * given.components, sizeof *given.values);
     if (!given.values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < count; i++)
-        if (a->verdict.given[i])
+        if (a->verdict.coverage[i])
             memcpy(given.values + i * given.components, a->verdict.reflection.values + i * given.components,
                    given.components * sizeof *given.values);
     bool ok = draw_picture(p, REFLECTION, column, &given, "reflection", label, label, err);

@@ -22,8 +22,8 @@ void answer_args_finish(struct answer_args *args);
 struct glint_judge_options answer_args_judge(const struct answer_args *args, const char *folder, size_t capture);
 /* --metric's single name; without one *metric stays. */
 bool answer_args_metric(const char *name, enum glint_metric *metric, struct glint_error *err);
-static inline enum glint_answer answer_args_kind(const struct answer_args *args) {
-    return args->truth ? GLINT_ANSWER_TRUTH : GLINT_ANSWER_REFERENCE;
+static inline enum glint_target answer_args_kind(const struct answer_args *args) {
+    return args->truth ? GLINT_TARGET_TRUTH : GLINT_TARGET_REFERENCE;
 }
 
 #endif

@@ -27,7 +27,7 @@ static json_t *record_json(const struct probe_side *side, const struct glint_pro
     for (size_t i = 0; i < glint_probe_count(record->kind); i++) {
         const struct glint_probe_row *row = &record->kind[1 + i];
         const double value = (double)record->values[i];
-        const struct glint_probe_word word = glint_probe_word(row->unit, record->values[i]);
+        const struct glint_probe_label word = glint_probe_label(row->unit, record->values[i]);
         json_object_set_new(object, row->name, word.name ? json_string(word.name) : json_number(value));
         if (strcmp(row->unit, "place") == 0)
             json_object_set_new(object, "cubemap", json_string(probe_cubemap(side, value)));
@@ -76,7 +76,7 @@ json_t *probe_json(const struct probe *probe) {
                              (int)probe->full[0], (int)probe->full[1], "half", (int)probe->half[0], (int)probe->half[1],
                              "preset", probe->preset, "device", probe->device);
     json_object_set_new(root, "story", side_json(&probe->own));
-    if (probe->own.story.lost) json_object_set_new(root, "lost", json_integer((json_int_t)probe->own.story.lost));
+    if (probe->own.story.dropped) json_object_set_new(root, "lost", json_integer((json_int_t)probe->own.story.dropped));
     if (probe->has_reference) json_object_set_new(root, "reference", side_json(&probe->reference));
     return root;
 }

@@ -181,7 +181,7 @@ size_t probe_groups(const struct glint_probe_row *kind, struct probe_group group
 void probe_group_text(const struct probe_side *side, const struct glint_probe_record *record,
                       const struct probe_group *group, char *text, size_t size) {
     const double value = (double)record->values[group->first];
-    const struct glint_probe_word word = glint_probe_word(group->unit, record->values[group->first]);
+    const struct glint_probe_label word = glint_probe_label(group->unit, record->values[group->first]);
     if (word.text) snprintf(text, size, "%s", word.text);
     else if (strcmp(group->unit, "place") == 0) snprintf(text, size, "%s", probe_cubemap(side, value));
     else {

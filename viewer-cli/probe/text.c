@@ -120,7 +120,7 @@ static void print_records(const struct probe_side *side, const struct glint_pass
 
 static void print_value(const struct probe_value *value) {
     printf("  %-28s", value->row->name);
-    const struct glint_probe_word word = glint_probe_word(value->row->unit, (float)value->values[0]);
+    const struct glint_probe_label word = glint_probe_label(value->row->unit, (float)value->values[0]);
     if (word.text) printf("  %s", word.text);
     const char *channel = value->row->kind == GLINT_ROW_CAPTURE ? value->row->source : value->row->channels;
     for (uint32_t c = 0; c < value->count && !word.text; c++) {
@@ -163,7 +163,7 @@ static const char *ending_text(const struct probe_side *side, const char *slot, 
                                size_t size) {
     const struct glint_probe_record *end = probe_last(side, slot, kind);
     if (!end || ended_on_screen(side, end)) return "–";
-    const struct glint_probe_word why = glint_probe_word("end reason", glint_probe_value(end, "end"));
+    const struct glint_probe_label why = glint_probe_label("end reason", glint_probe_value(end, "end"));
     const double place = (double)glint_probe_value(end, "place");
     const bool mapped = place >= 0 && place < side->cubemap_count;
     snprintf(text, size, "%s m, %s%s%s", number_text((double)glint_probe_value(end, "travelled_m")),
@@ -217,6 +217,7 @@ void probe_print(const struct probe *probe) {
     } else if (!probe_last(&probe->own, "cubemap_trace", "cubemap_ray"))
         printf("The texel has no ray: it is sky, or a surface without reflection.\n");
     print_side(&probe->own);
-    if (probe->own.story.lost) printf("\n%zu further steps exceeded the recording buffer.\n", probe->own.story.lost);
+    if (probe->own.story.dropped)
+        printf("\n%zu further steps exceeded the recording buffer.\n", probe->own.story.dropped);
     if (probe->has_reference) print_reference(probe);
 }

@@ -145,8 +145,8 @@ static bool compare_images(struct against *against, struct glint_replay *replay,
              compare(against, capture, &sets, &found, &reference, &c->to_reference, err) &&
              cross_sources(against, capture, surfaces, c, err);
     if (ok && c->truth && c->reference)
-        ok = glint_study_missing(&reference.pixels, reference.error, &truth.pixels, truth.error, surfaces, &c->missing,
-                                 err);
+        ok = glint_study_reference_bias(&reference.pixels, reference.error, &truth.pixels, truth.error, surfaces,
+                                        &c->missing, err);
     for (size_t k = 0; k < sets.own; k++) glint_classes_finish(&sets.of[k]);
     answer_finish(&truth);
     answer_finish(&reference);

@@ -33,12 +33,12 @@ static json_t *image_json(const struct glint_stability_image *image) {
                              (int)image->width, "height", (int)image->height);
     if (!json) return NULL;
     json_object_set_new(json, "slot", image->pass ? json_string(image->pass->slot) : json_null());
-    if (!image->decides) {
+    if (!image->discrete) {
         json_object_set_new(json, image->pass ? "amplification" : "change", summary_json(&image->summary));
         json_object_set_new(json, "overflow",
                             json_pack("{s:o, s:i, s:i, s:i, s:I, s:I}", "largest", json_number(image->peak), "x",
                                       (int)image->peak_x, "y", (int)image->peak_y, "component",
-                                      (int)image->peak_component, "beyond", (json_int_t)image->beyond, "invalid",
+                                      (int)image->peak_component, "beyond", (json_int_t)image->overflowing, "invalid",
                                       (json_int_t)image->invalid));
     }
     if (image->pass) {
@@ -118,7 +118,7 @@ static void print_worst(const struct glint_stability *s) {
     struct table *t = table_create(titles);
     for (size_t i = 0; i < s->image_count; i++) {
         const struct glint_stability_image *image = &s->images[i];
-        for (size_t k = 0; image->over_picture && k < image->worst_count && k < 2; k++) {
+        for (size_t k = 0; image->per_pixel && k < image->worst_count && k < 2; k++) {
             const struct glint_stability_pixel *p = &image->worst[k];
             table_cell(t, "%s", k ? "" : image->name);
             table_cell(t, "%u,%u", p->x, p->y);
@@ -139,13 +139,13 @@ static void print_overflow(const struct glint_stability *s) {
     struct table *t = table_create(titles);
     for (size_t i = 0; i < s->image_count; i++) {
         const struct glint_stability_image *image = &s->images[i];
-        if (image->decides) continue;
+        if (image->discrete) continue;
         table_cell(t, "%s", image->name);
         table_cell(t, "%s", number_text(image->peak));
         table_cell(t, "%u,%u", image->peak_x, image->peak_y);
         table_cell(t, "%s", image->row->unit);
         table_cell(t, "%.1f", image->peak > 0 ? log2(65504 / image->peak) : (double)INFINITY);
-        cell_count(t, image->beyond);
+        cell_count(t, image->overflowing);
         cell_count(t, image->invalid);
     }
     table_print(t, stdout);

@@ -62,13 +62,13 @@ static bool write_pass(const char *folder, const struct glint_stability *s, cons
         const struct glint_stability_image *image = &s->images[i];
         if (image->pass != pass->pass) continue;
         ok = fill_layers(&layers[count], &parts[count], image, err);
-        json_array_append_new(images,
-                              part_json(file, image->name, image->decides ? "flips" : "amplification change flips", "1",
-                                        image->decides ? "number of replays with another decision"
-                                                       : "relative change divided by that of the inputs; root mean "
-                                                         "square of the relative change; number of "
-                                                         "replays with another decision",
-                                        image->width, image->height, false));
+        json_array_append_new(
+            images, part_json(file, image->name, image->discrete ? "flips" : "amplification change flips", "1",
+                              image->discrete ? "number of replays with another decision"
+                                              : "relative change divided by that of the inputs; root mean "
+                                                "square of the relative change; number of "
+                                                "replays with another decision",
+                              image->width, image->height, false));
         count++;
     }
     ok = ok && journal_path(folder, file, path, err) && glint_exr_write(path, parts, count, 0, err);
@@ -136,7 +136,7 @@ static bool write_sheet(const char *folder, const struct glint_stability *s, str
     images[count++] = "start";
     images[count++] = "flip_start";
     for (size_t i = 0; i < s->image_count; i++)
-        if (s->images[i].amplification && s->images[i].over_picture) images[count++] = s->images[i].name;
+        if (s->images[i].amplification && s->images[i].per_pixel) images[count++] = s->images[i].name;
     const bool ok = render_sheet(&sheet, runs, 1, images, &options, err) &&
                     journal_path(folder, "stability.png", path, err) && png_file_write(path, &sheet, err);
     picture_finish(&sheet);

@@ -67,9 +67,9 @@ static bool draw_point(const struct work *work, size_t point, struct glint_error
 static json_t *look_json(const struct sweep *sweep, const struct glint_verdict *v, double picture_seconds) {
     json_t *errors = json_object(), *executed = json_array();
     uint64_t invalid = 0;
-    for (int k = 0; k < GLINT_ANSWER_COUNT; k++) {
+    for (int k = 0; k < GLINT_TARGET_COUNT; k++) {
         if (!v->errors[k].count) continue;
-        json_object_set_new(errors, glint_answer_name((enum glint_answer)k),
+        json_object_set_new(errors, glint_target_name((enum glint_target)k),
                             errors_json(&v->errors[k], sweep->metrics));
         invalid += v->errors[k].invalid_found + v->errors[k].invalid_truth;
     }
@@ -108,7 +108,7 @@ static bool measure_point(struct work *work, size_t point, struct glint_error *e
     struct glint_error own = {0};
     if (!pipeline) return false;
     label(work, "point", point + 1);
-    bool ok = glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, &own);
+    bool ok = glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
     const double start = now_seconds();
     ok = ok && draw_point(work, point, &own);
     if (ok && work->sweep->against.truth && verdict.no_truth.code != GLINT_OK) /* the truth is missing for all points */
@@ -164,10 +164,10 @@ static bool misses(const struct sweep *sweep, size_t capture) {
 static bool find_answer(struct work *work, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     const float *error;
-    const enum glint_answer answer = answer_args_kind(&sweep->against);
+    const enum glint_target answer = answer_args_kind(&sweep->against);
     struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, 0, err);
     const bool ok =
-        pipeline && glint_judge_answer(work->judge, answer, pipeline, &error, progress_report, sweep->progress, err);
+        pipeline && glint_judge_target(work->judge, answer, pipeline, &error, progress_report, sweep->progress, err);
     if (pipeline) glint_pipeline_destroy(&pipeline);
     return ok;
 }
@@ -243,7 +243,7 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
     for (size_t p = 0; p < sweep->points; p++) {
         if (!on_front(sweep, p)) continue;
         struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, p, err);
-        const enum glint_answer kind = answer_args_kind(&sweep->against);
+        const enum glint_target kind = answer_args_kind(&sweep->against);
         struct glint_verdict verdict = {0};
         struct glint_pixels error = {0};
         const float *noise;
@@ -252,8 +252,8 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
         label(work, "picture", p + 1);
         sweep_picture_name("error", work->capture, p, name);
         bool ok =
-            pipeline && glint_judge_look(work->judge, pipeline, 0, &verdict, report, work, err) &&
-            (answer = glint_judge_answer(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
+            pipeline && glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, err) &&
+            (answer = glint_judge_target(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
             pixels_difference(&verdict.reflection, answer, noise, glint_judge_surfaces(work->judge), &error, err) &&
             draw_picture(sweep, name, &error, "error", err);
         reflections[p] = verdict.reflection;

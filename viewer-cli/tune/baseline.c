@@ -53,7 +53,8 @@ static bool is_dearer(struct tune *tune, size_t s, struct glint_pipeline *scaled
     *dearer = false;
     for (int k = TUNE_TUNED; tune->fetches && k < TUNE_CONTENDERS; k++) {
         struct glint_verdict verdict;
-        if (!glint_judge_look(tune->subjects[s].judge, pipelines[k], 0, &verdict, tune_report, tune, err)) return false;
+        if (!glint_judge_evaluate(tune->subjects[s].judge, pipelines[k], 0, &verdict, tune_report, tune, err))
+            return false;
         fetches[k] = verdict.fetches_px;
         glint_verdict_finish(&verdict);
     }

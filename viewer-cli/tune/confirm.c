@@ -43,8 +43,8 @@ static bool next_candidate(const struct tune *tune, const bool *measured, double
     bool some = false;
     for (size_t p = 0; p < tune->found.count; p++) {
         const struct glint_search_point *points = tune->found.points, *point = &points[p];
-        if (measured[p] || !(point->figures.limited <= limit) ||
-            (held && !(point->figures.wanted < held->figures.wanted)))
+        if (measured[p] || !(point->figures.constraint <= limit) ||
+            (held && !(point->figures.objective < held->figures.objective)))
             continue;
         if (!some || glint_search_better(&point->figures, &points[*next].figures, limit)) *next = p;
         some = true;
@@ -61,17 +61,17 @@ static bool choose_point(struct tune *tune, struct glint_pipeline *scaled, bool 
     for (size_t p = 0; p < tune->found.count && !held; p++)
         if (is_baseline(tune, p)) held = &points[p];
     for (int i = 0; i < TRIES; i++) {
-        size_t next = tune->found.least;
+        size_t next = tune->found.lowest;
         double part;
         if (!next_candidate(tune, measured, limit, held, &next) && (held || measured[next])) break;
         if (!time_point(tune, scaled, next, &part, NULL, err)) return false;
         measured[next] = true;
         if (part <= 1) held = &points[next];
-        off += part * tune->within / points[next].figures.limited;
+        off += part * tune->within / points[next].figures.constraint;
         limit = tune->within * (i + 1) / off;
     }
     tune->confirmed_within = held != NULL;
-    tune->chosen = held ? (size_t)(held - points) : tune->found.least;
+    tune->chosen = held ? (size_t)(held - points) : tune->found.lowest;
     return true;
 }
 
@@ -95,8 +95,8 @@ static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct gli
 bool tune_choose(struct tune *tune, struct glint_error *err) {
     struct glint_pipeline *scaled = NULL;
     bool *measured = NULL, ok = true;
-    tune->confirmed_within = tune->found.within;
-    if (tune->fetches || tune->by_error || !tune->repeat || !tune->found.within) return true;
+    tune->confirmed_within = tune->found.feasible;
+    if (tune->fetches || tune->by_error || !tune->repeat || !tune->found.feasible) return true;
     if (tune->scaled_within) ok = (scaled = tune_pipeline(tune, tune->scaling, err)) != NULL;
     ok = ok && correct(tune, scaled, err) &&
          ((measured = calloc(tune->found.count, sizeof *measured)) != NULL || no_memory(err));
@@ -113,11 +113,11 @@ static bool make_contenders(struct tune *tune, struct glint_error *err) {
 }
 
 static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err) {
-    const enum glint_answer answer = answer_args_kind(&tune->against);
+    const enum glint_target answer = answer_args_kind(&tune->against);
     struct tune_measured *measured = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
     struct glint_verdict verdict;
     snprintf(tune->label, sizeof tune->label, "%s, final timing", tune_contenders[k]);
-    if (!glint_judge_look(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
+    if (!glint_judge_evaluate(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
         return false;
     measured->errors = verdict.errors[answer];
     measured->steps_px = verdict.steps_px;

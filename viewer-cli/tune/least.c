@@ -81,7 +81,7 @@ static void describe_expensive_passes(const struct tune *tune, const struct part
 }
 
 bool tune_fail_least(struct tune *tune, struct glint_error *err) {
-    const struct glint_search_point *least = &tune->found.points[tune->found.least];
+    const struct glint_search_point *least = &tune->found.points[tune->found.lowest];
     struct parts parts = {0};
     char text[700] = "";
     if (!tune->fetches && !tune->by_error) {
@@ -97,5 +97,5 @@ bool tune_fail_least(struct tune *tune, struct glint_error *err) {
         "no point meets %s limit of %.4g %s: the best of %zu points has %.4g, with %s of %.4g%s; no preset was written",
         tune->by_error ? "an error" : "a cost", tune->within,
         tune->by_error ? glint_metric(tune->metric)->title : tune_cost_unit(tune), tune->found.count,
-        least->figures.limited, tune->by_error ? "a cost" : "an error", least->figures.wanted, text);
+        least->figures.constraint, tune->by_error ? "a cost" : "an error", least->figures.objective, text);
 }

@@ -23,9 +23,9 @@ static json_t *chart_point(const struct tune *tune, size_t p, bool whole) {
     const struct glint_search_point *point = &tune->found.points[p];
     char name[32];
     snprintf(name, sizeof name, "point %zu", p + 1);
-    json_t *json =
-        json_pack("{s:o, s:o, s:s}", "x", json_number(tune->by_error ? point->figures.wanted : point->figures.limited),
-                  "y", json_number(tune->by_error ? point->figures.limited : point->figures.wanted), "name", name);
+    json_t *json = json_pack(
+        "{s:o, s:o, s:s}", "x", json_number(tune->by_error ? point->figures.objective : point->figures.constraint), "y",
+        json_number(tune->by_error ? point->figures.constraint : point->figures.objective), "name", name);
     json_t *values = json_array();
     if (whole) values_of(tune, point->values, values);
     if (whole) json_object_set(json, "values", values);
@@ -35,7 +35,7 @@ static json_t *chart_point(const struct tune *tune, size_t p, bool whole) {
 
 static bool point_is_known(const struct tune *tune, size_t p) {
     const struct glint_search_figures *figures = &tune->found.points[p].figures;
-    return isfinite(figures->wanted) && isfinite(figures->limited);
+    return isfinite(figures->objective) && isfinite(figures->constraint);
 }
 
 /* Chart of all points, the successive best points joined by a line, the start, and the scaled start. */

@@ -97,8 +97,8 @@ static void print_left(const struct tune *tune) {
 void tune_print(const struct tune *tune) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     const struct glint_search_figures *found = &tune->found.points[tune->chosen].figures;
-    const double error = tune->by_error ? found->limited : found->wanted;
-    const double cost = tune->by_error ? found->wanted : found->limited;
+    const double error = tune->by_error ? found->constraint : found->objective;
+    const double cost = tune->by_error ? found->objective : found->constraint;
     printf("%s: %s %.5f at %.4g %s after %zu evaluations; start: %.5f at %.4g %s\n\n", tune->out,
            glint_metric(tune->metric)->title, error, cost, tune_cost_unit(tune), tune->found.count, tune->start.error,
            tune->start.cost, tune_cost_unit(tune));

@@ -35,16 +35,16 @@ static bool begin_search(struct tune *tune, const double *start, struct glint_er
 static bool search(struct tune *tune, uint32_t tries, const double *known, size_t count, struct glint_error *err) {
     enum { NOISE_PER_CENT = 2 };
     const struct glint_search_options options = {.limit = tune->within,
-                                                 .tries = tries,
+                                                 .max_points = tries,
                                                  .seed = tune->seed,
                                                  .noise = tune->fetches ? 0 : NOISE_PER_CENT * 0.01,
-                                                 .known = known,
-                                                 .known_count = count};
+                                                 .initial = known,
+                                                 .initial_count = count};
     struct glint_search_axis *axes = calloc(tune->axis_count + 1, sizeof *axes);
     if (!axes) return no_memory(err);
     for (size_t a = 0; a < tune->axis_count; a++) {
         axes[a] = tune->axes[a].axis;
-        axes[a].hidden = tune->axes[a].other;
+        axes[a].keep = tune->axes[a].other;
     }
     glint_search_result_finish(&tune->found);
     const bool ok = glint_search(axes, tune->axis_count, &options, try_values, tune, &tune->found, err);

@@ -31,12 +31,12 @@ bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct g
     options.resamples = resamples;
     options.keep_resampled = resamples != 0;
     options.seed = 1;
-    const enum glint_answer answer = answer_args_kind(&tune->against);
+    const enum glint_target answer = answer_args_kind(&tune->against);
     const float *error;
     return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
            (subject->judge = glint_judge_create(tune->device, &options, err)) &&
            glint_judge_load(subject->judge, subject->capture, err) &&
-           glint_judge_answer(subject->judge, answer, tune->base, &error, progress_report, tune->progress, err);
+           glint_judge_target(subject->judge, answer, tune->base, &error, progress_report, tune->progress, err);
 }
 
 bool tune_load(struct tune *tune, struct glint_error *err) {
@@ -51,7 +51,7 @@ bool tune_load(struct tune *tune, struct glint_error *err) {
         struct glint_verdict verdict;
         snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
         if (!tune_load_subject(tune, s, 0, err) ||
-            !glint_judge_look(subject->judge, tune->base, 0, &verdict, tune_report, tune, err))
+            !glint_judge_evaluate(subject->judge, tune->base, 0, &verdict, tune_report, tune, err))
             return false;
         glint_verdict_finish(&verdict);
     }

@@ -96,11 +96,11 @@ static bool time_beside_start(struct tune *tune, struct tune_subject *subject, c
 /* A failure of the pipeline itself is recorded as missing figures and does not end the search. */
 static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
                         json_t *line, struct glint_error *err) {
-    const enum glint_answer answer = answer_args_kind(&tune->against);
+    const enum glint_target answer = answer_args_kind(&tune->against);
     struct glint_verdict verdict;
     struct glint_error own = {0};
     double error = NAN, cost = NAN;
-    bool ok = glint_judge_look(subject->judge, pipeline, 0, &verdict, tune_report, tune, &own);
+    bool ok = glint_judge_evaluate(subject->judge, pipeline, 0, &verdict, tune_report, tune, &own);
     if (ok) {
         const struct glint_metric_table *table = &verdict.errors[answer];
         const struct glint_error no_truth = verdict.no_truth;

@@ -1,10 +1,10 @@
-/* Captures: one frame's inputs in a multi-part OpenEXR file. FORMAT.md is the specification; this is the C API.
-   An engine links libglint-capture and calls the writer; glint itself uses the reader.
+/* Captures: the inputs of one frame in a multi-part OpenEXR file, specified in FORMAT.md. Engines link libglint-capture and call
+   the writer; glint itself uses the reader.
 
    Matrices are row-major doubles for column vectors: view = world_to_view · world, clip = view_to_clip · view.
-   Lengths are in engine units (metres_per_unit says what a unit is). Every struct may be zero-initialised: zero means
-   the default that is named beside the field. Strings are UTF-8 and copied. No call keeps a pointer of the caller's
-   after it returned. Objects may be used by one thread at a time; different objects by different threads. */
+   Lengths are in engine units; metres_per_unit converts them. Every struct may be zero-initialised: zero selects the default that
+   is stated at the field. Strings are UTF-8. They and all other data are copied: no pointer of the caller's is used after a call
+   returns. An object may be used by one thread at a time, different objects by different threads. */
 #ifndef GLINT_CAPTURE_H
 #define GLINT_CAPTURE_H
 
@@ -18,21 +18,21 @@ extern "C" {
 
 #define GLINT_FORMAT_VERSION 1
 
-/* ---- Encodings: how an engine stored what a role means. 0 is the canonical one, which the reader decodes to. ---- */
+/* ---- Encodings: how the engine stored a channel. The reader decodes every encoding to the canonical one, which is 0. ---- */
 
 enum glint_depth_encoding {
     GLINT_DEPTH_VIEW_LINEAR,         /* distance along the view axis in units; +inf under sky */
     GLINT_DEPTH_DEVICE,              /* NDC z of view_to_clip in [0, 1]; 1 is sky */
-    GLINT_DEPTH_REVERSED,            /* the same with near at 1; 0 is sky */
-    GLINT_DEPTH_REVERSED_INFINITE,   /* near at 1, 0 is infinity and sky */
+    GLINT_DEPTH_REVERSED,            /* the same with the near plane at 1; 0 is sky */
+    GLINT_DEPTH_REVERSED_INFINITE,   /* near plane at 1, no far plane; 0 is infinity and sky */
     GLINT_DEPTH_LOGARITHMIC,         /* log(z/near)/log(far/near); 1 is sky */
-    GLINT_DEPTH_LOGARITHMIC_REVERSED /* one minus that; 0 is sky */
+    GLINT_DEPTH_LOGARITHMIC_REVERSED /* 1 minus logarithmic; 0 is sky */
 };
 enum glint_normal_encoding {
     GLINT_NORMAL_SIGNED,     /* X Y Z in [-1, 1] */
     GLINT_NORMAL_UNORM,      /* (n + 1)/2 in X Y Z */
     GLINT_NORMAL_OCTAHEDRAL, /* octahedral map in [0, 1]², channels X Y */
-    GLINT_NORMAL_VIEW_XY     /* (n + 1)/2 in channels X Y, view axes; Z towards the camera follows */
+    GLINT_NORMAL_VIEW_XY /* view-space (n + 1)/2 in channels X Y; Z is reconstructed and points towards the camera */
 };
 enum glint_normal_space { GLINT_SPACE_WORLD, GLINT_SPACE_VIEW };
 enum glint_roughness_encoding {
@@ -42,13 +42,13 @@ enum glint_roughness_encoding {
     GLINT_ROUGHNESS_POWER       /* Blinn-Phong power 2/r⁴ - 2 */
 };
 enum glint_motion_encoding {
-    GLINT_MOTION_UV,      /* uv of the same surface point in the previous frame minus uv now, each with its jitter */
+    GLINT_MOTION_UV,      /* previous uv of the surface point minus its current uv, each with the jitter of its frame */
     GLINT_MOTION_NDC,     /* the same difference in NDC, y as clip_y says */
     GLINT_MOTION_PIXELS,  /* the same difference in pixels */
     GLINT_MOTION_PACKED16 /* uint channels: uv = (v - 32768)/32767 · motion_range */
 };
 enum glint_motion_depth_encoding {
-    GLINT_MOTION_DEPTH_VIEW_LINEAR, /* depth in the previous frame minus now, units */
+    GLINT_MOTION_DEPTH_VIEW_LINEAR, /* previous view depth of the surface point minus its current one, in units */
     GLINT_MOTION_DEPTH_PACKED16     /* uint channel: units = (v - 32768)/32767 · motion_depth_range */
 };
 enum glint_color_encoding {
@@ -68,32 +68,32 @@ struct glint_encodings {
     enum glint_motion_depth_encoding motion_depth;
 };
 
-/* ---- What holds for the whole frame ---- */
+/* ---- Frame attributes ---- */
 
 enum glint_axis { GLINT_AXIS_Y, GLINT_AXIS_Z, GLINT_AXIS_X, GLINT_AXIS_NEG_Y, GLINT_AXIS_NEG_Z, GLINT_AXIS_NEG_X };
 enum glint_clip_y { GLINT_CLIP_Y_UP, GLINT_CLIP_Y_DOWN };
 enum glint_clip_z { GLINT_CLIP_Z_ZERO_TO_ONE, GLINT_CLIP_Z_MINUS_ONE_TO_ONE };
 
 struct glint_camera {
-    double world_to_view[16]; /* rotation (a mirroring one is allowed) and translation; no scale */
+    double world_to_view[16]; /* rotation, which may mirror, and translation; no scale */
     double view_to_clip[16];  /* perspective, jitter included: rows (a 0 c 0) (0 b d 0) (0 0 A B) (0 0 ±1 0) */
-    /* Set by the reader where the stored rotation is less than double precise: how far R·Rᵀ is from the identity.
-       world_to_view is then the nearest rotation about the stored matrix's position: its transpose is its inverse. */
+    /* Set by the reader if the stored rotation R is only precise to a float: the deviation of R·Rᵀ from the identity. world_to_view
+       is then the nearest exact rotation, with the camera position of the stored matrix. */
     double rotation_error;
 };
-/* The world position that world_to_view takes to the view's origin, in units. It solves for it: with a rotation that is
-   orthonormal to a float's 1e-7 alone, -Rᵀ·t is off by 12 mm at 1,000 km. */
+/* The camera's world position in units. It is solved for, since -Rᵀ·t of a rotation that is orthonormal to a float's 1e-7 only is
+   wrong by 12 mm at 1,000 km from the origin. */
 void glint_camera_position(const struct glint_camera *camera, double position[3]);
 
 struct glint_fog {
     float color[3];      /* radiance far inside the fog */
     double density;      /* extinction per unit at `base` */
-    double base;         /* coordinate along up */
-    double scale_height; /* units for a fall to 1/e; 0: the same at every height */
+    double base;         /* height at which `density` applies, in units along up */
+    double scale_height; /* units of height over which density falls to 1/e; 0: uniform fog */
 };
 
 struct glint_stencil_class {
-    uint32_t value, mask; /* pixel belongs when (id & mask) == value; mask 0: all bits */
+    uint32_t value, mask; /* a pixel belongs to the class if (id & mask) == value; mask 0: all bits */
     char name[32];        /* "sky", "foreground", "character", "vegetation", "water", … */
 };
 #define GLINT_MAX_STENCIL_CLASSES 32
@@ -102,18 +102,18 @@ struct glint_frame {
     struct glint_camera camera;
     struct glint_camera previous; /* the camera one frame earlier */
     bool has_previous;
-    bool cut;               /* nothing of the previous frame is of use */
+    bool cut;               /* camera cut: history of the previous frame is invalid */
     bool has_player;        /* false: cube maps are selected around the camera */
-    double player[3];       /* world position */
-    double jitter_px[2];    /* sub-pixel offset by which view_to_clip moves the picture; +x right, +y down */
+    double player[3];       /* world position of the player, around whom cube maps are selected */
+    double jitter_px[2];    /* sub-pixel offset that view_to_clip contains; +x right, +y down */
     double exposure;        /* factor from scene-referred to display; 0: 1 */
     double pre_exposure;    /* factor contained in pre-exposed colour; 0: 1 */
     double metres_per_unit; /* 0: 1 */
-    double depth_near;      /* for logarithmic depth */
+    double depth_near;      /* near and far of logarithmic depth, units */
     double depth_far;
-    double motion_range;       /* for packed motion: the uv offset of the largest value; 0: 1 */
-    double motion_depth_range; /* the same for its packed depth, units; 0: 1 */
-    uint32_t number;           /* frame number; seeds what changes from frame to frame */
+    double motion_range;       /* packed motion: the uv offset of the largest value; 0: 1 */
+    double motion_depth_range; /* packed motion depth: the depth difference of the largest value, units; 0: 1 */
+    uint32_t number;           /* frame number; seeds random numbers that differ from frame to frame */
     enum glint_axis up;        /* default +Y */
     enum glint_clip_y clip_y;  /* default: NDC +1 is the top of the picture */
     enum glint_clip_z clip_z;  /* default: [0, 1] */
@@ -123,12 +123,12 @@ struct glint_frame {
     uint32_t class_count;
 };
 
-/* Sentences on what a valid frame should be asked about: cameras whose stored rotation is so imprecise that it can be
-   seen at their distance from the origin. Returns how many. */
+/* Warnings about a valid frame, one sentence each: cameras whose stored rotation is too imprecise for their distance from the
+   origin. Returns their number. */
 enum { GLINT_NOTES = 2, GLINT_NOTE_LENGTH = 400 };
 size_t glint_frame_notes(const struct glint_frame *frame, char notes[GLINT_NOTES][GLINT_NOTE_LENGTH]);
 
-/* ---- What holds for one cube map ---- */
+/* ---- Cube maps and planar reflections ---- */
 
 enum glint_volume { GLINT_VOLUME_NONE, GLINT_VOLUME_BOX, GLINT_VOLUME_SPHERE, GLINT_VOLUME_HULL };
 #define GLINT_MAX_PLANES 64
@@ -136,10 +136,10 @@ enum glint_volume { GLINT_VOLUME_NONE, GLINT_VOLUME_BOX, GLINT_VOLUME_SPHERE, GL
 struct glint_cubemap {
     double center[3]; /* world position */
     bool outdoor;
-    double fade; /* weight while it is added or removed, (0, 1]; 0: 1 */
+    double fade; /* blend weight in (0, 1] while the engine fades the cube map in or out; 0: 1 */
     uint32_t age_frames;
-    /* A volume of air around the centre, into which no surface reaches, furniture included: rays begin where they leave it.
-       Not the room's walls. Positions relative to the centre, in units. */
+    /* A volume around the centre that contains no surface at all, furniture included, so that rays may start where they leave it.
+       It is not the room's proxy geometry. Positions are relative to the centre, in units. */
     enum glint_volume inner;
     double box_min[3], box_max[3];
     double sphere_center[3], sphere_radius;
@@ -155,7 +155,7 @@ struct glint_planar {
 
 /* ---- Parts ---- */
 
-/* How the caller's memory holds a channel. The file stores half, float or uint, whichever is exact. */
+/* The type of a channel in the caller's memory. The file stores it exactly, as half, float or uint. */
 enum glint_type {
     GLINT_F16,
     GLINT_F32,
@@ -172,11 +172,12 @@ struct glint_channel {
     const char *name; /* "depth.Z", "R"; see the role's row in FORMAT.md */
     enum glint_type type;
     const void *data;
-    size_t x_stride_bytes, y_stride_bytes; /* 0: tight */
-    const char *storage; /* the engine's own format ("D24", "R11G11B10"): how precise it was; NULL: from `type` */
+    size_t x_stride_bytes, y_stride_bytes; /* 0: tightly packed */
+    const char
+        *storage; /* the engine's own format ("D24", "R11G11B10"), which states its precision; NULL: from `type` */
 };
 
-/* Further attributes of a part, kept as they are. */
+/* An additional attribute of a part, stored unchanged. */
 enum glint_attribute_type { GLINT_ATTRIBUTE_STRING, GLINT_ATTRIBUTE_DOUBLE, GLINT_ATTRIBUTE_INT };
 struct glint_attribute {
     const char *name;
@@ -186,15 +187,15 @@ struct glint_attribute {
 };
 
 struct glint_part {
-    const char *name; /* a role, with its number where it has one: "gbuffer", "cubemap.003", "previous.lit" */
+    const char *name; /* the role, with a number if there may be several: "gbuffer", "cubemap.003", "previous.lit" */
     uint32_t width, height;
     const struct glint_channel *channels;
     size_t channel_count;
     struct glint_encodings encodings;
     const struct glint_cubemap *cubemap; /* required for cubemap.NNN */
     const struct glint_planar *planar;   /* required for planar.NNN */
-    const char
-        *sibling; /* cubemap.NNN only: a file in the same folder that holds a part of this name; no channels then */
+    const char *
+        sibling; /* cubemap.NNN only: a file in the same folder whose part of this name is used; give no channels then */
     const struct glint_attribute *attributes;
     size_t attribute_count;
 };
@@ -213,32 +214,32 @@ enum glint_compression {
 struct glint_writer_options {
     enum glint_compression compression;
     uint32_t threads; /* 0: one for each core */
-    bool background;  /* glint_writer_finish returns at once; a worker compresses and renames */
+    bool background;  /* glint_writer_finish returns at once; a worker thread compresses and writes the file */
 };
 
 struct glint_writer;
 
-/* NULL on failure. Nothing appears under `path` before the capture is complete; options may be NULL. */
+/* NULL on failure. The file appears under `path` only when it is complete. `options` may be NULL. */
 struct glint_writer *glint_writer_create(const char *path, const struct glint_writer_options *options,
                                          struct glint_error *err);
-/* Once, before or after the parts. */
+/* Call it once, before or after adding the parts. */
 bool glint_writer_set_frame(struct glint_writer *writer, const struct glint_frame *frame, struct glint_error *err);
-/* Checks the part against its role and copies the pixels. The writer stays usable after a refused part. */
+/* Checks the part against its role and copies the pixels. The writer stays usable after a part is rejected. */
 bool glint_writer_add_part(struct glint_writer *writer, const struct glint_part *part, struct glint_error *err);
-/* Blocking: the file is complete on return. Background: returns when nothing of the caller's is needed any more. A
-   file of cube maps only (for `sibling`) needs no frame; every other needs the frame and the required roles. Siblings
-   that parts name must be complete by then: they are hashed here, on the worker in background mode. */
+/* The file is complete on return; in background mode the call returns as soon as it has copied the data. The frame and the required
+   roles must have been added, except for a file of cube maps only, which other captures name as `sibling`. Siblings that parts name
+   must be complete, since they are hashed now, on the worker in background mode. */
 bool glint_writer_finish(struct glint_writer *writer, struct glint_error *err);
-/* Background mode: waits for the file and returns the worker's result; blocking mode: returns the last result. */
+/* In background mode, waits for the worker and returns its result. Otherwise returns the result of glint_writer_finish. */
 bool glint_writer_wait(struct glint_writer *writer, struct glint_error *err);
-/* Waits, frees, clears the pointer; without a finish before it, nothing is left on disk. NULL is allowed. */
+/* Waits for the worker, frees the writer and clears the pointer. If the writer was not finished, no file is left. */
 void glint_writer_destroy(struct glint_writer **writer);
 
 /* ---- Reader ---- */
 
 struct glint_limits {
     uint64_t file_bytes;   /* 0: 64 GiB */
-    uint64_t memory_bytes; /* all that one open capture may hold at a time; 0: 4 GiB */
+    uint64_t memory_bytes; /* memory of one open capture at a time; 0: 4 GiB */
     uint32_t width;        /* of any part; 0: 32768 (heights: six times that) */
     uint32_t parts;        /* 0: 1024 */
 };
@@ -254,7 +255,7 @@ struct glint_channel_info {
 struct glint_role;
 struct glint_part_info {
     char name[256];
-    const struct glint_role *role; /* NULL: not known to this version; kept and passed on */
+    const struct glint_role *role; /* NULL if this version does not know it; the part can be read all the same */
     int32_t index;                 /* the NNN of its name, or -1 */
     bool previous;                 /* previous.ROLE */
     uint32_t width, height;
@@ -264,15 +265,15 @@ struct glint_part_info {
     bool has_cubemap, has_planar;
     struct glint_cubemap cubemap;
     struct glint_planar planar;
-    char sibling[256];     /* "" or the file that holds the pixels; sizes and channels are that file's */
-    char sibling_hash[33]; /* its XXH3-128, which was compared with the file; "" without a sibling */
-    const struct glint_attribute *attributes; /* those that glint does not know (string, double, int, float) */
+    char sibling[256];     /* the file that holds the pixels, and whose size and channels are reported here; "": none */
+    char sibling_hash[33]; /* XXH3-128 of that file, which was verified; "" without a sibling */
+    const struct glint_attribute *attributes; /* attributes unknown to glint (string, double, int, float) */
     size_t attribute_count;
 };
 
 struct glint_capture;
 
-/* Opens, reads headers and attributes, checks them against FORMAT.md; decodes no pixel. NULL on failure. */
+/* Opens a capture, reads its headers and attributes and checks them against FORMAT.md. No pixel is read. NULL on failure. */
 struct glint_capture *glint_capture_open(const char *path, const struct glint_limits *limits, struct glint_error *err);
 void glint_capture_close(struct glint_capture **capture);
 
@@ -280,73 +281,73 @@ const char *glint_capture_path(const struct glint_capture *capture);
 const struct glint_frame *glint_capture_frame(const struct glint_capture *capture);
 size_t glint_capture_part_count(const struct glint_capture *capture);
 const struct glint_part_info *glint_capture_part(const struct glint_capture *capture, size_t i);
-/* By name ("gbuffer", "cubemap.003"); NULL when the capture has none. */
+/* The part of this name ("gbuffer", "cubemap.003"), or NULL. */
 const struct glint_part_info *glint_capture_find(const struct glint_capture *capture, const char *name);
-/* Whether glint_capture_read can return it: the part's own channels, and the Z of a normal that is stored without. */
+/* Whether glint_capture_read can return the channel: one that is stored, or the reconstructed Z of a normal. */
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel);
-/* 32 hexadecimal digits over the file's bytes (XXH3-128) and a NUL. Reads the file once. */
+/* The XXH3-128 of the file's bytes as 32 hexadecimal digits and a NUL. Reads the whole file. */
 bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glint_error *err);
 
-/* Reads channels of one part, decoded to canonical values, interleaved: out[(y·width + x)·count + i] is channels[i].
-   Only this part's chunks are read and decompressed, on `threads` threads (0: all cores). `type` is GLINT_F16, GLINT_F32
-   or, for uint channels, GLINT_U8/U16/U32. A name of NULL yields 0. Canonical: depth in metres (+inf sky), unit world
-   normals X Y Z, perceptual roughness, motion in uv (motion.Z in metres), linear colour, distance.Z in metres.
-   A channel that the part lacks is an error. Normals of length zero or not finite are returned as stored. Bits are kept
-   where nothing is decoded and the types agree; a float too large for GLINT_F16 becomes infinity. */
+/* Reads channels of one part, decoded to canonical values and interleaved: out[(y·width + x)·count + i] is channels[i]. Reads and
+   decompresses only this part, on `threads` threads (0: all cores). `type` is GLINT_F16, GLINT_F32 or, for uint channels,
+   GLINT_U8/U16/U32. A channel name of NULL yields 0; a channel that the part lacks is an error. Canonical values are view depth in
+   metres (+inf for sky), unit world-space normals X Y Z, perceptual roughness, motion in uv (motion.Z in metres), linear colour
+   and distance.Z in metres. Normals that are zero or not finite are returned as stored. Values that need no decoding and no
+   conversion keep every bit; a float too large for GLINT_F16 becomes infinity. */
 bool glint_capture_read(struct glint_capture *capture, const struct glint_part_info *part, const char *const *channels,
                         size_t count, enum glint_type type, void *out, uint32_t threads, struct glint_error *err);
-/* The same without decoding: values as stored, GLINT_F32 (half widened) or GLINT_U32. */
+/* Reads values as stored, without decoding, as GLINT_F32 (which widens half) or GLINT_U32. */
 bool glint_capture_read_raw(struct glint_capture *capture, const struct glint_part_info *part,
                             const char *const *channels, size_t count, enum glint_type type, void *out,
                             uint32_t threads, struct glint_error *err);
 
-/* From now on glint_capture_read returns values that the engine may as well have had in mind: before they are decoded, each
-   moves by half a step of its channel's declared storage format, up or down as `seed` draws it for each pixel and
-   channel; 0: as they are stored. What engines write on purpose stays: 0, the ends of a fixed-point range, sky. A value of
-   float moves by a whole step or not at all, as half of one rounds. `only`: NULL for all, or a NULL-terminated list of
-   parts or roles ("lit", "cubemap"), with a channel or a layer of theirs ("gbuffer:normal"); one that the capture lacks
-   is an error. Ids and raw reads never move. */
+/* Perturbs the values that later calls of glint_capture_read return by the rounding error of the engine's storage format: each
+   stored value moves by half a step of the format before it is decoded, up or down at random for each pixel and channel. A float
+   moves by a whole step or not at all, since half a step would round. Values that engines write on purpose do not move: 0, the ends
+   of a fixed-point range, sky. `seed` 0 ends the perturbation. `only` is NULL for all values, or a NULL-terminated list of parts or
+   roles ("lit", "cubemap") which may name one of their channels or layers ("gbuffer:normal"); one that the capture lacks is an
+   error. Ids and raw reads never change. */
 bool glint_capture_perturb(struct glint_capture *capture, uint32_t seed, const char *const *only,
                            struct glint_error *err);
-/* A number that tells such perturbations apart; 0 without one. */
+/* A number that differs between perturbations; 0 if there is none. */
 uint64_t glint_capture_perturbed(const struct glint_capture *capture);
 
-/* One step of what held a channel at a stored value, in stored units: of the declared storage format or of the channel's type
-   in the file, whichever is coarser. 0: the part has no such channel, or it holds whole numbers. */
+/* The step between neighbouring values of a channel's storage at a stored value, in stored units: that of the declared storage format
+   or of the channel's type in the file, whichever is coarser. 0 if the part has no such channel or it holds integers. */
 double glint_channel_step(const struct glint_capture *capture, const struct glint_part_info *part, const char *channel,
                           double stored);
-/* What a part's depth.Z tells apart at a distance: how far the two values that the distance lies between are from each other,
-   in metres. +inf: the farther one is sky. NaN: the part has no depth, or none at that distance (before near, beyond far). */
+/* The depth resolution of a part's depth.Z at a distance: the difference in metres between the two representable depths around it.
+   +inf if the farther one is sky. NaN if the part has no depth, or none at that distance (before near, beyond far). */
 double glint_depth_step(const struct glint_capture *capture, const struct glint_part_info *part, double at_m);
 
-/* Checks every rule of FORMAT.md; pixels when the headers keep theirs, for what they mean depends on those. Calls
-   `report` once for each rule and channel that is broken, on the calling thread; false on an I/O, memory or limit failure
-   only. *violations receives the count. Takes a file of cube maps only, too. */
+/* Checks every rule of FORMAT.md. Pixels are checked only if the headers are valid, since these say how to decode them. Calls
+   `report` on the calling thread once for each rule that a channel violates; *violations receives the number of calls. False on an
+   I/O, memory or limit failure only. The file may also be one of cube maps only. */
 typedef void (*glint_report)(void *user, const char *rule, const char *message);
 bool glint_capture_validate(const char *path, const struct glint_limits *limits, glint_report report, void *user,
                             size_t *violations, struct glint_error *err);
 
-/* Parts that most readers look for. */
+/* Names of common parts. */
 #define GLINT_PART_GBUFFER "gbuffer"
 #define GLINT_PART_LIT "lit"
 #define GLINT_PART_SCENE "scene"
 #define GLINT_PART_SKY "sky"
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
-#define GLINT_PART_MIRROR "planar.000" /* the one planar map that passes see */
+#define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
 
-/* ---- The registry of roles, from which writer, reader, validate, info and FORMAT.md's tables derive ---- */
+/* ---- The registry of roles, which writer, reader, validation and the tables of FORMAT.md are generated from ---- */
 
 struct glint_role_channel {
     const char *name;     /* "depth.Z" */
-    bool required;        /* when the role is present */
-    const char *unit;     /* after decoding */
-    const char *encoding; /* which declared encoding applies: "depth", "normal", …, or "" */
+    bool required;        /* every part of the role must have the channel */
+    const char *unit;     /* of decoded values */
+    const char *encoding; /* the encoding that applies: "depth", "normal", …, or "" */
     const char *meaning;
 };
 enum glint_shape { GLINT_SHAPE_FRAME /* the G-buffer's size */, GLINT_SHAPE_CUBE /* N × 6N */, GLINT_SHAPE_ANY };
 struct glint_role {
-    const char *name; /* "gbuffer", "cubemap"; a role that ends in '.' ("engine.") takes a free rest */
+    const char *name; /* "gbuffer", "cubemap"; after a name that ends in '.' ("engine.") any text may follow */
     enum glint_shape shape;
     bool required, numbered, may_be_previous, reserved;
     const struct glint_role_channel *channels; /* NULL: any */
@@ -355,9 +356,9 @@ struct glint_role {
 };
 const struct glint_role *glint_roles(size_t *count);
 
-/* Names of enum values in files and on the command line ("reversed_infinite"), NULL past the last. */
+/* The name of an encoding in files and on the command line ("reversed_infinite"); NULL past the last. */
 const char *glint_encoding_name(const char *which /* "depth", "normal", … */, int value);
-/* -1 when there is no such name. */
+/* The value of a name, or -1. */
 int glint_encoding_value(const char *which, const char *name);
 
 #ifdef __cplusplus

@@ -33,12 +33,11 @@ __attribute__((format(printf, 3, 4)))
 #endif
 bool glint_fail(struct glint_error *err, enum glint_code code, const char *format, ...);
 
-/* Makes a folder, and those that it lies in; one that is there already is as well. */
+/* Creates a folder and its missing parents. It is no error if the folder exists. */
 bool glint_make_folder(const char *folder, struct glint_error *err);
 
-/* Called now and then by long work, from the thread that called glint. `done` is in [0, 1]; `what` is valid during
-   the call only. Returning false asks the work to stop: it then leaves complete files only and fails with
-   GLINT_ERROR_INTERRUPTED. */
+/* Called repeatedly during long work, on the thread that called glint. `done` is in [0, 1]; `what` is valid during the call only.
+   Return false to stop the work, which then fails with GLINT_ERROR_INTERRUPTED and leaves only complete files behind. */
 typedef bool (*glint_progress)(void *user, const char *what, double done);
 
 #ifdef __cplusplus

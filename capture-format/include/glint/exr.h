@@ -1,6 +1,5 @@
-/* Multi-part scanline OpenEXR files through OpenEXRCore, chunks (de)compressed on all cores. The capture reader and
-   writer stand on this, and so does everything else in glint that reads or writes an EXR file.
-   The reader trusts nothing: sizes, counts and offsets are checked against limits before memory is taken. */
+/* Multi-part scanline OpenEXR files through OpenEXRCore, with chunks compressed and decompressed on all cores. Everything in glint
+   that reads or writes EXR files uses it. The reader checks sizes, counts and offsets against limits before it allocates memory. */
 #ifndef GLINT_EXR_H
 #define GLINT_EXR_H
 
@@ -21,13 +20,13 @@ enum glint_exr_attribute_type {
     GLINT_EXR_M44D,
     GLINT_EXR_FLOATS,
     GLINT_EXR_STRINGS,
-    GLINT_EXR_OPAQUE /* any other type, passed on as bytes */
+    GLINT_EXR_OPAQUE /* any other type, as bytes */
 };
 
 struct glint_exr_attribute {
     const char *name;
     enum glint_exr_attribute_type type;
-    const char *type_name; /* EXR's own word for it */
+    const char *type_name; /* EXR's name of the type */
     const char *string;
     const char *const *strings; /* `count` of them */
     const double *numbers;      /* int, float, double: 1; v2: 2; v3: 3; m44d: 16, row-major; floats: `count` */
@@ -66,15 +65,15 @@ struct glint_exr_part_info {
     size_t attribute_count;
 };
 
-/* Single- or multi-part scanline files; tiled and deep parts are listed but reading them fails as unsupported. */
+/* Opens a single- or multi-part file. Tiled and deep parts are listed, but reading them fails as unsupported. */
 struct glint_exr *glint_exr_open(const char *path, const struct glint_limits *limits, struct glint_error *err);
 void glint_exr_close(struct glint_exr **exr);
 size_t glint_exr_part_count(const struct glint_exr *exr);
 const struct glint_exr_part_info *glint_exr_part(const struct glint_exr *exr, size_t i);
 const struct glint_exr_attribute *glint_exr_attribute(const struct glint_exr_part_info *part, const char *name);
-/* out[(y·width + x)·count + i] is channels[i], as `type` (GLINT_F16, GLINT_F32, GLINT_U8, GLINT_U16, GLINT_U32); float
-   to integer conversions and the other way are refused, a value that does not fit an integer type is an error, half
-   and float convert. Half to half and float to float keep every bit. NULL for a channel yields 0. */
+/* Reads channels interleaved: out[(y·width + x)·count + i] is channels[i], and a channel name of NULL yields 0. `type` is GLINT_F16,
+   GLINT_F32, GLINT_U8, GLINT_U16 or GLINT_U32. Half and float convert into each other, and keep every bit if no conversion is
+   needed. Conversions between float and integer types are errors, as is a value that does not fit the integer type. */
 bool glint_exr_read(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, enum glint_type type,
                     void *out, uint32_t threads, struct glint_error *err);
 

@@ -9,7 +9,7 @@
 #include "shared/cocoon.glsl"
 #include "shared/cube_chain.glsl"
 
-// A constant in the two phases that read the most: not all devices jump over the fetch that is not asked for.
+// A constant in the two phases with the most fetches, since not all devices skip a fetch whose result is unused.
 bool is_captured(int level) { return dispatch_phase == 0u || (dispatch_phase > 1u && level == 0); }
 
 float captured(ivec3 at) { return texelFetch(cubemap_distance, at, 0).x; }
@@ -17,7 +17,7 @@ float texel_of(ivec3 at, int level) { return is_captured(level) ? captured(at) :
 
 float farther(float most, float distance_m) { return distance_m < LARGEST ? max(most, distance_m) : most; }
 
-// Of the four texels that meet at a corner.
+// The farthest of the four texels that meet at a corner.
 float farthest_around(ivec3 corner, int level) {
     float most = -1.0;
     if (is_captured(level)) {
@@ -30,8 +30,8 @@ float farthest_around(ivec3 corner, int level) {
     return most;
 }
 
-// Top-down: the farthest that is not sky, of 2x2 texels of the finer level, or of 3x3 where that is odd. The finest level, the
-// captured distances, is written last.
+// Reduction: the farthest texel that is not sky among 2x2 texels of the finer level, or 3x3 where its size is odd. The finest level, which
+// holds the captured distances, is written last.
 float farthest_child(ivec3 at, int width, int level) {
     if (level == 0) return captured(at);
     int odd = face_size(faces, level - 1) - 2 * width;
@@ -44,7 +44,7 @@ float farthest_child(ivec3 at, int width, int level) {
     return most < 0.0 ? INFINITE : most;
 }
 
-// The coarsest level has nothing coarser to be filled from: a face of sky takes the farthest of the whole cube map.
+// There is no coarser level to fill the coarsest one from: a face of sky takes the farthest distance of the whole cube map.
 float farthest_of_map(int layer, int level) {
     float most = -1.0;
     for (int face = 0; face < 6; ++face)
@@ -56,10 +56,10 @@ float seen(vec3 v, float cube, int level) {
     return textureLod(samplerCubeArray(chain, linear_clamp), vec4(v, cube), float(level)).x;
 }
 
-// Weighted MAX over the coarser level, which has no sky left unless all is. The pivot is the sample in the texel's own
-// direction; others count less the farther they are from it. Deviation: in pairs on either side of the pivot, which count by
-// their mean of |v| / distance. On a plane that is the pivot's own, so that a wall stays where it is, however steeply it
-// is seen; of a pole, both lie on what is behind.
+// Weighted MAX over the coarser level, which contains sky only if all of it is. The pivot is the sample in the texel's own direction;
+// other samples have less weight the farther they are from it. Deviation: samples are taken in pairs on either side of the pivot, by
+// the mean of their |v| / distance. On a plane that mean is the pivot's value, so that a wall does not move, however obliquely it is
+// seen; at a pole both samples of a pair lie on the background.
 float weighted_max(vec4 direction, int level) {
     int coarser = level + 1;
     float pivot = seen(direction.xyz, direction.w, coarser);
@@ -68,7 +68,7 @@ float weighted_max(vec4 direction, int level) {
     tangent_frame(axis, tangent, bitangent);
     float rim = cone_tangent_of_level(0.0, float(face_size(faces, coarser)), kernel);
     float power = cone_power(rim, threshold), depth_m = pivot;
-    for (int y = 0; y <= reach && reach > 0; ++y) { // of each pair one: the taps of a row, from the pivot on
+    for (int y = 0; y <= reach && reach > 0; ++y) { // one tap of each pair: those of a row, from the pivot on
         int wide = taps_beside(y, reach), x = y == 0 ? 1 : -wide;
         do {
             vec2 offset = vec2(x, y) * rim / (float(reach) + 0.5);
@@ -88,7 +88,7 @@ float weighted_max(vec4 direction, int level) {
 
 int cocoon_level() { return int(ceil(log2(max(float(face_size(faces, 0)) / float(size), 1.0)) - 1e-4)); }
 
-// From the coarsest level up to the cocoon's: coarser ones fill the sky, the cocoon's own is smooth all over.
+// From the coarsest level to that of the cocoon: coarser levels only fill sky texels, the cocoon's own level is smoothed everywhere.
 void fill_level(ivec3 at, int width, int level) {
     int coarsest = textureQueryLevels(samplerCubeArray(chain, nearest_clamp)) - 1;
     float distance_m = texel_of(at, level);
@@ -96,10 +96,10 @@ void fill_level(ivec3 at, int width, int level) {
     if (!is_sky && level != cocoon_level()) return;
     if (level < coarsest) distance_m = weighted_max(texel_direction(at.xy, width, at.z), level);
     else if (is_sky) distance_m = farthest_of_map(at.z, level);
-    imageStore(cocoon_distance, at, vec4(distance_m < LARGEST ? distance_m : INFINITE)); // filtered, it may be NaN
+    imageStore(cocoon_distance, at, vec4(distance_m < LARGEST ? distance_m : INFINITE)); // filtering may have made it NaN
 }
 
-// Levels finer than the cocoon's take it where they see sky.
+// Levels finer than the cocoon's take the cocoon where they have sky.
 void cap_level(ivec3 at, int width, int level) {
     bool caps = fact_cube_sky && cap_sky;
     if (!caps && level > 0) return;
@@ -117,7 +117,7 @@ void keep_cocoon(ivec3 at) {
     if (any(greaterThanEqual(at.xy, ivec2(COCOON_SIZE)))) return;
     vec3 direction = direction_of_sample(at.xy, at.z % 6);
     float distance_m = seen(direction, float(at.z / 6), cocoon_level());
-    imageStore(cocoon, at, vec4(distance_m < LARGEST ? length(direction) / distance_m : 0.0)); // filtered, +inf may be NaN
+    imageStore(cocoon, at, vec4(distance_m < LARGEST ? length(direction) / distance_m : 0.0)); // filtering may have made +inf NaN
 }
 
 void main() {
@@ -126,7 +126,7 @@ void main() {
         keep_cocoon(at);
         return;
     }
-    if (dispatch_phase == 2u && !fact_cube_sky) return; // levels coarser than the cocoon's fill nothing
+    if (dispatch_phase == 2u && !fact_cube_sky) return; // without sky there is nothing for coarser levels to fill
     int width = imageSize(cocoon_distance).x, level = int(dispatch_level);
     if (at.x >= width || at.y >= width) return;
     if (dispatch_phase < 2u) imageStore(cocoon_distance, at, vec4(farthest_child(at, width, level)));

@@ -9,7 +9,7 @@
 #include "shared/levels.glsl"
 #include "shared/paraboloid.glsl"
 
-// Of a texel's area in the plane, at whatever place of it.
+// The solid angle of a texel at a point of the plane.
 vec4 seen(vec2 place, float width, int layer) {
     vec4 sum = vec4(0.0);
     float total = 0.0;

@@ -1,4 +1,4 @@
-// One level of the distance chain, for both variants.
+// Makes a level of the distance chain, for both variants.
 #include "shared/cube_chain.glsl"
 
 float joined_distance(ivec3 at, int size, int level) {

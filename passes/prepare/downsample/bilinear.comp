@@ -15,14 +15,14 @@ void main() {
     float depth_m = 0.0, count = 0.0;
     vec4 surface = vec4(0.0);
     bool shown = false;
-    for (int i = 0; i < 4; ++i) { // the sky has no depth that could be mixed
+    for (int i = 0; i < 4; ++i) { // sky has no depth to interpolate
         ivec2 source = min(2 * pixel + ivec2(i & 1, i >> 1), last);
         float one_m = texelFetch(depth_full, source, 0).x;
         vec4 one = texelFetch(normal_full, source, 0);
         if (!reflects(one_m, one.xyz)) continue;
         bool one_shown = tile_works && is_shown(source);
         if (shown && !one_shown) continue;
-        if (one_shown && !shown) { // surfaces whose reflection is shown are mixed with one another alone
+        if (one_shown && !shown) { // surfaces with a visible reflection are only interpolated with one another
             depth_m = count = 0.0;
             surface = vec4(0.0);
             shown = true;

@@ -1,16 +1,16 @@
 // Which pixel stands for a 2x2 block. Next include of a pass with the rows of pick_rows.h.
 #include "shared/constants.glsl"
 
-// Which pixel of the block a frame prefers; a diagonal first, so that two frames already cover both rows and columns.
+// The pixel of the block that a frame prefers. Diagonal pixels come first, so that two frames already cover both rows and columns.
 const uint PREFERRED[4] = uint[](0u, 3u, 1u, 2u);
 
 bool inside(uint candidate, ivec2 block, ivec2 size) {
     return all(lessThan(block + ivec2(candidate & 1u, candidate >> 1u), size));
 }
 
-// The pixel that stands for the block. Inverse depth, 0 for sky and for depths that are none, so that sky is on the far side.
-// useful: bits of pixels that come before the others of their side of a discontinuity, because the picture shows their
-// reflections. size: of the image that the block is of.
+// The pixel that represents the block. It compares inverse depths, which are 0 for sky and invalid depths, so that sky is on the far side.
+// useful: mask of the pixels with a visible reflection, which are preferred to others on their side of a discontinuity.
+// size: of the full-resolution image.
 uint choose(ivec2 block, vec4 inverse_depth, uint useful, ivec2 size) {
     float near = 0.0, far = LARGEST;
     uint present = 0u, near_side = 0u;

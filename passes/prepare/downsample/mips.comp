@@ -68,7 +68,7 @@ Texel texel_at(ivec2 at, int level) {
     return t;
 }
 
-// 1 up to half of the limit, 0 from it on; NaN is 0.
+// 1 up to half of the limit, 0 from the limit on; 0 for NaN.
 float within(float apart, float limit, float off) {
     if (limit >= off) return 1.0;
     return apart <= limit ? clamp(2.0 - 2.0 * apart / max(limit, 1e-20), 0.0, 1.0) : 0.0;

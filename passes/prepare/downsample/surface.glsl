@@ -1,10 +1,10 @@
-// What every variant does once it has a surface: jitter its normal and store. Next include of slot.h and jitter.h.
+// Common to all variants: jitters the normal of the chosen surface and stores it. Next include of slot.h and jitter.h.
 #include "lobe.glsl"
 #include "shared/brdf.glsl"
 #include "shared/shown.glsl"
 #include "shared/work_list.glsl"
 
-// The pixels of a block whose reflections the picture shows; what is no surface may hold anything.
+// The pixels of a block with a visible reflection. Pixels without a surface may contain anything.
 uint useful_in_block(ivec2 block, vec4 inverse_depth) {
     uint useful = tile_works ? shown_in_block(block) : 0u;
     for (int i = 0; i < 4; ++i)
@@ -12,7 +12,7 @@ uint useful_in_block(ivec2 block, vec4 inverse_depth) {
     return useful;
 }
 
-// Whether compose gives a surface more than min_weight of its reflection, rising as steeply as any material does.
+// Whether the weight of a surface's reflection exceeds min_weight, with the steepest Fresnel rise that any material has.
 bool is_worth(ivec2 pixel, uint chosen, vec3 normal, float roughness, vec3 to_viewer) {
     if (!(min_weight > 0.0) || frame.work.y != 0u) return true;
     ivec2 at = min(ivec2(picked_position(pixel, chosen, frame.size)), ivec2(frame.size.xy) - 1);
@@ -22,7 +22,7 @@ bool is_worth(ivec2 pixel, uint chosen, vec3 normal, float roughness, vec3 to_vi
     return max(weight.r, max(weight.g, weight.b)) >= min_weight;
 }
 
-// chosen: which pixel of the block it is, 4 for its centre; shown: whether the picture shows its reflection.
+// chosen: the pixel of the block, 4 for its centre; shown: whether its reflection is visible.
 void store_surface(ivec2 pixel, float depth_m, vec4 surface, uint chosen, bool shown) {
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     vec3 normal = vec3(0.0);

@@ -8,7 +8,7 @@
 };
 #include "shared/facet_at.glsl"
 
-const float NO_SURFACE = -1.0; // nothing is behind it
+const float NO_SURFACE = -1.0; // no ray can be behind it
 
 void store_facet(ivec2 at) {
     if (any(greaterThanEqual(at, imageSize(depth_slopes)))) return;
@@ -22,7 +22,7 @@ void store_facet(ivec2 at) {
     imageStore(hiz, at, vec4(range, 0.0, 0.0));
 }
 
-// Two cells of the finer level along each axis, and a third where the finer level is odd and ends.
+// Two cells of the finer level along each axis, and a third one at the end if the finer level's size is odd.
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (dispatch_phase == 0u) {

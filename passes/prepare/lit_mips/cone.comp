@@ -8,7 +8,7 @@
 };
 #include "shared/levels.glsl"
 
-// The halved finer level, of a workgroup's texels and those that their taps reach.
+// The finer level at half resolution, for the texels of a workgroup and those that their taps reach.
 const int WIDE = 16 + 2 * reach;
 shared vec4 halved[WIDE * WIDE];
 
@@ -21,11 +21,11 @@ void load_tile(ivec2 first, ivec2 size) {
     barrier();
 }
 
-// The lobe cosⁿ of a narrow cone is threshold^((r/rim)²), r in texels. Variances add: a quarter of what a level has comes to
-// the next one with its texels, and halving adds that of two texels, so that the levels after the first need less of their own.
+// The lobe cosⁿ of a narrow cone is threshold^((r/rim)²), r in texels. Variances add up: a level inherits
+// a quarter of the finer level's variance in its own texels, and the box filter adds that of two texels, so that later levels need less blur.
 float sharpness() { return dispatch_level == 1u ? 1.0 : 1.75; }
 
-// A pixel's colour; 0 where it does not count.
+// The colour of a pixel, 0 if it is left out.
 vec4 counted(ivec2 pixel) {
     vec4 color = vec4(texelFetch(lit, pixel, 0).rgb, 1.0);
     bool counts = finite(color) && (!apart || texelFetch(depth_full, pixel, 0).x < LARGEST);

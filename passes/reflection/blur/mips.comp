@@ -10,9 +10,9 @@
 #include "shared/cone.glsl"
 #include "shared/reuse.glsl"
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
-// Level 0 is the image, weighted by whether there is a ray; a coarser level the mean of the finer one's texels.
+// Level 0 is the image, weighted by whether there is a ray. A coarser level is the mean of the finer one's texels.
 vec4 level_texel(ivec2 pixel, ivec2 size) {
     if (dispatch_level == 0u) {
         vec4 color = texelFetch(reflection_half, pixel, 0);
@@ -23,7 +23,7 @@ vec4 level_texel(ivec2 pixel, ivec2 size) {
     return textureLod(sampler2D(chain, linear_clamp), (vec2(pixel) + 0.5) / vec2(size), float(dispatch_level) - 1.0);
 }
 
-// The cone's radius at the reflection's image, which lies behind the surface as far as the ray went, in texels.
+// The radius of the cone in texels at the mirrored hit point, which lies behind the surface at the hit distance.
 float radius_px(ivec2 pixel, float depth_m) {
     float travelled_m = texelFetch(travelled, pixel, 0).x;
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
@@ -39,12 +39,12 @@ void probe_tap(ivec2 texel, int level, float weight) {
     probe(PROBE_tap, vec4(IMAGE_reflection_mips, level, texel), vec4(weight, color.rgb), vec4(color.a));
 }
 
-// The texels that a look at the chain takes, by the weights that interpolation has.
+// Records the texels of a trilinear sample of the chain with their weights.
 void probe_taps(vec2 uv, float level) {
     level = clamp(level, 0.0, float(textureQueryLevels(chain) - 1));
     if (!filter_color) level = round(level);
     for (int finer = int(level), i = 0; i < 2 && finer + i < textureQueryLevels(chain); ++i) {
-        ivec2 size = max(textureSize(chain, 0) >> finer + i, 1); // of levels that differ not all devices know the sizes
+        ivec2 size = max(textureSize(chain, 0) >> finer + i, 1); // not all devices support a level that differs between invocations
         vec2 place = uv * vec2(size) - (filter_color ? 0.5 : 0.0), corner = floor(place);
         vec2 part = filter_color ? place - corner : vec2(0.0);
         for (int k = 0; k < 4; ++k) {

@@ -9,7 +9,7 @@
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 void main() {
     ivec2 pixel = tile_texel(reduction(frame.size));
@@ -17,7 +17,7 @@ void main() {
     vec4 color = texelFetch(reflection_half, pixel, 0);
     Surface center = surface_at(pixel);
     probe_texel(pixel);
-    // A surface that shares nothing keeps what it has, whatever that is: as if this pass were not there.
+    // A surface without neighbours to share with keeps its value, also an invalid one, as if this pass did not run.
     bool shares = tile_works && center.shown && center.normal.w >= fade_from && fade(center.normal.w, fade_from, fade_to) > 0.0 &&
                   reflects(center.depth_m, center.normal.xyz);
     float total = 1.0;

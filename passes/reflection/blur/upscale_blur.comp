@@ -12,7 +12,7 @@
 #include "shared/reuse.glsl"
 #include "shared/sampling.glsl"
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 const uint DOWN = 0u, ALONG_ROWS = 1u, ALONG_COLUMNS = 2u, FINER = 3u, FINEST = 4u; // dispatch phases
 
@@ -27,7 +27,7 @@ uvec4 edges_in_block(ivec2 block, int level) {
     return all;
 }
 
-// Which texel of its block, x + 2y, a texel of a coarser level was picked from.
+// The texel of its 2x2 block, x + 2y, that a texel of a coarser level was picked from.
 uint picked_from(ivec2 texel, int level) {
     uint place = uint(texelFetch(vertex_normal_levels, texel, level).w);
     return (place >> level & 1u) | (place >> 3 + level & 1u) << 1;
@@ -42,7 +42,7 @@ vec4 finest(ivec2 pixel) {
     return vec4(color.rgb, travelled_m < LARGEST ? travelled_m / (travelled_m + away_m) : 1.0);
 }
 
-// Texels, told with the weight that they will have.
+// Records texels with their weights.
 vec4 level_texel(ivec2 texel, int level, float weight) {
     vec4 color = texelFetch(levels, texel, level);
     probe(PROBE_tap, vec4(IMAGE_reflection_levels, level, texel), vec4(weight, color.rgb), vec4(1.0));
@@ -60,7 +60,7 @@ vec4 made(uint image, ivec2 texel, int level, vec4 color) {
     return color;
 }
 
-// The mean of what is of the picked texel's surface.
+// The mean of those texels that belong to the picked texel's surface.
 vec4 coarser(ivec2 texel, int level) {
     int finer = level - 1;
     ivec2 block = 2 * texel, last = textureSize(levels, finer) - 1;
@@ -72,7 +72,7 @@ vec4 coarser(ivec2 texel, int level) {
     return sum / dot(open, vec4(1.0));
 }
 
-// A Gaussian along rows or columns, as far as the surface goes on.
+// A Gaussian along rows or columns that ends where the surface ends.
 vec4 along(ivec2 texel, ivec2 step, uint back, uint forth) {
     ivec2 size = textureSize(across, 0);
     bool rows = step.x == 1;
@@ -93,13 +93,13 @@ vec4 along(ivec2 texel, ivec2 step, uint back, uint forth) {
     return sum / total;
 }
 
-// How many texels of half resolution the lobe spans where its reflection is seen.
+// The number of half-resolution texels that the lobe spans at the mirrored hit point.
 float span(ivec2 texel, int level, float reach) {
     float angle = 2.0 * lobe_angle(texelFetch(normal_levels, texel, level).w, 0.1);
     return width * cone_tangent(angle) * reach * abs(frame.uv_from_view.x) * float(frame.size.z);
 }
 
-// How far a texel is of the surface that the coarser texel over it was picked from.
+// How much a texel belongs to the surface that its parent texel was picked from.
 float of_home(ivec2 texel, int level) {
     ivec2 home = texel >> 1, last = textureSize(levels, level + 1) - 1;
     if (any(greaterThan(home, last)) || !has_ray(home, level + 1)) return 0.0;
@@ -107,7 +107,7 @@ float of_home(ivec2 texel, int level) {
     return open_in_block(edges_in_block(2 * home, level), picked_from(home, level + 1))[own];
 }
 
-// For a texel that is not: those beside it and over it, to which its surface goes on.
+// For a texel that does not: the neighbouring parent texels to which its surface continues.
 vec4 upscaled_from_beside(ivec2 texel, int level, out float found) {
     ivec2 side = 2 * (texel & 1) - 1;
     uvec2 ways = uvec2(side.x < 0 ? SIDE_LEFT : SIDE_RIGHT, side.y < 0 ? SIDE_UP : SIDE_DOWN);
@@ -127,7 +127,7 @@ vec4 upscaled_from_beside(ivec2 texel, int level, out float found) {
     return sum;
 }
 
-// And where there is none, as on bars: those around by how far their lobes are the same.
+// If there is none, as on thin bars: the surrounding texels, weighted by the agreement of their lobes.
 vec4 upscaled_by_lobes(ivec2 texel, int level, out float found) {
     ivec2 home = texel >> 1, last = textureSize(levels, level + 1) - 1, side = 2 * (texel & 1) - 1;
     vec4 own = texelFetch(normal_levels, texel, level), sum = vec4(0.0);
@@ -144,7 +144,7 @@ vec4 upscaled_by_lobes(ivec2 texel, int level, out float found) {
     return total > 0.0 ? sum / total : vec4(0.0);
 }
 
-// Bilinear in the coarser level around a texel, without what is beyond edges; found: how much of that is the texel's own surface.
+// Bilinear interpolation of the coarser level without texels beyond edges; found: the fraction that belongs to the texel's own surface.
 vec4 upscaled(ivec2 texel, int level, out float found) {
     found = 0.0;
     if (level + 1 >= textureQueryLevels(levels)) return vec4(0.0);
@@ -203,7 +203,7 @@ void main() {
         vec4 color = along(texel, ivec2(0, 1), SIDE_UP, SIDE_DOWN);
         imageStore(reflection_levels, texel, made(IMAGE_reflection_levels, texel, level, color));
     } else if (dispatch_phase == FINER) {
-        // Of this level it reads its own texel alone, so that it can be replaced.
+        // Of this level only the invocation's own texel is read, so that it can be overwritten.
         vec4 color = with_coarser(texel, level, texelFetch(levels, texel, level));
         imageStore(reflection_levels, texel, made(IMAGE_reflection_levels, texel, level, color));
     } else {

@@ -9,9 +9,9 @@
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
-// How much of the reflection the surface sends to the viewer.
+// The fraction of the reflection that reaches the viewer.
 vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
     vec4 base = texelFetch(albedo_full, pixel, 0);
     float specular = texelFetch(specular_full, pixel, 0).x;
@@ -21,7 +21,7 @@ vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
     float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);
-    float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0; // NaN is 0
+    float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0; // NaN becomes 0
     float rise = fact_fresnel ? texelFetch(fresnel_full, pixel, 0).x : 1.0;
     return environment_reflectance(f0, roughness, cosine, rise);
 }

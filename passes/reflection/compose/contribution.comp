@@ -9,9 +9,9 @@
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
-// How much of the reflection the surface sends to the viewer.
+// The fraction of the reflection that reaches the viewer.
 vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
     if (!brdf) return vec3(1.0);
     vec4 base = texelFetch(albedo_full, pixel, 0);
@@ -20,10 +20,10 @@ vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = clamp(dot(-normalize(mat3(frame.world_from_view) * view), normalize(surface.xyz)), 0.0, 1.0);
     float rise = fact_fresnel ? texelFetch(fresnel_full, pixel, 0).x : 1.0;
-    return environment_reflectance(f0, surface.w > 0.0 ? min(surface.w, 1.0) : 0.0, cosine, rise); // NaN is 0
+    return environment_reflectance(f0, surface.w > 0.0 ? min(surface.w, 1.0) : 0.0, cosine, rise); // NaN becomes 0
 }
 
-// The source's alpha grows beyond 1 with the colour's length; it is held there, so that the picture stays a mixture.
+// The source's alpha exceeds 1 for bright colours; it is clamped to 1, so that the picture remains a blend.
 vec3 blended(ivec2 pixel, float depth_m, vec4 surface, vec3 below) {
     vec3 color = texelFetch(reflection, pixel, 0).rgb;
     ivec2 size = textureSize(contribution, 0);

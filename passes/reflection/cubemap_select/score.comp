@@ -11,7 +11,7 @@
 #define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 
-// Each term lies in [0, 1]. What cannot beat `least` is not looked at in the cube map.
+// Each term lies in [0, 1]. A cube map that cannot exceed `least` is not sampled.
 float score(vec3 position, vec3 ray, uint place, float least) {
     vec4 center = active_centers[place];
     vec3 offset = position - center.xyz;

@@ -8,7 +8,7 @@
 };
 #include "proxy.glsl"
 
-// A hull's planes do as well as a box's; around a sphere lies a cube.
+// A hull is intersected by its planes as a box is; a sphere is replaced by its bounding cube.
 Result end_of(vec3 origin, vec3 direction, float start_m, uint best) {
     vec3 center = active_centers[best].xyz;
     if (!fact_volumes) return end_on_proxy(origin, direction, start_m, best, within_cube(origin - center, direction, default_m), 0u);

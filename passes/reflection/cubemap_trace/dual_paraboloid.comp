@@ -9,7 +9,7 @@
 #include "shared/paraboloid.glsl"
 #include "single.glsl"
 
-// The colour is left to resolve; here it is found out whether there is any, or the sky alone.
+// resolve samples the colour; this pass only finds out whether the ray ends on a surface or in the sky.
 Result end_of(vec3 origin, vec3 direction, float start_m, uint best) {
     vec3 at = paraboloid_uv(direction * paraboloid_axes(frame.up.xyz), float(frame.counts.z));
     at.z += 2.0 * float(best);

@@ -41,7 +41,7 @@ View view_of(vec3 origin, vec3 direction, uint place) {
 
 vec3 at(View view, vec3 direction, float t) { return view.foot + (view.from_foot + t) * direction; }
 
-// How far the ray lies behind what is seen, relative to that; <= 0 in front.
+// How far the ray is behind the visible surface, relative to the surface's distance; <= 0 in front.
 float gap_at(View view, vec3 direction, float t, inout uint fetches) {
     vec3 from_center = at(view, direction, t);
     fetches++;
@@ -60,9 +60,9 @@ void probe_cell(View view, vec3 direction, float t, int level, float beyond) {
                      beyond, !(beyond < LARGEST) ? DECISION_sky : beyond > t ? DECISION_skipped : DECISION_finer);
 }
 
-// Where the direction from the centre has turned by so many texels; +inf when what is left to turn is less. With s along
-// the ray from its foot, tan(angle) = s/aside; the addition theorem of the tangent. No farther than once more the distance
-// from the centre: where hardly more than that is left to turn it would be kilometres, in which halving finds no place.
+// The parameter at which the direction from the centre has turned by a number of texels; +inf if it never turns that far. With s along
+// the ray from its foot, tan(angle) = s/aside; the addition theorem of the tangent. The distance from
+// the centre at most doubles: near the end of the turn a step would otherwise be kilometres long, in which bisection finds no hit.
 float next_t(View view, vec3 direction, float t, float texels) {
     vec3 from_center = at(view, direction, t);
     float k = texels * texel_angle(from_center, float(frame.counts.z)), s = view.from_foot + t;
@@ -72,7 +72,7 @@ float next_t(View view, vec3 direction, float t, float texels) {
     return max(t + distance_m * min(k * distance_m / turn, 1.0), t * (1.0 + 1e-6) + 1e-6);
 }
 
-// A vector with the axes of a face: across it to the right and down, and out of it.
+// A vector in the axes of a face: right, down, and out of the face.
 vec3 on_face(vec3 d, int face) {
     float front = (face & 1) == 0 ? 1.0 : -1.0;
     if (face < 2) return vec3(-front * d.z, -d.y, front * d.x);
@@ -80,7 +80,7 @@ vec3 on_face(vec3 d, int face) {
     return vec3(front * d.x, -d.y, front * d.z);
 }
 
-// How far on the ray leaves a cone over a rectangle of the face, from its inside; +inf: never. A border b is the plane
+// Where the ray leaves a cone over a rectangle of the face, from the inside; +inf: never. A border b is the plane
 // across = b · out.
 float leaves(vec3 from, vec3 along, vec2 low, vec2 high) {
     vec2 to_low = along.xy - low * along.z, to_high = along.xy - high * along.z;
@@ -90,15 +90,15 @@ float leaves(vec3 from, vec3 along, vec2 low, vec2 high) {
     return max(min(first.x, first.y), 0.0);
 }
 
-// Where the ray leaves the texels of a coarser level around it, when nothing that they hold is as near as the ray gets
-// meanwhile: it is farthest from the centre at one of the ends. Otherwise t itself; +inf: it ends in the sky. Texels at the
-// level's border with others are interpolated with those, so that the last one is not entered; within a face there are none.
+// Where the ray leaves a texel of a coarser level, if all surfaces in that texel are farther from the centre than the ray gets on the
+// way, which is farthest at one of the ends; otherwise t itself. +inf: the ray ends in the sky. Texels at the border of a face are
+// interpolated with those of the next face, so the last texel is not entered; within a face there is no such border.
 float beyond_cell(View view, vec3 direction, float t, int level, inout uint fetches) {
     vec3 from_center = at(view, direction, t), face = face_from_direction(from_center);
     float size = float(frame.counts.z), coarse = float(max(int(frame.counts.z) >> level, 1));
     Patch cells = patch_of(cubemap_distance_mips, face, view.place, level);
     fetches += 4u;
-    // Planes between texels may come nearer than their corners by less than a texel's part.
+    // Planes between texels may be nearer than their corners by less than a texel's width.
     float least = min(min(cells.distance_m.x, cells.distance_m.y), min(cells.distance_m.z, cells.distance_m.w));
     least *= 1.0 - 2.0 / size;
     vec2 low = face.xy * coarse - 0.5 - cells.part, high = min(low + 2.0, coarse);
@@ -115,7 +115,7 @@ struct Result {
     uint place, end, steps, fetches;
 };
 
-// Of the cube maps that see a point of the ray the one with the nearest centre, whose texels are finest there.
+// Of the cube maps from which a point of the ray is visible, the one with the nearest centre, whose texels are finest there.
 uint seer(vec3 origin, vec3 direction, float t, float allowed, inout uint fetches) {
     uint best = NO_PLACE;
     float best2 = INFINITE;
@@ -130,7 +130,7 @@ uint seer(vec3 origin, vec3 direction, float t, float allowed, inout uint fetche
     return best;
 }
 
-// The next cube map of the chain that sees a point of the ray, all of them asked in turn; used: the last one's place in it.
+// The next cube map of the chain from which a point of the ray is visible, in cyclic order; used: the last one's index in the chain.
 uint next_seer(vec3 origin, vec3 direction, float t, float allowed, uint best, inout int used, inout uint fetches) {
     int longest = int(frame.flags.z);
     for (int i = 1; i <= longest; ++i) {
@@ -143,16 +143,16 @@ uint next_seer(vec3 origin, vec3 direction, float t, float allowed, uint best, i
     return NO_PLACE;
 }
 
-// The part of the ray that is as wide as a texel, seen from the centre.
+// The length along the ray that spans one texel as seen from the centre.
 float texel_along(View view, vec3 direction, float t) {
     vec3 from_center = at(view, direction, t);
     float k = texel_angle(from_center, float(frame.counts.z)), distance_m = length(from_center);
     return k * distance_m * distance_m / max(view.aside, k * distance_m);
 }
 
-// Along a ray the gap to a plane grows evenly, and at the corner of two planes it grows by something between what it grows by on
-// the one and on the other. Where it grows by more or less from one texel to the next lies an edge, over which the
-// distances of the texels on its two sides were interpolated.
+// Along a ray the gap to a plane grows linearly, and at a corner of two planes its growth lies between those of both planes. A growth
+// outside of that range from one texel to the next means an edge, across which the distances of texels of two surfaces were
+// interpolated.
 bool edge_at(View view, vec3 direction, float t, inout uint fetches) {
     float texel_m = texel_along(view, direction, t);
     float first = gap_at(view, direction, t - 1.5 * texel_m, fetches);
@@ -162,23 +162,23 @@ bool edge_at(View view, vec3 direction, float t, inout uint fetches) {
     return grows.y < min(grows.x, grows.z) - tolerance || grows.y > max(grows.x, grows.z) + tolerance;
 }
 
-// A ray on its way: the cube map that it is followed in, whether that one sees it, and whether it has been in front of a
-// surface there, which it can now go behind.
+// The state of a ray: the cube map that it is traced in, whether it is visible from there, and whether it has been in front of a surface there,
+// which it can hit now.
 struct Walk {
     View view;
     float t;
     bool seen, front;
-    bool blocked; // it crossed a surface that the cube map sees, from behind
+    bool blocked; // it crossed a visible surface from behind
     uint best;
-    int used; // place in the chain
-    // The cube map that last lost it behind an edge, where that was, and whether there was sky behind it.
+    int used; // index in the chain
+    // The cube map in which the ray last became occluded by an edge, where that was, and whether there was sky behind it.
     uint last_place;
     float last_t;
     bool last_sky;
 };
 
-// Whether a ray that a cube map did not see comes into its sight past an edge. If not, it comes through the surface that the cube
-// map sees, from behind: a wall has stopped it before, and that cube map knows the wall's other side alone.
+// Whether an occluded ray becomes visible past an edge. Otherwise it comes through a visible surface from behind: a wall has stopped it
+// before, of which this cube map only shows the other side.
 bool passes_edge(View view, vec3 direction, float hidden, float seen, inout uint fetches) {
     float gap = gap_at(view, direction, hidden, fetches);
     if (gap <= tolerance) return true;
@@ -196,7 +196,7 @@ bool passes_edge(View view, vec3 direction, float hidden, float seen, inout uint
     return gap - gap_seen > tolerance || edge_at(view, direction, 0.5 * (hidden + seen), fetches);
 }
 
-// Takes the cube map that sees the ray at t_after; from t_before on if it sees it there in front of a surface, too.
+// Switches to the cube map from which the ray is visible at t_after, and from t_before on if it is in front of a surface there, too.
 void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, float t_after, inout uint fetches) {
     uint place = maps == maps_all ? seer(origin, direction, t_after, tolerance, fetches)
                                   : next_seer(origin, direction, t_after, tolerance, walk.best, walk.used, fetches);
@@ -221,8 +221,8 @@ void take_finer_view(inout Walk walk, vec3 origin, vec3 direction, inout uint fe
     if (gap_at(view, direction, walk.t, fetches) <= 0.0) walk.view = view;
 }
 
-// The interval in which the ray goes farther behind than allowed, halved. True when it meets a surface there, on either side
-// of an edge.
+// Bisects the interval in which the ray gets farther behind a surface than allowed. True if it hits a surface there, on either side of
+// an edge.
 bool closes_in(View view, vec3 direction, float allowed, inout float low, inout float high, inout uint fetches) {
     for (int i = 0; i < refinements; ++i) {
         float middle = 0.5 * (low + high);
@@ -239,15 +239,15 @@ void end_at(inout Result result, float travelled_m, uint place, uint end) {
     result.end = end;
 }
 
-// Where a ray ends that no cube map sees any more. Nothing is known of its end; the likeliest is that what was last seen
-// behind the ray goes on behind the edge that hid it: the sky, or a surface, whose color is found where it was seen. A
-// ray that must have met a wall did not end in the sky, but near what hides that place.
+// The end of a ray that is no longer visible from any cube map. The most likely guess is that what was last visible behind the ray
+// continues behind the edge that occludes it: the sky, or a surface, whose colour is taken where it was visible. A ray that must have
+// hit a wall does not end in the sky but near the occluder.
 void end_unseen(inout Result result, Walk walk, vec3 direction, uint best) {
     if (unseen == unseen_stop) { // as march does
         end_at(result, INFINITE, best, END_shadow_region);
         return;
     }
-    if (walk.last_place == NO_PLACE) { // it was never seen
+    if (walk.last_place == NO_PLACE) { // it was never visible
         result.fetches++;
         float seen_m = seen_distance(direction, best);
         bool sky = !walk.blocked && !(seen_m < LARGEST);
@@ -259,9 +259,9 @@ void end_unseen(inout Result result, Walk walk, vec3 direction, uint best) {
     else end_at(result, walk.last_t, walk.last_place, END_shadow_region);
 }
 
-const int FINEST_SKIP = 2; // a cell of which is wider than the texels that it leaves out
-const int PATIENCE = 4;    // steps until it is tried again
-const float UNSEEN = 4.0;  // steps of a ray that no cube map sees, each of which asks all of them, are longer: no fewer are right
+const int FINEST_SKIP = 2; // its cells are wider than the texels that must not be skipped
+const int PATIENCE = 4;    // steps until the next attempt to skip
+const float UNSEEN = 4.0;  // occluded rays take longer steps, since each step tests all cube maps; this does not lower the number of correct hits
 
 Result march(vec3 origin, vec3 direction, float start_m, uint best) {
     Result result = Result(start_m, NO_PLACE, END_steps_exhausted, 0u, 0u);
@@ -297,7 +297,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
         }
         float next = next_t(walk.view, direction, walk.t, walk.seen ? texel_part : UNSEEN * texel_part);
         if (!walk.seen) next = min(next, length_m);
-        else if (!(next < LARGEST)) { // one texel is left: the sky, or a surface that the ray must be behind at twice its distance
+        else if (!(next < LARGEST)) { // the direction no longer leaves the texel: it is sky, or the ray is behind its surface at twice the distance
             float last_m = seen_distance(direction, walk.view.place);
             result.fetches++;
             if (!(last_m < LARGEST)) {
@@ -322,20 +322,20 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
                 walk.t = next;
                 continue;
             }
-            // from there it may go straight behind another one, as beside a corner
+            // from there it may go behind another surface at once, as beside a corner
             if (closes_in(walk.view, direction, walk.front ? 0.0 : tolerance, low, high, result.fetches)) {
                 end_at(result, 0.5 * (low + high), walk.view.place, END_hit);
                 probe_view(walk.view, direction, result.travelled_m, high - low, DECISION_hit);
                 return result;
             }
             walk.last_place = walk.view.place;
-            walk.last_t = max(low - 1.5 * texel_along(walk.view, direction, low), 0.0); // no color of the edge is mixed in
+            walk.last_t = max(low - 1.5 * texel_along(walk.view, direction, low), 0.0); // keeps a distance from the edge, whose colour must not be mixed in
             walk.last_sky = !(seen_distance(at(walk.view, direction, walk.last_t), walk.view.place) < LARGEST);
             result.fetches++;
         }
         probe_view(walk.view, direction, high, high - low, DECISION_unseen);
-        // The only place in the loop: a CPU's driver goes through every loop that it holds each time, and ends a shader after
-        // so many rounds of all of them.
+        // This is the only inner loop, since a CPU driver runs every inner loop in each iteration and aborts a shader after a limited
+        // number of iterations of all loops.
         change_view(walk, origin, direction, low, high, result.fetches);
         if (walk.blocked) break;
     }
@@ -343,7 +343,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
         end_unseen(result, walk, direction, best);
         return result;
     }
-    result.fetches++; // a ray that is left in front of the sky ends in it
+    result.fetches++; // a ray that remains in front of the sky ends there
     bool in_sky = !(seen_distance(at(walk.view, direction, walk.t), walk.view.place) < LARGEST);
     if (in_sky) end_at(result, INFINITE, place_of_sky(walk.view.place), END_sky);
     else end_at(result, walk.t, walk.view.place, END_steps_exhausted);

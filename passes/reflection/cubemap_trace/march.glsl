@@ -11,7 +11,7 @@
 #include "volume.glsl"
 
 const int COCOON_STEPS = 8, COCOON_REFINEMENTS = 3;
-const int MOST_SAMPLES = 16; // of a step, whatever counts
+const int MOST_SAMPLES = 16; // upper bound for a step
 
 struct Quality {
     int steps, refinements, level;
@@ -20,8 +20,8 @@ struct Quality {
 
 bool through_cocoon() { return depth == depth_capped && has_cocoon_distance; }
 
-// Distance of the surface that a cube map sees in a direction; +inf for sky, negative: of the cap over it. Interpolation with a sky texel is inf or
-// NaN, and stays out: the nearest texel counts there, so that nothing but finite values or +inf comes back.
+// Distance of the surface that is visible from a cube map's centre in a direction; +inf for sky, negative for the cocoon's cap over the sky.
+// Interpolation with a sky texel would yield inf or NaN; the nearest texel is used there, so that the result is finite or +inf.
 float seen_in(texture2DArray faces, vec3 direction, uint place, int level) {
     if (!bilinear) {
         float texel_m = texelFetch(faces, face_texel(direction, place, int(frame.counts.z) >> level), level).x;
@@ -36,7 +36,7 @@ float seen_in(texture2DArray faces, vec3 direction, uint place, int level) {
     return own_m < 0.0 ? -nearest_m : nearest_m;
 }
 
-// A level of a chain, if there is one for it.
+// A level of a chain, clamped to those that exist.
 int level_for(float roughness) {
     if (rough_level == 0.0 || roughness <= hq_roughness || !(through_cocoon() || has_cubemap_distance_mips)) return 0;
     return min(int(rough_level * roughness), findMSB(frame.counts.z));
@@ -49,7 +49,7 @@ float seen_distance(vec3 from_center, uint place, int level) {
     return seen_in(cubemap_distance, from_center, place, 0);
 }
 
-// Texture fetches that seen_distance() makes.
+// The number of texture fetches of seen_distance().
 uint fetches_of(int level) { return bilinear && level > 0 ? 4u : 1u; }
 
 Quality quality_of(float roughness, uvec2 pixel) {
@@ -72,7 +72,7 @@ Quality quality_of(float roughness, uvec2 pixel) {
 }
 
 float mass_depth(vec3 from_center, float distance_m, vec3 direction, float step_m) {
-    if (surfaces == surfaces_exact) return INFINITE; // whether there is a jump is seen once the step is small
+    if (surfaces == surfaces_exact) return INFINITE; // discontinuities are detected when the step is small
     float advance_m = mass == mass_along ? step_m : abs(dot(from_center, direction)) / distance_m * step_m;
     return mass_m + mass_step * advance_m;
 }
@@ -96,16 +96,16 @@ void end_in_sky(inout Result result) {
     result.place = place_of_sky(result.place);
 }
 
-// A ray that met the cap that a cocoon puts over the sky ends in the sky. A wide cone stays on the cap, where the cube
-// map's levels hold, with alpha, how much of what lies around it is sky.
+// A ray that hits the cocoon's cap over the sky ends in the sky. A wide cone stays on the cap, where alpha of the cube map's levels
+// states how much of its surroundings is sky.
 void end_on_cap(inout Result result, float roughness) {
     result.end = END_sky;
     if (roughness <= hq_roughness) end_in_sky(result);
 }
 
-// A place in a shadow lies between two surfaces that the cube map knows: the one that hides it and the cocoon. Objects are
-// taken to be `solid` times as deep as the way from the one to the other: a place that is less far behind lies inside of
-// one, and so does one outside of the cocoon, d - seen < solid (hull - seen) with hull = d / gauge.
+// An occluded point lies between the occluding surface and the cocoon. Objects are assumed to be `solid` times as deep as the distance
+// between these two: a point that is less far behind the surface lies inside an object, as does a point outside the cocoon:
+// d - seen < solid (hull - seen) with hull = d / gauge.
 bool in_something(vec3 from_center, uint place, inout Result result) {
     float gauge = cocoon_gauge(cocoon, from_center, place), distance_m = length(from_center);
     float seen_m = seen_in(cubemap_distance, from_center, place, 0), behind_m = distance_m - seen_m;
@@ -114,8 +114,8 @@ bool in_something(vec3 from_center, uint place, inout Result result) {
     return gauge > 1.0 || (behind_m > 0.0 && behind_m * gauge < solid * (distance_m - seen_m * gauge));
 }
 
-// Where a ray ends that no cube map could follow. What has no end in the cocoon is looked up by its direction; what ends
-// where it caps the sky, in the sky.
+// The end of a ray that is occluded in all cube maps, by the cocoon. A ray that does not leave the cocoon is sampled by its direction; one that
+// leaves it through the cap over the sky ends in the sky.
 void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, float roughness) {
     if (fallback == fallback_black) {
         result.place = NO_PLACE;
@@ -137,10 +137,10 @@ void fall_back(inout Result result, vec3 origin, vec3 direction, uint best, floa
     if (end_m >= 0.0 && sees_sky(start + end_m * direction, result)) end_on_cap(result, roughness);
 }
 
-// A sample of the ray: its parameter and how far it lies behind the surface that is seen in its direction, < 0 in front.
+// A sample of the ray: its parameter, and how far it is behind the visible surface in its direction, < 0 in front.
 struct Sample {
     float t, gap, distance_m, seen_m;
-    bool cap; // what is seen is the sky, behind the cap that the cocoon's chain puts over it
+    bool cap; // the visible surface is the cocoon's cap over the sky
 };
 
 Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, int level) {
@@ -163,26 +163,26 @@ void probe_met(vec3 from_center, vec3 direction, float step_m, Result result, in
     probe_sample(from_center, direction, s, step_m, result.place, level, decision);
 }
 
-// Whether it lies on what is seen, give or take what verify accepts.
+// Whether the sample lies on the visible surface, within the tolerance of `verify`.
 bool on_surface(Sample s) { return s.seen_m < LARGEST && abs(s.gap) <= verify_part * s.seen_m; }
 
-// Between a sample in front and one behind, where the straight line between their gaps is 0. A sample in front of the sky
-// says nothing, its gap is -inf, and so has the sample that there is not.
+// Interpolates the hit between a sample in front and one behind, linearly by their gaps. A sample in front of the sky has a gap of -inf and
+// does not help, nor does NONE.
 precise float secant_between(Sample front, Sample behind) {
     if (!(front.gap > -LARGEST)) return behind.t;
     float gap = min(front.gap, 0.0);
     return mix(front.t, behind.t, gap / (gap - behind.gap));
 }
 
-// The next sample is where the ray leaves the cube map's inner volume, so that a wall there lies between two samples.
+// Skips the cube map's inner volume: the next sample is where the ray leaves it, so that a wall there lies between two samples.
 float skipped(float t, float step_m, uint place, vec3 origin, vec3 direction) {
     return max(leaves_volume(active_volume, place, origin, direction, t, step_m) - step_m, t);
 }
 
-// The slides' loop. Deviations: the place along the ray is one number, t, instead of a position that is moved between
-// the cube maps' spaces, so that nothing adds up; the step grows only while no hit is being closed in on, and doubles until it is
-// what it was when one came to nothing; and the chain is gone through for each place anew, or finer steps, which notice every
-// strip that a cube map does not see, would use it up. loop=printed is without these two.
+// The slides' loop. Deviations: the position along the ray is a single number t instead of a position that is transformed between the cube
+// maps' spaces, so that errors do not accumulate; the step grows only while no hit is being refined, and doubles up to its former size
+// after a refinement without a hit; and the chain is searched from its start for each sample, since fine steps, which notice every narrow
+// occluded strip, would otherwise exhaust it. loop=printed omits the last two.
 Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality quality) {
     const Sample NONE = Sample(start_m, -INFINITE, 0.0, 0.0, false);
     probe_cubemap_ray(origin, direction, start_m, best);
@@ -193,10 +193,10 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
     precise float step_m = quality.first_m;
     Sample front = NONE, behind = NONE, now = NONE;
     int used = 0, refused = 0, refined = 0;
-    precise float full_step_m = 0.0; // of a step that is to be regained
-    bool emerged = false; // it has been in front of a surface since the last switch
+    precise float full_step_m = 0.0; // the step size before a refinement
+    bool emerged = false; // it has been in front of a surface since the last switch of cube maps
     if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, best, origin, direction);
-    bool again = false; // the same step in the next cube map
+    bool again = false; // repeat the step in the next cube map
     for (int i = 0, left = quality.steps; left > 0 && i < MOST_SAMPLES * quality.steps; ++i) {
         if (count == count_samples || !(again || step_m < full_step_m)) --left;
         again = false;
@@ -218,7 +218,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             full_step_m = 0.0;
             continue;
         }
-        if (now.cap) { // nothing to close in on
+        if (now.cap) { // there is no hit to refine
             result.travelled_m = secant_between(front, now);
             probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_sky);
             end_on_cap(result, quality.roughness);
@@ -227,7 +227,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         vec3 at = from_center + direction * now.t;
         if (now.gap < mass_depth(at, now.distance_m, direction, step_m)) {
             behind = now;
-            // Of samples whose steps shrink the sum would be more than the length.
+            // Sums of shrinking steps would exceed the length.
             if (count == count_strides || quality.ratio > 1.0) full_step_m = max(full_step_m, step_m);
             if (++refined < quality.refinements) {
                 probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_closing);
@@ -262,7 +262,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         if (step_back) now.t -= step_m;
         else step_m *= quality.ratio;
         if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);
-        front = NONE; // what the last cube map saw says nothing about this one
+        front = NONE; // samples of the last cube map are meaningless in this one
         if (loop == loop_regaining) refined = 0;
         emerged = false;
         again = step_back;

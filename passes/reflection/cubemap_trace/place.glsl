@@ -1,8 +1,8 @@
-// In which cube map a ray ended.
+// The cube map in which a ray ended.
 #ifndef GLINT_PLACE
 #define GLINT_PLACE
 const uint NO_PLACE = 255u;
 
-// Of a ray that ended in the sky while it was followed in a cube map: none, or that one, which holds what there is of the sky.
+// For a ray that ended in the sky while it was traced in a cube map: none if the capture has a sky, otherwise that cube map, which shows it.
 uint place_of_sky(uint place) { return frame.counts.w > 0u ? NO_PLACE : place; }
 #endif

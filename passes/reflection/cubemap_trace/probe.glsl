@@ -1,8 +1,8 @@
-// What tracers through cube maps tell of a probed pixel. Next include of a pass of the slot.
+// Records of tracers through cube maps for probed pixels. Next include of a pass of the slot.
 #ifndef GLINT_CUBEMAP_PROBE
 #define GLINT_CUBEMAP_PROBE
 #include "shared/cubemap.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 void probe_cubemap_ray(vec3 origin, vec3 direction, float start_m, uint best) {
     probe(PROBE_cubemap_ray, vec4(origin, direction.x), vec4(direction.yz, start_m, best));
@@ -11,7 +11,7 @@ void probe_cubemap_end(float travelled_m, uint place, uint end, uint steps, uint
     probe(PROBE_cubemap_end, vec4(travelled_m, place, end, steps), vec4(fetches));
 }
 
-// A look at the nearest texel in a direction from the centre of a cube map, of this image.
+// Records a test of the nearest texel of an image in a direction from a cube map's centre.
 void probe_face_texel(texture2DArray faces, uint image, vec3 from_center, uint place, int level, float travelled_m,
                       float step_m, float surface_m, uint decision) {
     if (!probing()) return;

@@ -1,9 +1,9 @@
-// Where rays leave the simple shape that stands for what a cube map shows. The shape is the cube map's inner volume, grown;
-// a cube map without one has a shape of its own size around its centre.
+// Intersects rays with the proxy shape that approximates the surroundings of a cube map. The shape is the cube map's inner volume, enlarged;
+// a cube map without one has a shape of fixed size around its centre.
 #include "shared/cube_filter.glsl"
 #include "single.glsl"
 
-// Where a ray is inside of something convex: (enters, leaves), enters > leaves: nowhere.
+// The interval of a ray inside a convex shape, (enters, leaves); enters > leaves if it misses.
 const vec2 ALWAYS = vec2(-LARGEST, LARGEST);
 
 vec2 within_plane(vec2 span, float outside_m, float rate) {
@@ -15,7 +15,7 @@ vec2 within_plane(vec2 span, float outside_m, float rate) {
 
 vec2 within_sphere(vec3 from_center, vec3 direction, float radius) {
     float along = -dot(from_center, direction);
-    // The distance from the axis, by what is left of the vector: a difference of squares would cancel far away.
+    // The distance from the axis by the rejected component: a difference of squares would cancel far away.
     vec3 aside = from_center + along * direction;
     float root = radius * radius - dot(aside, aside);
     return root < 0.0 ? -ALWAYS : along + vec2(-sqrt(root), sqrt(root));
@@ -31,8 +31,7 @@ vec2 within_cube(vec3 from_center, vec3 direction, float radius) {
     return span;
 }
 
-// A ray that does not come through the proxy, or had left it before it stopped on screen, is looked up where it stopped or
-// by its direction.
+// A ray that misses the proxy, or had left it before its screen trace ended, is sampled where that ended or by its direction.
 Result end_on_proxy(vec3 origin, vec3 direction, float start_m, uint best, vec2 span, uint fetches) {
     if (!(span.x <= span.y && span.y > 0.0 && span.y < LARGEST)) {
         probe(PROBE_cubemap_proxy, vec4(best, span, -1.0));

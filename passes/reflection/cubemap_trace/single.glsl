@@ -1,4 +1,4 @@
-// Tracers that ask one cube map and take no steps. Next include of a pass that defines
+// Tracers that use a single cube map and take no steps. Next include of a pass that defines
 // Result end_of(vec3 origin, vec3 direction, float start_m, uint best).
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
@@ -13,7 +13,7 @@ struct Result {
     uint place, end, fetches;
 };
 
-// The cube map in the ray's direction, sky and all.
+// Samples the cube map in the ray's direction, sky included.
 Result by_direction(uint best) { return Result(INFINITE, best, END_fallback, 0u); }
 
 Result end_of(vec3 origin, vec3 direction, float start_m, uint best);

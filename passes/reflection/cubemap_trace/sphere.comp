@@ -8,7 +8,7 @@
 };
 #include "proxy.glsl"
 
-// Of a volume of planes, around the cube map's centre and as wide as they are away from it on average.
+// A volume of planes is replaced by a sphere around the cube map's centre whose radius is their mean distance.
 Result end_of(vec3 origin, vec3 direction, float start_m, uint best) {
     vec3 center = active_centers[best].xyz;
     if (!fact_volumes) return end_on_proxy(origin, direction, start_m, best, within_sphere(origin - center, direction, default_m), 0u);

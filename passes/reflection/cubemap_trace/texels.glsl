@@ -3,9 +3,9 @@
 #define GLINT_TEXELS
 #include "shared/cubemap.glsl"
 
-// Four texels of a face between which a place on it lies, in gather's order (0,1) (1,1) (1,0) (0,0), and where between. Near
-// the border the face's last two rows are continued. Interpolated here, because what a sampler makes of them may depend
-// on the neighbouring invocations, which are others when a list is worked on.
+// The four texels of a face around a point, in gather's order (0,1) (1,1) (1,0) (0,0), and the interpolation weights. Beyond the border the
+// face's last two rows are extrapolated. They are interpolated here, because a sampler's result may depend on neighbouring invocations,
+// which are different ones if the pass runs over a list.
 struct Patch {
     vec4 distance_m;
     vec2 part;
@@ -36,8 +36,8 @@ float mean_of(Patch p) {
     return mix(mix(p.distance_m.w, p.distance_m.z, p.part.x), mix(p.distance_m.x, p.distance_m.y, p.part.x), p.part.y);
 }
 
-// Distance of the surface in a direction, +inf for sky. On a plane, major axis over distance is linear in the place on the
-// face, and stays so across the face's border; four texels that are not of one plane give the nearest.
+// Distance of the surface in a direction, +inf for sky. On a plane, major axis over distance is linear in the position
+// on the face, also across its border. If the four texels are not of one plane, the nearest texel is used.
 float on_planes(texture2DArray faces, vec3 from_center, uint place) {
     float size = float(frame.counts.z);
     vec3 face = face_from_direction(from_center), a = abs(from_center);

@@ -1,11 +1,11 @@
-// Inner volumes: known to be empty, so that a ray has nothing to meet there before it leaves.
+// Inner volumes, which contain no surface, so that a ray can skip them.
 #ifndef GLINT_VOLUME
 #define GLINT_VOLUME
 #include "shared/constants.glsl"
 
 // Row `place` of the table: (number of planes, 1 with a sphere, 0, 0), then planes (n, d) with n·p + d <= 0 inside, then the
-// sphere (centre, radius). Returns where the ray leaves the volume, or start_m when it does not come in within the next
-// step: what lies before it comes in would not be looked at either. So a volume may keep away from the surfaces around it.
+// sphere (centre, radius). Returns where the ray leaves the volume, or start_m if it does not enter it within the next
+// step, which would not be tested either. So a volume need not touch the surfaces around it.
 float leaves_volume(texture2D table, uint place, vec3 origin, vec3 direction, float start_m, float step_m) {
     vec4 head = texelFetch(table, ivec2(0, place), 0);
     int planes = int(head.x);

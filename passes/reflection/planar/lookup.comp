@@ -9,17 +9,17 @@
 #include "shared/camera.glsl"
 #define LIST_WORD(place) texelFetch(water_tiles, place).x
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
-const float LEAST_RISE = 1e-3; // a ray that a ripple sends down meets another one, and goes on about level
+const float LEAST_RISE = 1e-3; // a ray that a ripple reflects downwards hits another ripple and continues nearly horizontally
 
 vec3 mirror_ray(vec3 towards, vec3 normal, vec3 up) {
     vec3 ray = reflect(towards, normal);
     return normalize(ray + max(LEAST_RISE - dot(ray, up), 0.0) * up);
 }
 
-// A perturbed ray goes elsewhere than the one that the map was rendered for. What the map shows lies about as deep, so that
-// the ray ends there, and is looked up where the mirrored camera sees that end.
+// A perturbed ray deviates from the one that the map was rendered for. It is assumed to end at about the depth that the map shows, and is
+// sampled where the mirrored camera sees that end.
 vec4 seen(vec3 position, vec3 ray) {
     vec4 start = frame.mirror_uv_from_world * vec4(position, 1.0), along = frame.mirror_uv_from_world * vec4(ray, 0.0), end = start;
     for (int i = 0; i <= refinements && near; ++i) {
@@ -48,7 +48,7 @@ void main() {
     if (tile_works && reflects(depth_m, normal)) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        vec3 up = frame.mirror_plane.w < 0.0 ? -frame.mirror_plane.xyz : frame.mirror_plane.xyz; // the camera is above
+        vec3 up = frame.mirror_plane.w < 0.0 ? -frame.mirror_plane.xyz : frame.mirror_plane.xyz; // towards the side of the camera
         color = seen(position, mirror_ray(normalize(position), perturb ? normalize(normal) : up, up));
     }
     imageStore(planar_reflection, pixel, color);

@@ -1,11 +1,11 @@
-// Colour at the end of a ray on screen, as the previous frame showed it. Next include of a pass with the rows of before_rows.h.
+// Colour at the end of a screen ray, from the previous frame. Next include of a pass with the rows of before_rows.h.
 #include "color.glsl"
 
 const uint SHOWN = 1u, OUTSIDE = 2u, HIDDEN = 3u;
 
 bool of_frame(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
 
-// Where the end of the ray was seen in the previous frame, and how deep it lay; +inf for the sky. Depth 0: behind the camera.
+// The position of the ray's end in the previous frame, and its depth; +inf for the sky. Depth 0: behind the camera.
 vec3 place_before(Ray ray) {
     vec3 now = mat3(frame.view_from_world) * ray.end;
     float front = frame.depth_range.w;
@@ -17,7 +17,7 @@ vec3 place_before(Ray ray) {
         vec2 seen = project(now, frame.uv_from_view, frame.depth_range.z);
         ivec2 pixel = clamp(ivec2(seen * vec2(frame.size.xy)), ivec2(0), ivec2(frame.size.xy) - 1);
         uv = seen + texelFetch(motion_full, pixel, 0).xy;
-        // Without its motion along the view, a surface that moves is where a still one would be.
+        // Motion along the view direction is unknown, so that the depth of a static surface is assumed.
         if (of_frame(motion_depth_full)) depth_m = now.z * frame.depth_range.z + texelFetch(motion_depth_full, pixel, 0).x;
     }
     return vec3(uv, ray.endless ? INFINITE : depth_m);
@@ -31,7 +31,7 @@ bool shows(vec2 uv, float depth_m) {
     return abs(seen_m - depth_m) <= hidden_depth * depth_m; // false for the sky's +inf
 }
 
-// Where the frame before has depths, of the texels around only those that show the ray's end.
+// If the previous frame has depths, only the texels that show the ray's end are interpolated.
 vec3 picture_before(vec3 place) {
     bool scene = picture_of == picture_of_scene && of_frame(previous_scene), parts = joint && of_frame(previous_depth);
     vec3 color = scene ? parts ? joint_texels(previous_scene, previous_depth, place.xy, place.z, hidden_depth).rgb
@@ -48,7 +48,7 @@ uint source_of(vec3 place) {
     return shows(place.xy, place.z) ? SHOWN : HIDDEN;
 }
 
-// A hit that the previous frame does not show. Where it lies is known, so that any cube map can say what is there.
+// A hit that is not visible in the previous frame. Its position is known, so that it can be sampled from a cube map.
 vec4 not_shown(Ray ray) {
     if (hidden == hidden_black) return vec4(0.0);
     if (ray.endless) return vec4(sky_color(ray), 1.0);

@@ -9,17 +9,17 @@
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
-// 1 from `full` on, 0 up to `none`, which may lie on either side; equal: a step.
+// Fades from 0 at `none` to 1 at `full`, in either direction; a step if both are equal.
 float fade(float none, float full, float at) {
     if (none == full) return at > full ? 1.0 : 0.0;
     float x = clamp((at - none) / (full - none), 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
 }
 
-// The distance to the nearest border. The source's product of smoothsteps is dead up to 5 % on one side and fades from
-// there, on the other it fades up to the border, and it keeps a ray when either axis lies inside.
+// Fades by the distance to the nearest border. The source's product of smoothsteps is 0 in the outer 5 % on one side but fades up to the
+// border on the other, and keeps a ray if either axis is inside.
 float edge_attenuation(vec2 uv) {
     vec2 inside = min(uv, 1.0 - uv);
     return fade(0.0, edge_fade, min(inside.x, inside.y));
@@ -35,14 +35,14 @@ void probe_sample(vec2 uv, bool finished_picture, float weight, vec3 color) {
     probe(PROBE_sample, vec4(image, uv * vec2(frame.size.xy), weight), vec4(color, 0.0));
 }
 
-// The mean over a square; what is not finite is left out.
+// The mean over a square without values that are not finite.
 vec3 box(vec2 uv, float radius, bool finished_picture) {
     if (radius < 0.5 || taps == 1) {
         vec3 color = picture(uv, finished_picture);
         probe_sample(uv, finished_picture, 1.0, color);
         return color;
     }
-    // Half the distance of two taps. Places are whole multiples of it, so that they do not depend on how the shader was specialized:
+    // Half the distance between two taps. Positions are whole multiples of it, so that they do not depend on how the shader was specialized:
     // a quotient of constants is rounded exactly where the loop is unrolled, and a product with a rounded reciprocal where it is not.
     precise vec2 apart = radius / (float(taps) * vec2(frame.size.xy));
     vec4 sum = vec4(0.0);
@@ -78,11 +78,11 @@ End end_of(ivec2 pixel, float depth_m, vec3 normal) {
     if (edge) attenuation.y = edge_attenuation(uv);
     if (back_face && !endless) attenuation.z = fade(back_from, back_to, dot(normalize(texelFetch(normal_full, at, 0).xyz), -direction));
     if (foreground && frame.foreground.z != 0u) {
-        uint id = texelFetch(stencil_full, min(at, textureSize(stencil_full, 0) - 1), 0).x; // the stand-in is one texel
+        uint id = texelFetch(stencil_full, min(at, textureSize(stencil_full, 0) - 1), 0).x; // without ids the image is a single texel
         if ((id & frame.foreground.y) == frame.foreground.x) attenuation.w = 0.0;
     }
     float angle = has_cone_half ? texelFetch(cone_half, pixel, 0).x : 0.0;
-    float spread = endless ? 1.0 / end_depth : travelled_m / end_depth; // of a unit direction
+    float spread = endless ? 1.0 / end_depth : travelled_m / end_depth; // for a unit direction
     float radius = blur * cone_tangent(angle) * spread * abs(frame.uv_from_view.x) * float(frame.size.x);
     bool finished_picture = deferred && textureSize(scene, 0) == textureSize(lit, 0);
     return End(vec4(box(uv, min(radius, blur_limit), finished_picture), 1.0), attenuation);

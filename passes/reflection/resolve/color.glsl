@@ -6,9 +6,9 @@
 #include "shared/cube_filter.glsl"
 #include "shared/fog.glsl"
 #include "shared/paraboloid.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
-const float LEAST_SHARE = 1.0 / 64.0; // of what is looked for in a level: what has less is mostly rounding
+const float LEAST_SHARE = 1.0 / 64.0; // a level with a smaller fraction of the wanted kind is mostly rounding error
 
 // A ray that has ended. `end`: camera-relative world, a unit direction when the ray went on for ever.
 struct Ray {
@@ -55,8 +55,8 @@ vec3 sky_color(Ray ray) {
     return told_sky(IMAGE_sky, 0.0, cube_finest(sky, ray.direction).rgb);
 }
 
-// The four texels around a place that show a depth, +inf the sky, as far as tolerance goes; if none does, the one that is
-// nearest to it. a: whether one does.
+// Interpolates those of the four texels around a point whose depth (+inf for sky) is within the tolerance, or takes the nearest one if none is.
+// a: whether one is.
 vec4 joint_texels(texture2D image, texture2D depths_m, vec2 uv, float depth_m, float tolerance) {
     vec2 place = uv * vec2(frame.size.xy) - 0.5, corner = floor(place), part = place - corner;
     vec4 seen_m = textureGather(sampler2D(depths_m, nearest_clamp), (corner + 1.0) / vec2(frame.size.xy)).wzxy;
@@ -84,7 +84,7 @@ vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
                                         float(findMSB(max(frame.size.x, frame.size.y))));
         if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return sky_color(ray);
         vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
-        // A level that leaves the sky out says nothing of it.
+        // A level without sky has no colour for it.
         if (color.a > (ray.endless ? 1.0 - LEAST_SHARE : LEAST_SHARE)) return told_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
     }
     vec3 color = joint          ? joint_texels(lit, depth_full, uv, ray.endless ? INFINITE : depth_m, depth_tolerance).rgb
@@ -106,7 +106,7 @@ vec4 screen_color(Ray ray) {
     return vec4(picture(uv, pixel, ray, depth_m), 1.0);
 }
 
-// What stands for the cube maps where the pipeline converts them; one fetch, and no face to choose.
+// Paraboloids replace the cube maps if the pipeline converts them: one fetch without face selection.
 vec4 paraboloid_texel(Ray ray, vec4 at, bool alone) {
     vec3 d = normalize(at.xyz) * paraboloid_axes(frame.up.xyz), uv = paraboloid_uv(d, float(frame.counts.z));
     float level = 0.0;
@@ -130,12 +130,12 @@ vec4 cubemap_texel(Ray ray, vec4 at, bool alone) {
     return told_cubemap(IMAGE_cubemap_color, at, 0.0, color, alone);
 }
 
-// Where three faces meet, a sampler's weights of eight bits may sum up to 255/256, in a level and in its lookup: that is no sky.
-// What counts as opaque is reached evenly, so that no rounding decides.
+// Where three faces meet, a sampler's weights of eight bits may sum to 255/256, both in a level and in its lookup, which is not sky. The
+// transition to opaque is gradual, so that rounding does not decide.
 float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
 
-// Of a ray that ended on a surface the sky beside that is no part: rays that end in the sky bring it. Which of the two is at
-// the end is what the nearer of the cube map's texels say, and not the cone's width.
+// A ray that ended on a surface excludes the sky beside it, which rays that end in the sky contribute. Which of both it is depends on the cube
+// map's nearest texels, not on the width of the cone.
 vec4 surface_in_cubemap(Ray ray, vec3 center, uint place) {
     vec4 at = vec4(ray.end - center, place);
     if (cube_finest(cubemap_color, at).a < 0.5) return vec4(sky_color(ray), 1.0);
@@ -160,7 +160,7 @@ vec3 through_fog(vec3 color, Ray ray) {
     return mix(color, target, fog_factor(depth));
 }
 
-// finished: on screen; place: of the cube map where it ended otherwise, or none. a: 0 where no source was found.
+// finished: it ended on screen; place: otherwise the cube map in which it ended, or none. a: 0 if there is no source.
 vec4 color_at_end(Ray ray, bool finished, uint place) {
     vec4 color;
     if (finished) color = screen_color(ray);

@@ -12,14 +12,14 @@
 #include "shared/shown.glsl"
 #include "shared/work_list.glsl"
 
-// The texel whose ray is taken: upscale's choice, else the pixel's own.
+// The texel whose ray is used: the one that upscale chose, otherwise the pixel's own.
 ivec2 ray_texel(ivec2 pixel) {
     ivec2 own = pixel / int(reduction(frame.size));
     uint source = has_sharp_source ? texelFetch(sharp_source, pixel, 0).x : 0u;
     return source >= 1u && source <= 9u ? own + ivec2((source - 1u) % 3u, (source - 1u) / 3u) - 1 : own;
 }
 
-// Whether the texel has a ray that may be taken.
+// Whether the texel has a usable ray.
 bool has_ray(ivec2 texel) {
     return texelFetch(depth_half, texel, 0).x < LARGEST && is_pick_shown(texelFetch(pick, texel, 0).x);
 }

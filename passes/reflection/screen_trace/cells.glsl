@@ -1,4 +1,4 @@
-// A ray through the texels of the depth buffer, and what each makes of it. Next include of a pass with the rows of
+// Walks a ray through the texels of the depth buffer and tests it against each. Next include of a pass with the rows of
 // cell_rows.h.
 #include "screen_ray.glsl"
 
@@ -40,17 +40,17 @@ float cell_entry(CellRay ray, vec2 cell) {
     return max(max(entries.x, entries.y), 0.0);
 }
 
-// What a texel makes of a ray that crosses it from s_in to s_out.
+// The result of testing a texel that the ray crosses from s_in to s_out.
 const uint CELL_FRONT = 0u, CELL_HIT = 1u, CELL_BEHIND = 2u, CELL_SEAM = 3u; // SEAM: HIT where joined(), else BEHIND
 struct Crossing {
     uint what;
     float s; // of a hit
 };
 
-// The ray's inverse depth less the facet's is linear within the texel: positive in front, negative behind. A surface that
-// a viewer sees is crossed from front to behind. A ray that is behind where it comes in and goes deeper met the surface's
-// plane before: within the way `unseen` before s_in, where two surfaces meet, or by less than the thickness; or it passed a
-// rim.
+// The ray's inverse depth less the facet's is linear within the texel: positive in front, negative behind. A ray crosses a
+// visible surface from front to back. A ray that enters behind the facet and goes deeper crossed the surface's plane before: within the
+// untested interval `unseen` before s_in, where two surfaces meet, or by less than the thickness; or it passed a
+// silhouette.
 Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float unseen, float inverse, vec2 slopes) {
     vec2 rate = inverse * slopes * ray.across, from = (ray.start - cell - 0.5) * inverse * slopes;
     float at_start = ray.inverse - inverse - from.x - from.y, rise = ray.inverse_rate - rate.x - rate.y;
@@ -84,26 +84,26 @@ bool joined(CellRay ray, float s, vec2 cell, float inverse, vec2 slopes, vec2 be
     return apart <= jump * inverse;
 }
 
-// A look at a texel, which the ray crosses from s_from to s.
+// Records the test of a texel that the ray crosses from s_from to s.
 void probe_crossing(ScreenRay ray, CellRay path, vec2 cell, float s_from, float s, float inverse, vec2 slopes, uint what) {
     uint decision = what == CELL_FRONT ? DECISION_front : what == CELL_HIT ? DECISION_hit : DECISION_behind;
     if (probing()) probe_texel_seen(ray, s_from, s, ivec2(cell), facet_inverse(path, cell, s, inverse, slopes), decision);
 }
 
-// What a ray has gone hidden behind surfaces, without a break of more than the texels that a stippled surface leaves out.
-const float STIPPLE = 4.25; // texels; no whole number, which rays along an axis would meet, and no half one, from their start
+// The interval over which a ray is occluded, ignoring gaps no wider than those of a stippled surface.
+const float STIPPLE = 4.25; // texels; neither a whole nor a half number, which rays along an axis would match exactly
 struct Hidden {
     float s_first, s_last;
 };
 
-// One more texel behind whose surface a ray went, from s_in to s_out; of the way `unseen` before s_in nothing is known.
+// Adds a texel behind whose surface the ray went from s_in to s_out; the interval `unseen` before s_in was not tested.
 void hide(inout Hidden hidden, CellRay ray, float s_in, float s_out, float unseen) {
     if (s_in - hidden.s_last > max(STIPPLE * ray.texel, unseen)) hidden.s_first = s_in;
     hidden.s_last = s_out;
 }
 
-// Behind a surface an object is taken to be `solid` times as deep as the way that a ray has gone hidden by it: one that
-// lies less far behind has met a side that the picture does not show. With t = s P.w/(1 - s D.w) the way is
+// An object is assumed to be `solid` times as deep as the length over which it occludes the ray: a ray that is less far behind the surface
+// has hit a side of the object that is not visible. With t = s P.w/(1 - s D.w) that length is
 // (s_last - s_first) (1/P.w)/(u_first u_last) for inverse depths u, so that z - depth < solid · way needs no division.
 bool blocked(Hidden hidden, CellRay ray, float inverse) {
     float behind = (inverse - inverse_at(ray, hidden.s_last)) * inverse_at(ray, hidden.s_first);

@@ -18,13 +18,13 @@ Result march(ScreenRay ray, ivec2 texel) {
     for (int i = 0; i < cells; ++i) {
         precise vec2 exits = cell_exits(path, cell);
         precise float s_out = min(min(exits.x, exits.y), path.end);
-        if (i > 0) { // its own texel cannot stop a ray
+        if (i > 0) { // a ray cannot hit its own texel
             float depth_m = texelFetch(depth_half, ivec2(cell), 0).x, inverse = texelFetch(inverse_half, ivec2(cell), 0).x;
             result.steps++;
             result.fetches += 2u;
             Crossing crossing = Crossing(CELL_FRONT, s_out);
             vec2 slopes = vec2(0.0);
-            // In front of all that a facet of this depth can be: it rises to twice its inverse depth at most.
+            // The ray is in front of any facet of this depth, since a facet rises to at most twice its inverse depth.
             if (min(inverse_at(path, s_in), inverse_at(path, s_out)) * depth_m < 1.0 + STEEPEST) {
                 result.fetches += 5u;
                 slopes = facet_slopes_at(ivec2(cell), depth_m);

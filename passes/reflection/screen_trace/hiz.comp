@@ -11,8 +11,8 @@
 // The coarsest level that rays go up to: the first whose smaller side is under 8 texels.
 int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }
 
-// Whether each texel of a cell lies wholly before the ray, none of them so close that it would be hit or block the ray:
-// then all are passed at once. farthest, highest: inverse depths of the cell and of the ray within it.
+// Whether the ray is behind every texel of a cell, and by so much that none can be hit: then the whole cell is
+// skipped. farthest, highest: inverse depths of the cell and of the ray within it.
 bool passes_behind(inout Hidden hidden, CellRay ray, float s_in, float s_out, float farthest, float highest) {
     if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;
     Hidden ahead = hidden;
@@ -25,7 +25,7 @@ bool passes_behind(inout Hidden hidden, CellRay ray, float s_in, float s_out, fl
 
 const uint PASSED = 0u, IN_FRONT = 1u, MET = 2u, BLOCKED = 3u;
 
-// What the texel's facet makes of a ray, which crosses it from s to s_out.
+// The result of testing the texel's facet against the ray, which crosses it from s to s_out.
 uint meets(CellRay path, ivec2 texel, float s_out, inout Hidden hidden, inout float s, inout uint fetches) {
     fetches += 2u;
     float inverse = texelFetch(inverse_half, texel, 0).x;
@@ -60,9 +60,9 @@ void probe_cell(ScreenRay ray, float s, float s_out, ivec2 cell, int level, vec2
           vec4(1.0 / inverse_depth_at(ray, s), 1.0 / inverse_depth_at(ray, s_out), cell), vec4(level, range, decision));
 }
 
-// A ray among the cells: a cell of level k covers 2ᵏ texels along each axis, and the last one of a row what is left over.
-// Texels are counted in the direction in which it goes: turned, -1 - x, the cells are the same ones, and what lies ahead
-// has the larger numbers. A cell is told by the last of its texels.
+// The position of a ray among the cells. A cell of level k covers 2ᵏ texels along each axis, and the last cell of a row the rest. Texels are
+// numbered in the direction of the ray: with mirrored numbers -1 - x the cells stay the same, and texels ahead have larger numbers. A cell is
+// identified by its last texel.
 struct Walk {
     vec2 start, across, per_across; // turned
     ivec2 turn, last;               // turn: all bits of an axis, or none; last: turned
@@ -87,7 +87,7 @@ ivec2 cell_of(Walk walk) {
 
 vec2 exits_of(Walk walk) { return (vec2(walk.last) - (walk.start - 1.0)) * walk.per_across; }
 
-// To the next cell, and up where another parent begins.
+// Goes to the next cell, and up a level if another parent begins there.
 void step_on(inout Walk walk, bool along_x, int coarsest) {
     bool up = walk.level < coarsest && ((along_x ? walk.last.x : walk.last.y) & walk.width) != 0;
     walk.last += along_x ? ivec2(walk.width, 0) : ivec2(0, walk.width);
@@ -97,7 +97,7 @@ void step_on(inout Walk walk, bool along_x, int coarsest) {
     ++walk.level;
 }
 
-// To the child that the ray is in at s.
+// Goes down to the child that contains the ray at s.
 void step_down(inout Walk walk, float s) {
     walk.width >>= 1;
     --walk.level;
@@ -108,7 +108,7 @@ void step_down(inout Walk walk, float s) {
 Result march(ScreenRay ray, ivec2 texel) {
     CellRay path = cell_ray(ray, texel);
     Walk walk = walk_from(path, texel);
-    // A ray that goes away from the viewer cannot meet anything before it reaches the nearest depth; one that comes, may.
+    // A ray away from the viewer cannot hit anything before it reaches the nearest depth; a ray towards the viewer can.
     float per_rate = path.inverse_rate < 0.0 ? 1.0 / path.inverse_rate : -LARGEST;
     int coarsest = coarsest_level(), most = cells;
     if (cells_lq != cells && texelFetch(normal_half, texel, 0).w > hq_roughness) most = cells_lq;

@@ -1,7 +1,7 @@
 // The linear march. Next include of a pass with the rows of linear_rows.h.
 #include "screen_ray.glsl"
 
-// Half-resolution texels: texel `from` holds the pixel at the ray's start, and the others pixels as far into their blocks.
+// Half-resolution texels. Texel `from` holds the pixel where the ray starts; other texels are assumed to hold the same pixel of their blocks.
 struct Grid {
     vec2 from, across; // the ray's place in texels is from + s · across
     vec2 offset;       // of a texel's pixel in its block, in full-resolution pixels
@@ -13,8 +13,8 @@ precise vec2 texel_at(Grid grid, float s) { return grid.from + s * grid.across; 
 
 ivec2 nearest_texel(vec2 texel) { return clamp(ivec2(floor(texel + 0.5)), ivec2(0), ivec2(frame.size.zw) - 1); }
 
-// Inverse depth that the buffer shows at a place; 0: sky. Between four texels of one surface 1/z is bilinear, which is
-// exact on planes; over a discontinuity the nearest one counts.
+// Inverse depth of the depth buffer at a position; 0 for sky. Between four texels of one surface 1/z is bilinear, which is
+// exact on planes; across a discontinuity the nearest texel is used.
 precise float seen_inverse(vec2 texel, Grid grid) {
     if (!interpolate) return texelFetch(inverse_half, nearest_texel(texel), 0).x;
     texel = clamp(texel, vec2(0.0), grid.last);
@@ -22,7 +22,7 @@ precise float seen_inverse(vec2 texel, Grid grid) {
     // Gather's order: (0,1) (1,1) (1,0) (0,0).
     vec4 z = textureGather(sampler2D(inverse_half, nearest_clamp), (corner + 1.0) * grid.per_size);
     float low = min(min(z.x, z.y), min(z.z, z.w)), high = max(max(z.x, z.y), max(z.z, z.w));
-    // One surface: opposite sides change alike, as 1/z does on a plane, and by no great part.
+    // One surface: 1/z changes equally on opposite sides, as on a plane, and only by a small fraction.
     if (abs(z.x - z.w - (z.y - z.z)) <= 0.02 * low && high < 2.0 * low)
         return mix(mix(z.w, z.z, part.x), mix(z.x, z.y, part.x), part.y);
     return part.x < 0.5 ? (part.y < 0.5 ? z.w : z.x) : (part.y < 0.5 ? z.z : z.y);
@@ -41,8 +41,8 @@ Facet facet_at(vec2 place, Grid grid) {
                  mat3(frame.view_from_world) * texelFetch(normal_half, texel, 0).xyz);
 }
 
-// The parameter at which the ray meets the surface of the sample behind it: on the facet, when that is within a texel of
-// the last step, else between the two samples. gap: 1/ray depth - 1/seen depth, negative behind.
+// The parameter at which the ray hits the surface: on the facet of the sample behind it if that is within a texel of the last step, otherwise
+// interpolated between the two samples. gap: 1/ray depth - 1/surface depth, negative behind.
 precise float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front, float s, float gap, float scale) {
     float t = dot(facet.normal, facet.position - ray.origin) / dot(facet.normal, ray.direction);
     float on_facet = t / (ray.depth_m + t * ray.rate), texel = scale / length(ray.across);
@@ -51,7 +51,7 @@ precise float meeting(ScreenRay ray, Facet facet, float s_front, float gap_front
     return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));
 }
 
-// Whether the picture shows, where the ray is at s, a surface that is no farther from it than the thickness.
+// Whether the surface at the ray's position at s is within the thickness of the ray.
 bool shows(ScreenRay ray, float s, Grid grid) {
     float depth_m = 1.0 / inverse_depth_at(ray, s), seen_m = 1.0 / seen_inverse(texel_at(grid, s), grid);
     return abs(depth_m - seen_m) <= thickness * depth_m + thickness_m; // false for the sky's +inf
@@ -77,7 +77,7 @@ Result march(ScreenRay ray, Grid grid, float shift) {
             if (!been_behind) s_clear = s;
             continue;
         }
-        // The ray's nearest depth within the step, against the far side of what is seen.
+        // Compares the ray's nearest depth within the step with the far side of the visible surface.
         float least_m = 1.0 / max(inverse, inverse_depth_at(ray, s_before)), seen_m = 1.0 / seen;
         s_before = s;
         uint reason = END_behind, decision = DECISION_behind;

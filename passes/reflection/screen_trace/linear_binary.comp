@@ -28,7 +28,7 @@ ivec2 texel_of(March march, float s) {
     return clamp(ivec2(floor(place)), ivec2(0), ivec2(frame.size.zw) - 1);
 }
 
-// Whether the ray is behind what the picture shows there; behind_m: by how much. The nearest texel counts.
+// Whether the ray is behind the surface of the nearest texel; behind_m: by how much.
 bool behind(March march, float s, out float behind_m, out float seen_m) {
     seen_m = texelFetch(depth_half, texel_of(march, s), 0).x;
     float inverse = inverse_depth_at(march.ray, s);

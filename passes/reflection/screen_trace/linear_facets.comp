@@ -10,7 +10,7 @@
 #include "shared/facet_at.glsl"
 #include "shared/random.glsl"
 
-// A ray at a texel: where it comes in and leaves, and how much of the way before has not been looked at.
+// A ray at a texel: where it enters and leaves, and the length of the untested interval before.
 struct Visit {
     vec2 cell;
     float s_in, s_out, unseen;
@@ -26,8 +26,8 @@ Surface surface_at(vec2 cell) {
     return Surface(texelFetch(inverse_half, ivec2(cell), 0).x, facet_slopes_at(ivec2(cell), depth_m));
 }
 
-// What the texel makes of the ray. A surface whose plane the ray met on the way that was not looked at is hit when the
-// texel there shows it, too.
+// The result of testing the texel. A surface whose plane the ray crossed in the untested interval is hit if the texel there shows the same
+// surface.
 Crossing meets(CellRay path, Visit visit, out float inverse, inout uint fetches) {
     float depth_m = texelFetch(depth_half, ivec2(visit.cell), 0).x;
     inverse = texelFetch(inverse_half, ivec2(visit.cell), 0).x;
@@ -71,7 +71,7 @@ Result march(ScreenRay ray, ivec2 texel) {
     Result result = Result(0.0, false, path.limit, 0u, 0u);
     float exponent = first_step > 0.0 && steps > 1 ? -log(first_step) / log(float(steps)) : growth;
     float shift = dither ? random4(uvec2(texel), random_frame(), RANDOM_SCREEN_START).x : 0.0;
-    Visit visit = visit_of(path, vec2(texel), 0.0); // its own texel cannot stop a ray
+    Visit visit = visit_of(path, vec2(texel), 0.0); // a ray cannot hit its own texel
     float s_front = visit.s_out, s_before = s_front;
     bool in_front = true;
     Hidden hidden = Hidden(0.0, 0.0);

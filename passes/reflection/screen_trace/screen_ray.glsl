@@ -1,24 +1,24 @@
-// A ray in the picture. At parameter s its place is start + s · across (full-resolution pixels) and its inverse depth
-// is linear in s, like the place: with w for depth and P, D for projected origin and direction, the ray parameter is
+// A ray in the picture. At parameter s its position is start + s · across (full-resolution pixels) and its inverse depth
+// is linear in s, like the position: with w for depth and P, D for projected origin and direction, the ray parameter is
 // t = s P.w/(1 - s D.w), so 1/w = (1 - s D.w)/P.w. Next include of a pass with the parameter length_m.
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 struct ScreenRay {
     vec3 origin, direction; // view
     vec2 start, across;
     float depth_m, rate; // P.w and D.w
     float inverse, inverse_rate;
-    float end;           // the last s inside picture, near plane and length
+    float end;           // the last s inside the picture, before the near plane and within the length
     uint limit;          // which of them, as an end reason
-    bool vanishes;       // nothing lies between the end and its vanishing point
+    bool vanishes;       // the end is the ray's vanishing point, so that nothing lies beyond
 };
 
 precise float travelled_at(ScreenRay ray, float s) { return s * ray.depth_m / (1.0 - s * ray.rate); }
 precise float inverse_depth_at(ScreenRay ray, float s) { return ray.inverse + s * ray.inverse_rate; }
 
-// How far a coordinate may go until it leaves [0, size].
+// Where a coordinate leaves [0, size].
 precise float exit(float start, float across, float size) {
     if (across > 0.0) return max(size - start, 0.0) / across;
     return across < 0.0 ? start / -across : LARGEST;
@@ -55,8 +55,8 @@ ScreenRay screen_ray(vec2 start, vec3 position, vec3 direction) {
     return ray;
 }
 
-// A look at a texel of depth_half, which the ray crosses from s_from to s; of a sample both are the same. surface: the
-// inverse depth that the ray's was compared with.
+// Records the test of a texel of depth_half that the ray crosses from s_from to s, which are equal for a sample. surface: the inverse depth
+// that the ray's was compared with.
 void probe_texel_seen(ScreenRay ray, float s_from, float s, ivec2 texel, float surface, uint decision) {
     if (!probing()) return;
     probe(PROBE_screen_texel, vec4(travelled_at(ray, s_from), travelled_at(ray, s), ray.start + s * ray.across),

@@ -1,14 +1,14 @@
-// The history of a pixel, and the mean with it. Next include of a pass with the rows of history_rows.h, after
+// Reprojects the history of a pixel and averages with it. Next include of a pass with the rows of history_rows.h, after
 // shared/neighbour.glsl.
 #include "shared/reproject.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 struct Past {
     vec4 color;
     float age; // 0: none
 };
 
-// The four texels around the place, without those that showed something else.
+// Interpolates the four texels around the position without those of another surface.
 Past past_at(vec2 place, Surface center, Reprojection where) {
     Past past = Past(vec4(0.0), 0.0);
     float total = 0.0, front = frame.depth_range.w;
@@ -23,7 +23,7 @@ Past past_at(vec2 place, Surface center, Reprojection where) {
         ivec2 texel = corner + ivec2(i & 1, i >> 1);
         vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
         float weight = side.x * side.y;
-        // What is left of a place on the very texel centre by rounding would only bring in neighbours that are not wanted.
+        // At a texel's centre rounding must not bring in a small weight of its neighbours.
         if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;
         float depth_m = depths_m[i];
         vec4 surface = texelFetch(previous_normal_half, texel, 0);
@@ -40,7 +40,7 @@ Past past_at(vec2 place, Surface center, Reprojection where) {
     return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(0.0), 0.0);
 }
 
-// The surface's history, as much of it as counts; no color: age 0.
+// The surface's history with its limited age; age 0 if there is none.
 Past past_of(ivec2 pixel, Surface center) {
     Past past = Past(vec4(0.0), 0.0);
     if (frame.flags.x == 0u || frame.flags.y != 0u || !(history > 0.0)) return past;
@@ -48,7 +48,7 @@ Past past_of(ivec2 pixel, Surface center) {
     ivec2 full_pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
     vec3 position = mat3(frame.world_from_view) * center.position;
     Reprojection where = reproject(uv, position, full_pixel, texelFetch(travelled, pixel, 0).x);
-    // The whole block moves as its picked pixel does: a still picture has its history on its own texel.
+    // The whole block moves like its picked pixel, so that in a static picture the history is in the same texel.
     vec2 place = vec2(pixel) + 0.5 + (where.uv - uv) * vec2(frame.size.xy) / reduction(frame.size);
     if (all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))
         past = past_at(place, center, where);
@@ -58,7 +58,7 @@ Past past_of(ivec2 pixel, Surface center) {
     return past;
 }
 
-// The mean of what was and what is; age: samples in color, then in all.
+// The mean of history and current colour; age: number of samples in the current colour, then in the result.
 vec4 joined(Past past, vec4 color, inout float age) {
     float total = past.age + age;
     if (total > 0.0) color = (past.age * past.color + age * color) / total;

@@ -18,7 +18,7 @@ vec4 current_color(ivec2 texel) {
 
 float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
-// Luminance around a texel; negative when nothing there can be compared with it.
+// Luminance around a texel; negative if no neighbour is comparable.
 float around(ivec2 texel, Surface center) {
     if (has_reflection_levels) {
         ivec2 at = min(texel >> 2, textureSize(reflection_levels, 2) - 1);
@@ -47,7 +47,7 @@ void main() {
     if (age == 0.0) color = vec4(0.0);
     if (tile_works && center.shown && reflects(center.depth_m, center.normal.xyz)) {
         float bright = luminance(color.rgb), most = outlier < 1e6 ? outlier * around(pixel, center) : -1.0;
-        // A mirror shows small bright things as they are.
+        // Small bright features in a mirror are no outliers.
         most = mix(bright, most, fade(center.normal.w, fade_from, fade_to));
         if (most > 0.0 && bright > most) color.rgb *= most / bright;
         color = joined(past_of(pixel, center), color, age);

@@ -15,7 +15,7 @@ vec4 current_color(ivec2 texel) {
     return has_reflection_blurred ? texelFetch(reflection_blurred, texel, 0) : texelFetch(reflection_half, texel, 0);
 }
 
-// The mean with the samples at the centres of the pluses around, and how many samples that are.
+// The mean with the samples at the centres of the neighbouring pluses, and the number of samples.
 vec4 with_extra(ivec2 pixel, Surface center, vec4 color, inout float samples) {
     vec4 sum = samples * color;
     probe(PROBE_neighbour, vec4(pixel, samples, color.r), vec4(color.gb, 0.0, 0.0));
@@ -39,7 +39,7 @@ void main() {
     Surface center = surface_at(pixel);
     probe_texel(pixel);
     float age = 0.0;
-    if (!(center.normal.w < min_roughness)) { // a smoother surface keeps what it has, as if this pass were not there
+    if (!(center.normal.w < min_roughness)) { // smoother surfaces keep their value, as if this pass did not run
         age = finite(color) ? 1.0 : 0.0;
         if (age == 0.0) color = vec4(0.0);
         if (tile_works && center.shown && reflects(center.depth_m, center.normal.xyz)) {

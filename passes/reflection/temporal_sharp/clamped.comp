@@ -10,7 +10,7 @@
 #include "shared/reuse.glsl"
 #include "shared/shown.glsl"
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 vec4 current_color(ivec2 pixel) {
     return has_reflection_sharp ? texelFetch(reflection_sharp, pixel, 0) : texelFetch(reflection, pixel, 0);
@@ -19,8 +19,8 @@ vec4 current_color(ivec2 pixel) {
 // M. Salvi, An Excursion in Temporal Supersampling, GDC 2016: mean and deviation of the 3 x 3 neighbours. The window opens as
 // 1/(1 - roughness/limit).
 vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
-    // From the first of them, sums of differences: where all are alike nothing is left of a bright colour's rounding, and
-    // at worst, where it alone lies apart, the variance is a ninth of what it is taken from.
+    // Sums of differences to the first neighbour: equal neighbours leave no rounding error of a bright colour, and in the worst case, if only the
+    // first one differs, the variance is a ninth of the sum that it is subtracted from.
     vec4 first = vec4(0.0), sum = vec4(0.0), squares = vec4(0.0);
     float count = 0.0;
     for (int i = 0; i < 9; ++i) {
@@ -40,7 +40,7 @@ vec4 clamped(vec4 past, ivec2 pixel, float roughness) {
     return clamp(past, mean - window / open * deviation, mean + window / open * deviation);
 }
 
-// Of the ray of a texel that the picture shows.
+// For the ray of a texel with a visible reflection.
 float travelled_at(ivec2 texel) {
     bool shown = !has_pick || is_pick_shown(texelFetch(pick, texel, 0).x);
     return shown ? texelFetch(travelled, texel, 0).x : 0.0;

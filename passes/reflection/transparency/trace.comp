@@ -10,12 +10,12 @@
 #include "shared/camera.glsl"
 #define LIST_WORD(place) texelFetch(transparent_tiles, place).x
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
-// What a texel of another surface weighs: where all four are, they are better than nothing.
+// The small weight of texels of another surface, which are used if all four are.
 const float ELSEWHERE = 1e-4;
 
-// Of a pane: at one face, then all ways between the two: R + (1 - R)² R (1 + R² + …) = 2R/(1 + R).
+// Reflectance of a pane: of the first face plus all interreflections of both: R + (1 - R)² R (1 + R² + …) = 2R/(1 + R).
 float reflected_share(float cosine) {
     float face = face_reflectance(cosine, index);
     return 2.0 * face / (1.0 + face);
@@ -41,7 +41,7 @@ vec3 mirrored(ivec2 pixel, float depth_m) {
     return sum.a > 0.0 ? sum.rgb / sum.a : vec3(0.0);
 }
 
-// Whether there is water before a transparent surface: that is then a part of what the water hides, not over it.
+// Whether there is water in front of a transparent surface, which then is behind the water and not composed over it.
 bool under_water(ivec2 pixel, float depth_m) {
     return has_composed_water && texelFetch(water_depth, pixel, 0).x < depth_m;
 }
@@ -58,9 +58,9 @@ vec3 seen(ivec2 pixel) {
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = fresnel ? clamp(abs(dot(normalize(mat3(frame.world_from_view) * view), normalize(normal))), 0.0, 1.0) : 1.0;
     uint image = has_composed_water ? IMAGE_composed_water : IMAGE_composed;
-    vec3 through = told_mix(image, behind, IMAGE_transparent_color, own.rgb, own.a);
+    vec3 through = probed_mix(image, behind, IMAGE_transparent_color, own.rgb, own.a);
     float share = clamp(intensity * reflected_share(cosine), 0.0, 1.0);
-    return told_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(pixel, depth_m), share);
+    return probed_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(pixel, depth_m), share);
 }
 
 void main() {

@@ -16,7 +16,7 @@ Result trace(ivec2 texel, float depth_m, vec3 normal) {
     vec3 view = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);
     if (length_m <= 0.0) return Result(0.0, false, END_steps_exhausted, 0u, 0u);
     ScreenRay ray = screen_ray(start, view, mirror_direction(view, mat3(frame.view_from_world) * normal));
-    // The texels' own pixels lie somewhere in their blocks: in the middle, on average.
+    // The pixel of a texel may be any of its block, which is its middle on average.
     float scale = reduction(frame.size);
     vec2 size = vec2(frame.size.zw), middle = vec2(0.5 * scale);
     Grid grid = Grid((start - middle) / scale, ray.across / scale, middle, scale, size - 1.0, 1.0 / size);

@@ -11,9 +11,9 @@
 #include "shared/work_list.glsl"
 #include "source.glsl"
 
-// An invocation takes the four pixels of a half-resolution texel, which look at the same texels around: a workgroup's, and
-// one more on each side, where no list of tiles says that its texels lie elsewhere. When the resolution is not reduced it takes
-// one pixel, and the texel there.
+// An invocation processes the four pixels of a half-resolution texel, which share their neighbouring texels. These are in shared memory, those of a
+// workgroup and one more on each side, unless the pass runs over a list of tiles. At full resolution it processes one pixel and its
+// texel.
 struct Around {
     vec4 surface; // normal, in world axes; w: roughness
     vec3 place;   // in full-resolution pixels; z: depth in m, 0 without a ray
@@ -59,7 +59,7 @@ Pixel pixel_at(ivec2 pixel, float depth_m, vec4 surface, bool shown) {
     return p;
 }
 
-// How unlike the pixel's surface a texel's is; infinite without a ray.
+// The dissimilarity of a texel's surface to the pixel's; infinite if the texel has no ray.
 float cost(Pixel p, vec4 surface, vec3 place) {
     vec3 apart = surface.xyz - p.surface.xyz;
     vec2 beside = place.xy - p.place;
@@ -82,9 +82,9 @@ void store(ivec2 pixel, Pixel p, bool found, ivec2 own, ivec2 best) {
     imageStore(sharp_source, pixel, uvec4(sharp ? uint(5 + best.x + 3 * best.y) : 0u));
 }
 
-// The best of the texels around, relative to the pixels' own. The four nearest are the own one and those on the pixel's side
-// of it. On even surfaces two texels are often as good: what is better by less than the rounding of half floats can make up
-// does not decide, but the order does. Normals are apart by the square of that; equal roughnesses by two half steps, 2^-11.
+// The best neighbouring texel, relative to the pixel's own. The four nearest texels are the own one and those on the pixel's side of it. On flat
+// surfaces two texels are often equally good: differences below the rounding of half floats do not count, and the order decides. For normals
+// that is the square of the rounding; for roughness two half steps, 2^-11.
 const float ALIKE = 1e-3, ROUNDING = 1.0 / 2048.0;
 void match_block(ivec2 own) {
     ivec2 size = ivec2(frame.size.xy);

@@ -13,7 +13,7 @@
 #include "shared/work_list.glsl"
 #include "source.glsl"
 
-// What a texel weighs that is not of the pixel's surface: where none of the four is, the nearest mixture is better than nothing.
+// The small weight of texels of another surface, which are interpolated if none of the four is of the pixel's surface.
 const float ELSEWHERE = 1e-4;
 
 // 1 where a texel's sample lies in the pixel's plane.
@@ -33,7 +33,7 @@ vec4 mixture(ivec2 pixel, float depth_m, vec4 surface) {
     vec2 part = place - vec2(corner), between = vec2(corner + 1) / vec2(frame.size.zw);
     // Gather's order is (0,1) (1,1) (1,0) (0,0), the loops' (0,0) (1,0) (0,1) (1,1).
     vec4 depths_m = textureGather(sampler2D(depth_half, nearest_clamp), between).wzxy, near, same;
-    uint own = 0u; // the texel that stands for the pixel's surface
+    uint own = 0u; // the texel that represents the pixel's surface
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = corner + ivec2(i & 1, i >> 1);
         vec2 side = mix(1.0 - part, part, vec2(i & 1, i >> 1));
@@ -41,7 +41,7 @@ vec4 mixture(ivec2 pixel, float depth_m, vec4 surface) {
         used = used && is_pick_shown(texelFetch(pick, texel, 0).x);
         near[i] = used ? side.x * side.y : 0.0;
         same[i] = near[i] > 0.0 ? in_same_plane(position, normal, texel, depths_m[i]) : 0.0;
-        // Edges lie between texels: which side of them the pixel is on is for its own normal and roughness to say.
+        // Edges lie between texels; on which side the pixel is follows from its own normal and roughness.
         if (lobes && same[i] > 0.0) same[i] *= lobe_agreement(surface, texelFetch(normal_half, texel, 0), roughness_part);
         if (near[i] * same[i] > near[own] * same[own]) own = uint(i);
     }

@@ -1,4 +1,4 @@
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 // The last of the half-resolution images that the pipeline makes.
 vec4 half_color(ivec2 texel) {
@@ -7,7 +7,7 @@ vec4 half_color(ivec2 texel) {
     return texelFetch(reflection_half, texel, 0);
 }
 
-// The same, mixed in with a weight.
+// The same, recorded with a weight.
 vec4 taken_color(ivec2 texel, float weight) {
     vec4 color = half_color(texel);
     probe(PROBE_neighbour, vec4(texel, weight, color.r), vec4(color.gb, 0.0, 0.0));

@@ -11,14 +11,14 @@
 #include "shared/cube_filter.glsl"
 #define LIST_WORD(place) texelFetch(water_tiles, place).x
 #include "shared/work_list.glsl"
-#include "shared/probe/tell.glsl"
+#include "shared/probe/record.glsl"
 
 struct Water {
     vec3 position, towards, normal, own; // own: the light it scatters
     float thickness_m, opacity;
 };
 
-// How far the refracted ray goes to a bottom that the view ray `towards` meets after thickness_m: both sink as deep.
+// Length of the refracted ray to the bottom, if the view ray `towards` reaches the bottom after thickness_m: both descend equally deep.
 float way_through(vec3 towards, float thickness_m, vec3 refracted) {
     float sinks = max(-dot(refracted, frame.up.xyz), 0.05);
     return thickness_m * max(-dot(towards, frame.up.xyz), 0.0) / sinks;
@@ -26,10 +26,10 @@ float way_through(vec3 towards, float thickness_m, vec3 refracted) {
 
 ivec2 pixel_at(vec2 uv) { return clamp(ivec2(uv * vec2(frame.size.xy)), ivec2(0), ivec2(frame.size.xy) - 1); }
 
-// Where a point is seen.
+// The position of a point in the picture.
 vec2 seen_at(vec3 point) { return project(mat3(frame.view_from_world) * point, frame.uv_from_view, frame.depth_range.z); }
 
-// How thick the water is where that is seen; 0 where there is none.
+// The thickness of the water at that position; 0 without water.
 float thickness_at(vec2 uv, float way_m) {
     ivec2 there = pixel_at(uv);
     float thickness_m = texelFetch(water_normal, there, 0).w;
@@ -37,8 +37,8 @@ float thickness_at(vec2 uv, float way_m) {
     return thickness_m;
 }
 
-// What is behind the water. The bottom's depth is first taken where the view ray meets it, then where the refracted ray
-// does; a place where no water is, or something stands before it, says nothing of the bottom.
+// The colour behind the water. The bottom's depth is first taken where the view ray hits it, then where the refracted ray does; a position
+// without water, or with an object in front of it, does not show the bottom.
 vec3 seen_through(Water water, ivec2 pixel) {
     vec3 bottom = texelFetch(composed, pixel, 0).rgb;
     float way_m = water.thickness_m;
@@ -60,7 +60,7 @@ vec3 seen_through(Water water, ivec2 pixel) {
         }
     }
     float left = pow(max(1.0 - water.opacity, 0.0), depth ? way_m : 1.0);
-    return told_mix(IMAGE_water_color, water.own, IMAGE_composed, bottom, left);
+    return probed_mix(IMAGE_water_color, water.own, IMAGE_composed, bottom, left);
 }
 
 vec3 mirrored(Water water, ivec2 pixel) {
@@ -80,7 +80,7 @@ vec3 mirrored(Water water, ivec2 pixel) {
         color = around.rgb + color * (1.0 - around.a);
         under = IMAGE_mixture;
     }
-    return told_mix(under, color, IMAGE_planar_reflection, planar.rgb, planar.a);
+    return probed_mix(under, color, IMAGE_planar_reflection, planar.rgb, planar.a);
 }
 
 void main() {
@@ -102,7 +102,7 @@ void main() {
         float share = clamp(intensity * face_reflectance(cosine, index), 0.0, 1.0);
         probe_pixel(pixel);
         vec3 through = seen_through(water, pixel);
-        color = told_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(water, pixel), share);
+        color = probed_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(water, pixel), share);
     }
     imageStore(composed_water, pixel, vec4(color, 1.0));
 }

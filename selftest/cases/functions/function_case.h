@@ -1,4 +1,4 @@
-/* A function of passes/shared/ evaluated on the device over a table of arguments, and in double on the host. */
+/* A function of passes/shared/, evaluated on the device over a table of arguments and on the host in double precision. */
 #ifndef GLINT_SELFTEST_FUNCTION_CASE_H
 #define GLINT_SELFTEST_FUNCTION_CASE_H
 
@@ -9,8 +9,7 @@ enum { ARGUMENTS = 8, VALUES = 4 };
 
 enum scale { UNUSED, LINEAR, LOG, WHOLE };
 enum { ZERO = 1, ENDLESS = 2, NEGATIVE = 4 };
-/* Both ends are in the table, and every combination with those of the other arguments. `more`: so are 0, +inf; and all of it
-   with a minus. */
+/* The table contains both ends of the range, in every combination with those of the other arguments. `more` adds 0, +inf and the negative values. */
 struct axis {
     enum scale scale;
     double low, high;
@@ -21,12 +20,12 @@ enum measure { ULP, ABSOLUTE };
 
 struct function {
     const char *name, *what;
-    const char *glsl;  /* what stands in vec4(…); arguments are a.x … a.w, b.x … b.w */
-    const char *names; /* of the arguments, with spaces between them */
+    const char *glsl;  /* the arguments of vec4(…), which may use a.x … a.w, b.x … b.w */
+    const char *names; /* names of the arguments, separated by spaces */
     struct axis axes[ARGUMENTS];
-    void (*make)(float x[ARGUMENTS]); /* arguments from the axes' values; NULL: they are these */
+    void (*make)(float x[ARGUMENTS]); /* computes the arguments from the values of the axes; NULL: both are equal */
     void (*expect)(const double x[ARGUMENTS], double y[VALUES]);
-    int values; /* how many of the four are compared */
+    int values; /* the number of components that are compared */
     enum measure measure;
     double bound;
     const char *reason;

@@ -1,7 +1,7 @@
 /* Cases of stable.glsl, steps.glsl, cone.glsl and fog.glsl. */
 #include "cases/functions/function_case.h"
 
-/* Of base-2 exponentials and logarithms, and what follows from them; their factors to base e are in it. */
+/* Tolerances of base-2 exponentials and logarithms and of functions that use them, conversion to base e included. */
 #define EXP "exp is 3 + 2|x| ULP off (Vulkan)"
 #define LOGARITHM "log is 3 ULP off, between 0.5 and 2 absolute 2^-21 (Vulkan)"
 
@@ -13,7 +13,7 @@ static void expect_expm1(const double *x, double *y) {
 static void expect_expm1_below(const double *x, double *y) {
     y[0] = expm1(-x[0]);
 }
-/* Where x is small e^x - 1 has too few digits for it, in double too: the series, from its far end. */
+/* For small x, e^x - 1 cancels even in double precision: sums the series, smallest terms first. */
 static void expect_expm1_rest(const double *x, double *y) {
     y[0] = 1;
     for (int k = 30; k > 2; k--) y[0] = 1 + x[0] / k * y[0];
@@ -56,7 +56,7 @@ static void expect_unit(const double *x, double *y) {
     const double v[3] = {x[0] / most, x[1] / most, x[2] / most}, l = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     for (int k = 0; k < 3; k++) y[k] = v[k] / l;
 }
-/* Steps of 2^-10 of the power of two below, and of 2^-24 below 2^-14; a half at most is 65504. */
+/* Rounds to half: steps of 2^-10 relative to the power of two below, of 2^-24 for values below 2^-14; at most 65504. */
 static void expect_nearest_half(const double *x, double *y) {
     int exponent;
     for (int k = 0; k < 4; k++) {
@@ -66,14 +66,14 @@ static void expect_nearest_half(const double *x, double *y) {
     }
 }
 static void ties_of_halves(float *x) {
-    x[2] = (float)(1024 + floor((double)x[2])) + 0.5f; /* between two of them */
+    x[2] = (float)(1024 + floor((double)x[2])) + 0.5f; /* halfway between two halves */
     if (x[3] < 0) x[3] = NAN;
 }
 static void expect_finite(const double *x, double *y) {
     y[0] = isfinite(x[0]) && fabs(x[0]) < 3e38;
 }
 static void expect_storable(const double *x, double *y) {
-    for (int k = 0; k < 3; k++) y[k] = x[k] > x[3] ? x[3] : x[k]; /* a NaN stays one */
+    for (int k = 0; k < 3; k++) y[k] = x[k] > x[3] ? x[3] : x[k]; /* NaN stays NaN */
 }
 static void one_nan(float *x) {
     if (x[2] < 0) x[2] = NAN;
@@ -84,7 +84,7 @@ static void sometimes_nan(float *x) {
 
 /* ---- steps.glsl ---- */
 
-/* Sum of count steps of ratio 1 + d and first step 1. */
+/* The sum of `count` steps with ratio 1 + d and first step 1. */
 static double series(double d, double count) {
     return d == 0 ? count : expm1(count * log1p(d)) / d;
 }
@@ -97,7 +97,7 @@ static void expect_first_step(const double *x, double *y) {
 static void sum_near_count(float *x) {
     x[0] = (float)((double)x[1] * (1 + (double)x[0]));
 }
-/* The device's ratio is judged by the sum that it makes. */
+/* The device's ratio is checked by the sum that it yields. */
 static void expect_ratio(const double *x, double *y) {
     double low = -1, high = 1;
     while (series(high, x[1]) < x[0]) high *= 2;
@@ -112,7 +112,7 @@ static void expect_ratio(const double *x, double *y) {
 /* ---- cone.glsl ---- */
 
 static double tangent(double angle) {
-    return tan(fmin(angle, (double)1.57f)); /* the shader's end is a float */
+    return tan(fmin(angle, (double)1.57f)); /* the shader's limit is a float */
 }
 static void expect_cone_tangent(const double *x, double *y) {
     y[0] = tangent(x[0]);

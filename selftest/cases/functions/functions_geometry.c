@@ -51,13 +51,13 @@ static void texel_of_size(float *x) {
 static void expect_texel(const double *x, double *y) {
     y[0] = x[0];
     y[1] = x[1];
-    y[2] = 18 + x[2]; /* of cube map 3 */
+    y[2] = 18 + x[2]; /* layer of cube map 3 */
 }
-/* A texel's centre, and the cube map that its layer is of. */
+/* The centre of a texel, and the cube map of its layer. */
 static void expect_texel_direction(const double *x, double *y) {
     const double u = 2 * (x[0] + 0.5) / x[3] - 1, v = 2 * (x[1] + 0.5) / x[3] - 1;
     const int face = (int)x[2] % 6;
-    /* The specification's table, read backwards. */
+    /* The inverse of the specification's table. */
     const double d[6][3] = {{1, -v, -u}, {-1, -v, u}, {u, 1, v}, {u, -1, -v}, {u, -v, 1}, {-u, -v, -1}};
     for (int k = 0; k < 3; k++) y[k] = d[face][k];
     y[3] = floor(x[2] / 6);
@@ -103,7 +103,7 @@ static void expect_picked(const double *x, double *y) {
     y[1] = 2 * x[1] + (x[2] < 4 ? floor(x[2] / 2) + 0.5 : 1);
 }
 
-/* Full resolutions, odd ones too, and what half of them is, rounded up; in some, all is full. */
+/* Full resolutions, some of them odd, with half resolution rounded up; some pipelines run at full resolution. */
 static void sizes_of(float *x) {
     for (int k = 0; k < 2; k++) x[k] = floorf(x[k] * (x[3 + k] - 1) / 2 + 0.5f);
     for (int k = 0; k < 2; k++) x[5 + k] = x[7] == 0 ? x[3 + k] : floorf((x[3 + k] + 1) / 2);
@@ -129,7 +129,7 @@ static void expect_slopes(const double *x, double *y) {
     for (int k = 0; k < 2; k++) next[k] = now + x[k] * 2 * texel;
     for (int k = 0; k < 2; k++) y[k] = now < 0 ? next[k] / now - 1 : (double)3.0e38f;
 }
-/* Normals that face the viewer enough for their cosine not to be all rounding. */
+/* Normals whose cosine to the view direction is well above the rounding error. */
 static void facing(float *x) {
     x[2] = 1;
     const float l = sqrtf(x[0] * x[0] + x[1] * x[1] + 1);
@@ -155,13 +155,13 @@ static void odd_or_even(float *x) {
     x[1] = fmaxf(floorf(x[2] / 2), 1);
     x[0] = floorf(fminf(x[0] * x[1], x[1] - 1));
 }
-/* The part of each finer texel that lies within the coarse one's stretch, over that stretch. */
+/* The fraction of the coarse texel that each finer texel covers. */
 static void expect_footprint(const double *x, double *y) {
     const double wide = x[2] / x[1], low = x[0] * wide, high = low + wide;
     const double first = floor(low + 1e-9);
     for (int k = 0; k < 2; k++) y[k] = fmax(0, fmin(high, first + k + 1) - fmax(low, first + k)) / wide;
     y[2] = first;
-    y[3] = ceil(high - 1e-9) - first; /* the last one's share is what is left */
+    y[3] = ceil(high - 1e-9) - first; /* the last texel covers the rest */
 }
 static void expect_is_tap(const double *x, double *y) {
     y[0] = hypot(x[0], x[1]) <= x[2] + 1e-9;
@@ -176,7 +176,7 @@ static void expect_taps_beside(const double *x, double *y) {
 static void expect_side(const double *x, double *y) {
     for (int k = 0; k < 4; k++) y[k] = floor(fmin(fmax(x[k], 0), 1) * 3 + 0.5) / 3;
 }
-/* Away from the halves between thirds, where rounding decides. */
+/* Avoids the midpoints between thirds, where rounding decides. */
 static void thirds(float *x) {
     for (int k = 0; k < 4; k++) {
         const float place = x[k] * 3 - floorf(x[k] * 3);
@@ -184,7 +184,7 @@ static void thirds(float *x) {
     }
 }
 
-/* The sides between the texels of a block: across its upper and lower row, down its left and right column. */
+/* The edges between the texels of a block: in its upper and lower row, in its left and right column. */
 static void expect_block(const double *x, double *y) {
     const double across[2] = {x[0] / 3, x[1] / 3}, down[2] = {x[2] / 3, x[3] / 3};
     const int column = (int)x[4] % 2, row = (int)x[4] / 2;

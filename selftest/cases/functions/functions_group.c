@@ -70,8 +70,7 @@ static double axis_value(const struct axis *axis, double u) {
     return sign * (axis->low + (axis->high - axis->low) * u);
 }
 
-/* First all combinations of the ends (as many as half of the table holds, evenly selected), then points of a lattice that is
-   dense in every axis. */
+/* All combinations of the ends, or an even selection that fills half of the table, and then points of a lattice that is dense in every axis. */
 static void fill_arguments(const struct function *f, size_t i, size_t points, float x[ARGUMENTS]) {
     static const double steps[ARGUMENTS] = {1.4142135623730951, 1.7320508075688772, 2.23606797749979,
                                             2.6457513110645907, 3.3166247903554,    3.605551275463989,
@@ -112,7 +111,7 @@ static const char helpers_of_cubes[] =
     "    for (int i = 0; i < 4; ++i) sum += taps.weight[i] * vec4(taps.direction[i], 1.0);\n"
     "    return sum; }\n";
 static const char tail[] =
-    "    return y;\n" /* one for all: a device may nest what follows a return, and some count how deep */
+    "    return y;\n" /* a single return, since devices may nest code after a return and limit the nesting depth */
     "}\n"
     "void main() {\n"
     "    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
@@ -211,7 +210,7 @@ static bool evaluate_table(const struct case_context *context, const char *captu
 
 /* ---- Errors ---- */
 
-/* What a float of this size may be off by in the last place; below the smallest normal number a device may flush to 0. */
+/* The last place of a float of this size. Below the smallest normal number a device may flush to 0. */
 static double last_place(double value) {
     int exponent;
     frexp(fmax(fabs(value), (double)FLT_MIN), &exponent);
@@ -251,7 +250,7 @@ static void compare_values(const struct function *f, const float x[ARGUMENTS], c
         normal[k] = fabs(exact[k]) < (double)FLT_MIN ? 0 : exact[k];
     }
     f->expect(exact, expected);
-    f->expect(normal, flushed); /* as Vulkan grants: a device may take a denormal for 0 */
+    f->expect(normal, flushed); /* Vulkan permits devices to treat denormals as 0 */
     for (int k = 0; k < f->values; k++) {
         const double error =
             nearer(error_of(f, (double)found[k], expected[k]), error_of(f, (double)found[k], flushed[k]));

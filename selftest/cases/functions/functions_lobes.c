@@ -10,7 +10,7 @@ static const double threshold = 0.1;
 static double power(double roughness) {
     return 2 / pow(roughness, 4) - 2;
 }
-/* acos(threshold^(1/n)) by its sine, which does not cancel. */
+/* acos(threshold^(1/n)), computed from its sine to avoid cancellation. */
 static double lobe(double roughness) {
     return roughness >= 1 ? pi / 2 : roughness <= 0 ? 0 : asin(sqrt(-expm1(2 * log(threshold) / power(roughness))));
 }
@@ -62,7 +62,7 @@ static void expect_phong_ray(const double *x, double *y) {
     const double n = power(x[2]), c = sqrt(1 - x[0] * x[0]), along = x[0] * sqrt(1 - x[1] * x[1]) + c * x[1];
     y[0] = 8 * along / ((n + 1) * pow(c, n));
 }
-/* The paper's listing in double. That its density is the right one, tests of the distribution say. */
+/* The paper's listing in double precision. Its density is tested by cases of the distribution. */
 static void expect_visible(const double *x, double *y) {
     if (x[3] <= 0) {
         y[0] = y[1] = 0, y[2] = 1;
@@ -87,7 +87,7 @@ static void expect_ggx_spread(const double *x, double *y) {
 /* Mean of 2 sin²θ over cosⁿ above c by the moments of the cosine: 1 - (n+1)/(n+3) (1 - c^(n+3))/(1 - c^(n+1)). */
 static void expect_phong_spread(const double *x, double *y) {
     const double n = power(x[0]), l = x[1];
-    const double rest = exp(l) * expm1(2 / (n + 1) * l) / expm1(l); /* of the quotient of the two, less one */
+    const double rest = exp(l) * expm1(2 / (n + 1) * l) / expm1(l); /* the quotient of both, minus 1 */
     y[0] = x[0] <= 0 || l >= 0 ? 0 : 2 * (2 - (n + 1) * rest) / (n + 3);
 }
 
@@ -102,8 +102,8 @@ static void expect_filling(const double *x, double *y) {
     const double m = fmax((1 - 2 * lacking), (double)0.01f) / lacking * 2 / (1 + x[2] * x[2]);
     y[0] = fmin(2 * asin(sqrt(-expm1(log(threshold) / m) / 2)), (double)1.45f);
 }
-/* GGX: of the visible normals' cap, what reflects above the horizon (Eto and Tokuyoshi), of which a tenth at most is left out;
-   and what the cut keeps of all. */
+/* GGX: the part of the cap of visible normals that reflects above the horizon (Eto and Tokuyoshi), at most a tenth of which is cut; and the part of
+   all normals that the cut keeps. */
 static void expect_ggx_cone(const double *x, double *y) {
     const double a2 = fmin(x[0] * x[0], (double)0.999f), c = x[2], s = 1 + sqrt(fmax(1 - c * c, 0));
     const double z = c / sqrt(a2 * (1 - c * c) + c * c), k = (1 - a2) * s * s / (s * s + a2 * c * c);
@@ -122,7 +122,7 @@ static void wider(float *x) {
     x[1] = x[0] + x[1] * (0.5f - x[0]);
 }
 
-/* Of the whole lobe what is above the horizon: half-vectors up to 45 degrees. */
+/* The part of the whole lobe above the horizon: half-vectors up to 45 degrees. */
 static void expect_phong_cone(const double *x, double *y) {
     const double n = power(x[0]), horizon = (n + 1) * log(0.5) / 2;
     const double cut = fmax((n + 1) * log1p(-2 * pow(sin(x[1] * lobe(x[0]) / 2), 2)), horizon);
@@ -145,7 +145,7 @@ static void expect_frame(const double *x, double *y) {
     y[0] = y[1] = y[3] = 1;
     y[2] = 0;
 }
-/* R = (rs² + rp²)/2, with the angle inside by Snell's law. */
+/* R = (rs² + rp²)/2, with the refracted angle by Snell's law. */
 static void expect_fresnel(const double *x, double *y) {
     const double inside = cos(asin(sqrt(1 - x[0] * x[0]) / x[1]));
     const double s = (x[0] - x[1] * inside) / (x[0] + x[1] * inside),
@@ -158,7 +158,7 @@ static void expect_normal_reflectance(const double *x, double *y) {
 static void expect_grazing(const double *x, double *y) {
     y[0] = y[1] = y[2] = fmin(50 * x[0], 1);
 }
-/* A mirror: Schlick, F0 + (1 - F0)(1 - cos)^5, with the rise that grazing angles have. */
+/* A mirror: Schlick's F0 + (1 - F0)(1 - cos)^5. */
 static void expect_mirror(const double *x, double *y) {
     const double s = pow(1 - x[1], 5);
     y[0] = x[0] * (1 - s) + fmin(50 * x[0], 1) * s;

@@ -1,11 +1,11 @@
-/* Cases of random.glsl, blue_noise.glsl, bayer.glsl and plus.glsl: integers, to the last bit. */
+/* Cases of random.glsl, blue_noise.glsl, bayer.glsl and plus.glsl, whose integers must match exactly. */
 #include <stdint.h>
 
 #include "cases/functions/function_case.h"
 
 /* ---- random.glsl ---- */
 
-/* pcg4d as the paper prints it. */
+/* pcg4d as printed in the paper. */
 static void pcg4d(uint32_t v[4]) {
     for (int i = 0; i < 4; i++) v[i] = v[i] * 1664525u + 1013904223u;
     v[0] += v[1] * v[3], v[1] += v[2] * v[0], v[2] += v[0] * v[1], v[3] += v[1] * v[2];
@@ -21,7 +21,7 @@ static void expect_random(const double *x, double *y) {
     pcg4d(v);
     for (int i = 0; i < 4; i++) y[i] = open_interval(v[i]);
 }
-/* Numbers of 32 bits come in two floats and go in two. */
+/* Integers of 32 bits are passed as two floats. */
 static uint32_t whole(const double *x) {
     return (uint32_t)x[0] << 16 | (uint32_t)x[1];
 }
@@ -37,7 +37,7 @@ static void expect_hash(const double *x, double *y) {
 }
 static void expect_frame_number(const double *x, double *y) {
     (void)x;
-    halves(1, y); /* of the frame that this runs in; its first ray adds nothing */
+    halves(1, y); /* the frame number of this run, whose first ray adds 0 */
 }
 
 /* ---- blue_noise.glsl ---- */
@@ -79,11 +79,11 @@ static uint32_t owen(uint32_t v, uint32_t seed) {
 static void expect_owen(const double *x, double *y) {
     halves(owen(whole(x), whole(x + 2)), y);
 }
-/* What makes it a scrambling: up to the first bit in which two numbers differ, their scrambled ones agree, and there they differ. */
+/* The defining property of Owen scrambling: two scrambled numbers agree up to the first bit in which the numbers differ, and differ there. */
 static void expect_first_bit(const double *x, double *y) {
     y[0] = y[1] = 31 - x[4];
 }
-/* Digits from the highest down, each permuted by a hash of those above it: Fisher and Yates. */
+/* Each digit, from the highest down, is permuted by a hash of the digits above it (Fisher and Yates). */
 static uint32_t shuffled(uint32_t index, uint32_t seed) {
     uint32_t result = 0;
     for (int digit = 15; digit >= 0; digit--) {

@@ -1,4 +1,4 @@
-/* Where values are bad, and which pixels these may change. */
+/* Places invalid values in captures and finds the pixels that they may affect. */
 #include "cases/garbage/garbage_effects.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { PLACES = 14 };
 
-/* Of a picture 192 x 128. */
+/* In a picture of 192 x 128 pixels. */
 static void floor_place(size_t i, uint32_t place[2]) {
     place[0] = (uint32_t)(16 + 25 * (i % 7) + i % 2);
     place[1] = (uint32_t)(i < 7 ? 100 + i / 2 % 2 : 119 + i / 2 % 2);
@@ -40,7 +40,7 @@ static void spoil_sky(const struct open_box *box, float value, float *plane, uin
     }
 }
 
-/* The texel of a cube map that shows what is at the first place on the walls. Faces are Vulkan's. */
+/* The texel of a cube map that shows the first position on the walls. Faces are in Vulkan's order. */
 static size_t texel_of(const struct open_box *box, const char *part) {
     const double place[2] = {wall_places[0][0] + 0.5, wall_places[0][1] + 0.5};
     double depth, center[3], d[3];
@@ -77,7 +77,7 @@ static bool within_px(const double a[2], const double b[2], double reach_px) {
     return fabs(a[0] - b[0]) <= reach_px && fabs(a[1] - b[1]) <= reach_px;
 }
 
-/* Whether a place is a bad pixel or near one, or, on walls, mirrors one. */
+/* Whether a position is at or near an invalid pixel, or, for walls, mirrors one. */
 static bool near_bad(const struct garbage_case *c, const struct open_box *box, const double place[2], double reach_px) {
     struct open_box_ray ray;
     const bool mirrors = c->where == GARBAGE_WALL && reach_px > 0 && open_box_reflect(box, place, &ray) && ray.in_front;
@@ -90,7 +90,7 @@ static bool near_bad(const struct garbage_case *c, const struct open_box *box, c
     return false;
 }
 
-/* Whether a ray ends where some cube map shows it by the bad texel or one beside it. */
+/* Whether a ray ends at a point that some cube map shows in the invalid texel or a neighbour of it. */
 static bool ends_in_texel(const struct open_box *box, const double place[2], double travelled_m) {
     const double wall[2] = {wall_places[0][0] + 0.5, wall_places[0][1] + 0.5};
     const bool endless = !(travelled_m < INFINITY);
@@ -114,7 +114,7 @@ static bool ends_in_texel(const struct open_box *box, const double place[2], dou
     return false;
 }
 
-/* The pixels that rays which end there may change: those of their texel, and of two around it. */
+/* The pixels that rays ending there may affect: those of the ray's texel and of two texels around it. */
 static void mark_around(const struct open_box *box, const struct picture *travelled, enum garbage_effect *effects) {
     const uint32_t scale = box->width / travelled->width;
     for (uint32_t y = 0; y < travelled->height; y++)
@@ -136,8 +136,9 @@ void garbage_mask(const struct garbage_case *c, const struct open_box *box, cons
         for (uint32_t x = 0; x < box->width; x++) {
             const double place[2] = {x + 0.5, y + 0.5};
             enum garbage_effect *effect = &effects[(size_t)y * box->width + x];
-            const bool near = c->reach_px > box->width || *effect == GARBAGE_FINITE ||
-                              near_bad(c, box, place, c->reach_px); /* of texels there are no places */
+            const bool near =
+                c->reach_px > box->width || *effect == GARBAGE_FINITE ||
+                near_bad(c, box, place, c->reach_px); /* invalid texels of cube maps have no positions in the picture */
             const bool bad = c->where == GARBAGE_WALL && near_bad(c, box, place, 0);
             *effect = bad || (near && c->direct) ? GARBAGE_ANYTHING : near ? GARBAGE_FINITE : GARBAGE_NO_EFFECT;
         }

@@ -1,4 +1,4 @@
-/* The group "garbage": bad values spoil what depends on them directly and nothing else. */
+/* The group "garbage": invalid values affect only what depends on them directly. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,8 +14,8 @@
 #define KINDS {{"gbuffer", "depth.Z", NAN}, {"gbuffer", "depth.Z", 0}, {"gbuffer", "depth.Z", -3}, {"gbuffer", "depth.Z", 1e-30f}, {"gbuffer", "depth.Z", 3.2e38f}, {"gbuffer", "depth.Z", INFINITY}, {"gbuffer", "normal.Y", NAN}, {"gbuffer", "normal.X", INFINITY}, {"gbuffer", "normal.Y", 0}, {"gbuffer", "material.roughness", NAN}, {"gbuffer", "material.roughness", -1}, {"gbuffer", "material.roughness", 1e9f}, {"gbuffer", "motion.X", NAN}, {"gbuffer", "motion.Y", INFINITY}}
 #define PRESET(name, reach) {"bad pixels of every kind, " name, "14 kinds in pixels of the floor: every other pixel is as without them, and all are finite", name, .list = KINDS, .roughness = 0.3f, .reach_px = reach, .bound = 1e-6, .reason = ROUNDS}
 #define SKY(name) {"stale channels under sky, " name, "normals, roughness, colours and motion of the sky's pixels, which mean nothing: nothing changes", name, .where = GARBAGE_SKY, .list = {{"gbuffer", "normal.X", NAN}, {"gbuffer", "normal.Y", 1e9f}, {"gbuffer", "normal.Z", -1}, {"gbuffer", "material.roughness", INFINITY}, {"gbuffer", "material.metalness", NAN}, {"gbuffer", "material.specular", 1}, {"gbuffer", "albedo.R", INFINITY}, {"gbuffer", "albedo.G", 1}, {"gbuffer", "albedo.B", NAN}, {"gbuffer", "motion.X", NAN}, {"gbuffer", "motion.Y", 5}}, .roughness = 0.3f, .frames = 2, .reason = "nothing reads them"}
-/* `only` may cut the lobe: a ray of its far tail has a cone that spans much of the picture, bad pixels included, and whether some pixel
-   draws one is a matter of the random numbers. Of the lobe's middle the reach is known. */
+/* `only` may cut the lobe: the cone of a ray in its far tail spans much of the picture, invalid pixels included, and whether a pixel draws such a
+   ray depends on its random numbers. The reach of the middle of the lobe is known. */
 #define LIGHT(name, with, only, bare, last, bad, part, value) {name, "two pixels of walls: what does not mirror them is as without them, and all but them are finite", with, only, .direct = bare, .where = GARBAGE_WALL, .list = {{part, "G", value}}, .roughness = 0.05f, .frames = last, .bad_frame = bad, .reach_px = 16, .bound = 1e-6, .reason = ROUNDS}
 #define ROUGH(name, part, only, place, last) {name, "what many rays of a rough floor look at, in pixels of walls or in a texel: all but it is finite", "mafia3", only, .where = place, .list = {{part, "G", NAN}}, .roughness = 0.5f, .frames = last, .bad_frame = 1, .cube_size = 64, .reach_px = INFINITY, .reason = "filters drop it"}
 #define TEXEL(name, with, bare, channel, value) {name, "one texel of each cube map, and no screen: rays that end elsewhere bring what they do without it", with, bare ? NULL : "screen_trace.length_m=0", .cube_size = bare ? 32 : 64, .direct = bare, .where = GARBAGE_TEXEL, .list = {{"cubemap", channel, value}}, .roughness = 0.05f, .bound = 1e-6, .reason = ROUNDS}
@@ -103,7 +103,7 @@ static void compare_pictures(const struct picture *clean, const struct picture *
         }
 }
 
-/* A pipeline, and what it makes of the box as it should be; cases that are alike share both. */
+/* A pipeline and its result for the valid box, which similar cases share. */
 struct bench {
     struct pictures pictures;
     const struct garbage_case *of; /* NULL: of none */
@@ -145,7 +145,7 @@ static bool prepare_clean(struct bench *bench, const struct case_context *contex
     return true;
 }
 
-/* Rays bring what is bad, levels 0 copy it, and the picture shows its own pixels; whatever filters leaves it out. */
+/* Rays transport invalid values, finest MIP levels copy them, and the picture contains its own pixels; every filter leaves them out. */
 static bool is_direct(const struct glint_bad_values *bad) {
     static const char *const images[] = {
         "reflection_half",   "reflection_sharp",     "composed", "lit_mips", "cubemap_color_mips",
@@ -178,7 +178,7 @@ static bool run_case(struct bench *bench, const struct garbage_case *c, struct g
     if (ok) {
         garbage_mask(c, &box, &bench->travelled, effects);
         compare_pictures(&bench->clean, &spoiled, effects, finding);
-        if (isinf(c->reach_px)) ok = check_filters(bench, finding, err); /* rough: blurred before anything else */
+        if (isinf(c->reach_px)) ok = check_filters(bench, finding, err); /* rough surfaces, which are blurred first */
     }
     free(effects), free(spoiled.values);
     return ok;

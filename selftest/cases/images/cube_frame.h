@@ -1,4 +1,4 @@
-/* Captures with cube maps of any texels, seen by a camera away from the origin, and numbers that shaders draw as random.glsl does. */
+/* Captures with cube maps of arbitrary texels and a camera away from the origin, and the random numbers of random.glsl. */
 #ifndef GLINT_SELFTEST_CUBE_FRAME_H
 #define GLINT_SELFTEST_CUBE_FRAME_H
 
@@ -14,12 +14,12 @@ struct cube_frame {
     struct planes parts[CUBE_FRAME_MOST + 1];
 };
 
-/* Colour, alpha and distance of a texel: its number, its direction. */
+/* Sets colour, alpha and distance of a texel by its number and direction. */
 typedef void (*cube_frame_texel)(uint32_t cube, size_t texel, const double direction[3], float out[5]);
 
 static const double cube_frame_eye[3] = {20, -3, 7}; /* where the camera is */
 
-/* Further parts follow the cube maps' in frame.more. */
+/* Further parts follow those of the cube maps in frame.more. */
 void cube_frame_fill(struct cube_frame *c, uint32_t size, uint32_t count, cube_frame_texel paint);
 
 /* random4(uvec2(x, y), 5u, dimension) */

@@ -1,5 +1,5 @@
-/* Cases of what captures hold: every encoding decoded, at its ends too, against double precision on the values as stored; and
-   what reaches the device of them. */
+/* Cases of captures: decodes every encoding, also at the ends of its range, and compares with double precision on the stored values; checks what
+   reaches the device. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,11 +13,11 @@
 enum { WIDTH = FRAME_WIDTH, HEIGHT = FRAME_HEIGHT, POINTS = FRAME_PIXELS };
 
 struct decoding {
-    const char *channels[4]; /* what is read; NULL-terminated */
+    const char *channels[4]; /* the channels to read, NULL-terminated */
     const char *part;
     struct glint_encodings encodings;
-    void (*frame)(struct glint_frame *frame); /* what is not ordinary; NULL: nothing */
-    /* The stored values of point i, u in [0, 1): in the order of `channels`; every value from 0 to 1 where NULL. */
+    void (*frame)(struct glint_frame *frame); /* changes the frame's attributes, or NULL */
+    /* The stored values of point i in the order of `channels`, with u in [0, 1); NULL: values from 0 to 1. */
     void (*store)(size_t i, double u, double v, double stored[3]);
     void (*expect)(const struct glint_frame *frame, const double stored[3], double y[3]);
     bool relative, packed;

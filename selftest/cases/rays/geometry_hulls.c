@@ -1,11 +1,11 @@
-/* Cocoons and chains of cube maps that are nearly all sky. */
+/* Cocoons and distance chains of cube maps that are nearly all sky. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "cases/rays/rays_lists.h"
 
-/* Cube maps whose one texel, of face +Y, sees something, or nothing does. */
+/* Cube maps in which a single texel of face +Y shows a surface, or none does. */
 enum { CUBE = 64, WIDE = 8 };
 static const uint32_t texel[2] = {37, 11};
 static const float far_m = 3.7f;
@@ -20,12 +20,12 @@ static void speck_texel(uint32_t number, const double d[3], float out[5]) {
 static void replay_speck(struct case_run *run, const struct replay_case *c) {
     struct plain plain = {
         .width = WIDE, .height = WIDE, .fov_y_degrees = 60, .cube_size = CUBE, .cube_count = 2, .cube = speck_texel};
-    plain.cubes[1].center[0] = 1; /* the other one, all of sky, is farther from the camera */
+    plain.cubes[1].center[0] = 1; /* the other cube map is all sky and farther from the camera */
     case_run_pipeline(run, c->use);
     case_run_plain(run, &plain);
 }
 
-/* Which of a level's texels the one that sees something lies in. */
+/* The texel of a MIP level that contains the texel with a surface. */
 static bool holds_speck(uint32_t i, uint32_t width, uint32_t level) {
     const uint32_t face = i / (width * width), x = i % width, y = i / width % width;
     return face == 2 && x == texel[0] >> level && y == texel[1] >> level;
@@ -52,8 +52,8 @@ static void check_chain(struct case_run *run, const struct replay_case *c, struc
     }
 }
 
-/* The farthest of what there is is one distance; a maximum over it is that again, whatever its weights. What is not seen but
-   filled in is a cap, a negative distance, down to the cocoon's level, which is 32 wide. */
+/* There is a single distance, so that any weighted maximum returns it. Sky texels that are filled in are caps, with negative distances, down to the
+   cocoon's level, which is 32 wide. */
 static void check_cocoon(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding) {
     replay_speck(run, c);
     for (uint32_t level = 0; run->ok && CUBE >> level; level++) {
@@ -72,7 +72,7 @@ static void check_cocoon(struct case_run *run, const struct replay_case *c, stru
     }
 }
 
-/* Samples on the borders of faces, 32 in a row: one over the distance along the axis. */
+/* Samples of 1 / distance along the axis, 32 in a row, up to the borders of faces. */
 static void check_samples(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding) {
     uint32_t width = 0, height = 0;
     replay_speck(run, c);

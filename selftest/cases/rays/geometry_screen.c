@@ -1,11 +1,11 @@
-/* Rays through the depth buffer in hard directions and past hard surfaces, each checked by screen_rays.c. */
+/* Rays through the depth buffer in difficult directions and past difficult surfaces, each checked by screen_rays.c. */
 #include "cases/rays/rays_lists.h"
 #include "cases/rays/screen_rays.h"
 #include "oracles/plane_scene.h"
 
 enum { WIDE = 97, HIGH = 61 };
 #define LINEAR SCREEN_TRACED "linear screen_trace.dither=false"
-/* Which side of its own surface a ray that runs within it sees, rounding says. */
+/* For a ray within its own surface, rounding decides on which side it is. */
 #define EITHER_SIDE LINEAR " screen_trace.back_faces=false"
 
 static void check_rays(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding) {
@@ -26,7 +26,7 @@ static void check_rails(struct case_run *run, const struct replay_case *c, struc
     }
 }
 
-/* All depths from half of the near plane's on, pixel beside pixel. */
+/* All depths from half of the near plane's on, in adjacent pixels. */
 static void check_near(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding) {
     const struct plane_scene scene = {.rays = (enum plane_scene_rays)c->number, .seed = 1, .flat_m = {0.05, 0.5}};
     const struct plain plain = plane_scene_capture(&scene, WIDE, HIGH);

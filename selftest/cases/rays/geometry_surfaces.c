@@ -1,4 +1,4 @@
-/* Surfaces that rays start from: which pixel of a block, and the normals drawn around theirs. */
+/* Surfaces that rays start from: the pixel that is picked in a block, and the normals that are drawn around its normal. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 enum { WIDE = 97, HIGH = 61 };
 
-/* What downsampling made, at full resolution; axes of the world. */
+/* The results of downsampling at full resolution, in world space. */
 struct drawn {
     uint32_t width, height;
     float *depth_m, *normal, *jittered, *cone, *inverse;
@@ -40,7 +40,7 @@ static double dot(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* A pixel's unit normal, the one drawn, and the way to the viewer; false where it has no ray. */
+/* A pixel's unit normal, the drawn normal and the direction to the viewer; false if the pixel has no ray. */
 struct pixel {
     double normal[3], drawn[3], to_viewer[3],
         height; /* height: of the ray that the drawn normal leads to, over the surface */
@@ -90,7 +90,7 @@ static void check_smooth(struct case_run *run, const struct replay_case *c, stru
     drawn_free(&d);
 }
 
-/* No normal leads a ray below the surface, nor does a cone around it reach there; and most are others than the surface's. */
+/* No drawn normal reflects a ray below the surface, and no cone reaches below it; most drawn normals differ from the surface's. */
 static void check_horizon(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding) {
     size_t others = 0, all = 0;
     for (int step = 1; step <= 4; step++) {
@@ -113,7 +113,7 @@ static void check_horizon(struct case_run *run, const struct replay_case *c, str
     if (run->ok && 2 * others < all) finding_compare(finding, INFINITY, "%zu of %zu normals are drawn", others, all);
 }
 
-/* Kolmogorov's distance of values from an even distribution in [0, 1]. */
+/* The Kolmogorov distance of values from the uniform distribution in [0, 1]. */
 static double unevenness(double *values, size_t count) {
     double most = 0;
     glint_sort_doubles(values, count);
@@ -123,8 +123,8 @@ static double unevenness(double *values, size_t count) {
     return most;
 }
 
-/* GGX of roughness 1 seen from above has visible normals by cos θ/π: cos² θ is even in [0, 1], and so is the azimuth. Those
-   beyond 45° lead below the horizon, and are drawn again. */
+/* GGX of roughness 1 seen from above has visible normals with density cos θ/π, so that cos² θ is uniform in [0, 1], as is the azimuth. Normals beyond
+   45° reflect below the horizon and are drawn again. */
 static void check_roughest(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding) {
     struct drawn d = {0};
     double *values = malloc(2 * (size_t)WIDE * HIGH * sizeof *values);
@@ -150,8 +150,8 @@ static void check_roughest(struct case_run *run, const struct replay_case *c, st
 
 /* ---- Which pixel stands for a block ---- */
 
-/* The pixel that a block of inverse depths takes, 0 where sky, -1 outside of the picture. On either side of a gap of a
-   twentieth the larger side counts, the near one of two even ones; of two diagonals every other block takes the far one. */
+/* The pixel that is picked in a block of inverse depths, which are 0 for sky and -1 outside of the picture. A gap of a twentieth divides the block in
+   two sides, of which the one with more pixels counts, or the near one if both are equal; of two diagonals every other block takes the far one. */
 static uint32_t pick_of(const double inverse[4], uint32_t x, uint32_t y, uint32_t frame) {
     static const uint32_t preferred[4] = {0, 3, 1, 2};
     double near = 0, far = INFINITY;

@@ -1,5 +1,5 @@
-/* The groups "geometry", rays that are hard on arithmetic against closed forms and references in double precision, and "sizes",
-   pictures and cube maps as small and as large as any, and odd ones. */
+/* The group "geometry": numerically difficult rays against closed forms and references in double precision. The group "sizes": very small, very
+   large and odd pictures and cube maps. */
 #include "cases/groups.h"
 #include "cases/rays/rays_lists.h"
 

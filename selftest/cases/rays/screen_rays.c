@@ -1,6 +1,6 @@
-/* Every ray of a picture through the depth buffer against a replay in double precision (depth_traversal.h, depth_march.h) of the depths
-   and normals that the pass read. Where the two part on a decision, the replay is made again with its ray and its gaps rounded
-   in other ways: a decision that one of these makes too was a tie, which is counted; otherwise the case fails. */
+/* Compares every ray of a picture through the depth buffer with a replay in double precision (depth_traversal.h, depth_march.h) of the depths and
+   normals that the pass read. If a decision differs, the replay is repeated with its ray and its gaps rounded in other ways: a decision that one of
+   these makes, too, was a tie, which is counted; otherwise the case fails. */
 #include "cases/rays/screen_rays.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 enum { ROUNDINGS = 24 };
 static const double direction_rounding = 5e-7, gap_rounding = 1e-6;
 
-/* What became of the rays. */
+/* The results of the rays. */
 struct traced {
     uint32_t width, height;
     float *travelled, *depth_m, *normal;
@@ -45,7 +45,7 @@ static void traced_free(struct traced *traced) {
     free(traced->normal);
 }
 
-/* One replay; way 0 is the exact one. */
+/* A replay; way 0 is the exact one, others round differently. */
 static uint32_t reference_end(const struct traced *traced, const struct depth_ray *ray, uint32_t way, double *t) {
     const struct depth_ray rounded = depth_ray_rounded(ray, way ? direction_rounding : 0, way);
     struct depth_grid grid = traced->grid;
@@ -55,7 +55,7 @@ static uint32_t reference_end(const struct traced *traced, const struct depth_ra
                            : traversal_end(&grid, &rounded, &traced->walk, t);
 }
 
-/* How far apart two ends of a ray are in the picture: parts of its width, or of the start's inverse depth. */
+/* The distance between two ends of a ray: as a fraction of the picture's width, or of the start's inverse depth. */
 static double end_error(const struct depth_grid *grid, const struct depth_ray *ray, double a, double b) {
     double p[2], q[2], z[2];
     if (a == b) return 0;
@@ -65,8 +65,7 @@ static double end_error(const struct depth_grid *grid, const struct depth_ray *r
     return fmax(hypot(p[0] - q[0], p[1] - q[1]) / grid->width, fabs(1 / z[0] - 1 / z[1]) * start);
 }
 
-/* Of replays that are rounded in other ways and end for the same reason, how far outside of what they span the ray ended;
-   infinite: none does. */
+/* How far the ray ended outside of the interval that differently rounded replays with the same end reason span; infinite if there are none. */
 static double error_beyond_rounding(const struct traced *traced, const struct depth_ray *ray, uint32_t reason,
                                     double t) {
     double low = INFINITY, high = -INFINITY, found;
@@ -98,7 +97,7 @@ static void check_ray(const struct traced *traced, uint32_t i, double bound, str
                     t, end_reason_name(because), expected);
 }
 
-/* A parameter as the words of a case set it. */
+/* The value of a parameter in the settings of a case. */
 static double parameter_of(const char *words, const char *name, double otherwise) {
     char setting[64];
     snprintf(setting, sizeof setting, "screen_trace.%s=", name);

@@ -14,7 +14,7 @@ static void check_rays(struct case_run *run, const struct replay_case *c, struct
     const uint32_t *size = sizes[c->number], pixels = size[0] * size[1];
     const struct plane_scene scene = {.rays = RAYS_ANY, .seed = 1000};
     const struct plain plain = plane_scene_capture(&scene, size[0], size[1]);
-    screen_rays(run, &plain, c, 1 + pixels / 9973, finding); /* a stride that is no row's */
+    screen_rays(run, &plain, c, 1 + pixels / 9973, finding); /* a stride that is not a multiple of a row */
 }
 
 /* ---- The floor ---- */
@@ -31,8 +31,8 @@ static void above(const double d[3], float out[3]) {
     for (int k = 0; k < 3; k++) out[k] = (float)(0.5 + 0.4 * d[k]);
 }
 
-/* What a half-resolution texel's ray should do: -1 not traced, 0 meets nothing in the picture, 1 the wall, 2 too close to the
-   border of the picture or to where it starts to tell. */
+/* The expected result of a half-resolution texel's ray: -1 not traced, 0 no hit in the picture, 1 hits the wall, 2 too close to the picture's border or
+   to its start to be decided. */
 static int floor_ray(const uint32_t size[2], double x, double y, double depth_m, double *t, double *red) {
     const double half = tan(degrees * 3.14159265358979323846 / 360) / size[1]; /* half a pixel at a depth of 1 */
     const double down = (2 * y - size[1]) * half, side = (2 * x - size[0]) * half;
@@ -51,7 +51,8 @@ static void check_floor_ray(const uint32_t size[2], uint32_t i, uint32_t width, 
     double t = 0, red = 0, error = 0;
     const int expected = floor_ray(size, x + 0.5, y + 0.5, depth_m, &t, &red);
     if (expected == 2) return;
-    if (expected < 0) error = pick < 4 && finished <= 1 ? 0 : INFINITY; /* the wall sends its rays back */
+    if (expected < 0)
+        error = pick < 4 && finished <= 1 ? 0 : INFINITY; /* rays from the wall leave towards the viewer */
     else if (expected != (finished != 0)) error = INFINITY;
     else if (expected == 1) error = fmax(fabs(found - t) / wall_m, light_part * fabs((double)color[0] - red));
     else error = found < t ? 0 : INFINITY;
@@ -86,7 +87,7 @@ static void check_pipeline(struct case_run *run, const struct replay_case *c, st
         check_floor_ray(size, i, width, pick[i], (double)depth_m[i], (double)t[i], finished[i], &color[4 * i], finding);
     if (run->ok && (full[0] != size[0] || full[1] != size[1]))
         finding_compare(finding, INFINITY, "%u x %u pixels", full[0], full[1]);
-    for (size_t i = 0; run->ok && i < 4 * (size_t)size[0] * size[1]; i++) /* all are written, and are numbers */
+    for (size_t i = 0; run->ok && i < 4 * (size_t)size[0] * size[1]; i++) /* all texels are written and finite */
         if (!(i % 4 == 3 ? composed[i] == 1 : composed[i] >= 0 && composed[i] < 100))
             finding_compare(finding, INFINITY, "pixel %zu,%zu channel %zu: composed %.9g", i / 4 % size[0],
                             i / 4 / size[0], i % 4, (double)composed[i]);

@@ -1,4 +1,4 @@
-/* What a place in the frame before is made of. */
+/* The texels that contribute to a position in the previous frame. */
 #include "cases/time/history_case.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* The group "time": what passes keep of earlier frames. Colours and surfaces are given; a model in double says which of the
-   frame before's texels each pixel takes, with which weights, and how many samples they stand for. */
+/* The group "time": history of passes. Colours and surfaces are prescribed; a model in double precision states which texels of the previous frame each
+   pixel uses, with which weights, and the number of samples that they count for. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +36,7 @@ static struct glint_selftest_case time_get(size_t i) {
 
 /* ---- The model ---- */
 
-/* What a pass has after a frame: colours, and how many samples they are of. */
+/* The history of a pass after a frame: colours and numbers of samples. */
 struct image {
     double color[FRAME_PIXELS][4], age[FRAME_PIXELS];
 };
@@ -52,7 +52,7 @@ static void expect_pixel(const struct shot *s, const struct frame *frame, int n,
         past_age += past.weight[i] * before->age[past.pixel[i]];
     }
     past_age = fmin(past_age, past.longest);
-    if (s->sharp && !(then[3] > 0)) past.count = 0; /* no source was found there */
+    if (s->sharp && !(then[3] > 0)) past.count = 0; /* it had no source */
     for (int k = 0; k < 4; k++) color[k] = (double)frame->color[k][pixel];
     if (s->hold && past.count) s->hold(frame, pixel, then);
     if (s->now) s->now(frame, pixel, past_age > 0, color, &samples);

@@ -1,4 +1,4 @@
-/* Noise of rays over the frames of a still camera, and cuts through a whole pipeline. */
+/* Noise of rays over the frames of a static camera, and camera cuts in a whole pipeline. */
 #include "cases/time/time_noise.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ const struct glint_selftest_case time_noise[NOISE_CASES] = {
 };
 /* clang-format on */
 
-/* A figure that so many values made. */
+/* A figure and the number of values that it comes from. */
 static void figure(struct glint_selftest_finding *finding, double error, size_t values, const char *what, int n,
                    double value, double expected) {
     finding_compare(finding, error, "%s %d: found %.6g, expected %.6g", what, n, value, expected);
@@ -155,7 +155,7 @@ static bool replay_frame(const struct case_context *context, struct glint_replay
            glint_replay_run(replay, pipeline, &options, context->progress, context->user, err);
 }
 
-/* Half of the floor is a mirror, so that both of the pipeline's histories have pixels. */
+/* Half of the floor is a mirror, so that both histories of the pipeline are used. */
 static void half_mirror(void *user, const char *part, const char *channel, float *plane, uint32_t width,
                         uint32_t height) {
     (void)user;
@@ -163,7 +163,7 @@ static void half_mirror(void *user, const char *part, const char *channel, float
     for (size_t i = 0; i < (size_t)width * height; i++) plane[i] = i % width < width / 2 ? 0 : 0.3f;
 }
 
-/* A frame that follows others of a moving camera; alone, none precedes it. */
+/* A frame that follows others of a moving camera, or that has no predecessor. */
 static bool follow(const struct case_context *context, const struct glint_pipeline *pipeline, bool cut, bool alone,
                    struct pictures *pictures, struct glint_error *err) {
     struct open_box box = {
@@ -182,7 +182,7 @@ static bool follow(const struct case_context *context, const struct glint_pipeli
     return ok;
 }
 
-/* And without the cut those frames are still there, in every image. */
+/* Without the cut the earlier frames affect every image. */
 static bool cut_leaves_no_trace(const struct case_context *context, struct glint_selftest_finding *finding,
                                 struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", err);
@@ -210,7 +210,7 @@ bool time_noise_run(struct frames *frames, const bool *selected, struct glint_se
                still = selected[CURVE] || (!quick && (selected[FLOOR] || selected[DRIFT]));
     struct bench *bench = calloc(1, sizeof *bench);
     bool ok = bench || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    findings[FLOOR].left_out = findings[DRIFT].left_out = findings[CUT].left_out = quick; /* of many frames */
+    findings[FLOOR].left_out = findings[DRIFT].left_out = findings[CUT].left_out = quick; /* these need many frames */
     frames->half = frames->planned = true;
     if (still || selected[NUMBERS]) ok = ok && frames_pipeline(frames, passes, settings, err);
     if (still) ok = ok && still_camera(frames, bench, findings, err);

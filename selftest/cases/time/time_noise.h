@@ -1,4 +1,4 @@
-/* Noise of rays, and cuts through a whole pipeline: several cases out of the same frames. */
+/* Noise of rays, and camera cuts in a whole pipeline: several cases that share their frames. */
 #ifndef GLINT_SELFTEST_TIME_NOISE_H
 #define GLINT_SELFTEST_TIME_NOISE_H
 

@@ -1,4 +1,4 @@
-/* Histories of smooth surfaces: held within what the neighbours show now. */
+/* Histories of smooth surfaces, which are clamped to the current values of their neighbours. */
 #include <math.h>
 
 #include "cases/time/history_case.h"
@@ -42,7 +42,7 @@ static void smooth_alone(const struct frame *frame, int n, size_t pixel, struct 
     (void)n;
     if (!((double)frame->roughness[pixel] <= limit)) past->count = 0;
 }
-/* Mean and deviation of the nine texels around that are in use; beyond the border, the border's own again. */
+/* Mean and deviation of the valid texels of the 3 x 3 neighbourhood, with texels at the border repeated. */
 static void hold_by(const struct frame *frame, size_t pixel, double color[4], double window) {
     const int x = (int)(pixel % FRAME_WIDTH), y = (int)(pixel / FRAME_WIDTH);
     const double open = 1 - (double)frame->roughness[pixel] / limit;
@@ -73,7 +73,7 @@ static void hold_wide(const struct frame *frame, size_t pixel, double color[4]) 
     hold_by(frame, pixel, color, 1.5);
 }
 
-/* One bright colour after another. */
+/* A different bright colour in each frame. */
 static void bright(struct frame *frame, int n) {
     mirrors(frame, n);
     EACH(i) for (int k = 0; k < 3; k++) frame->color[k][i] = n % 2 ? 3000.7f : 1000.3f;

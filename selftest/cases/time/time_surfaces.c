@@ -1,4 +1,4 @@
-/* Histories of surfaces before a camera that stands still: means, cuts, objects that come and go, motion vectors. */
+/* Histories of surfaces seen by a static camera: means, cuts, objects that appear and disappear, motion vectors. */
 #include <math.h>
 
 #include "cases/time/history_case.h"
@@ -68,7 +68,7 @@ static void nothing_to_remember(const struct frame *frame, int n, size_t pixel, 
     (void)frame;
     if (n == 2 && pixel % 3 == 0) past->count = 0;
 }
-/* Sky, unusable normals, depths of 0, and surfaces, in turn. */
+/* Sky, unusable normals, depths of 0 and surfaces alternate. */
 static int kind(int n, size_t pixel) {
     return (int)((pixel / 2 + (size_t)n) % 8);
 }
@@ -87,8 +87,8 @@ static void surfaces_alone(const struct frame *frame, int n, size_t pixel, struc
 
 /* ---- Objects ---- */
 
-/* Three boards that move to the right by 4 pixels a frame, the first of them in from beyond the picture: nearer than the
-   wall, turned against it, and both. 0: the wall. */
+/* Three boards that move to the right by 4 pixels a frame, the first one into the picture: one is nearer than the wall, one is rotated, one is both.
+   0: the wall. */
 static int board(int n, int x, int y) {
     const int along = x - 4 * n;
     if (y >= 2 && y < 10 && along >= -14 && along < -2) return 1;
@@ -111,7 +111,7 @@ static void what_it_was_on(const struct frame *frame, int n, size_t pixel, struc
     else past->pixel[0] = (size_t)(y * FRAME_WIDTH + from);
 }
 
-/* A hundredth of the depth and 2 % are a step of the same surface and another one; cosines of 0.91 and 0.89 of normals, too. */
+/* Depth steps of 1 % and 2 %, and normals with cosines of 0.91 and 0.89: the first of each belongs to the same surface, the second does not. */
 static const float steps[4] = {0.019f, -0.019f, 0.0215f, -0.0215f};
 static void depth_steps(struct frame *frame, int n) {
     EACH(i) if (n % 2 == 0) frame->depth[i] *= 1 + steps[i % 4];
@@ -172,7 +172,7 @@ static void rough_by_rows(struct frame *frame, int n) {
     EACH(i) frame->roughness[i] = rows_roughness[row(i) % 4];
     cut_at_4(frame, n);
 }
-/* Beside one frame's own sample, where there is no history, those at the centres of the pluses around: a knight's move. */
+/* Without history a pixel also uses the samples at the centres of the neighbouring pluses, a knight's move away. */
 static void with_centres(const struct frame *frame, size_t pixel, bool has_past, double color[4], double *samples) {
     static const int centres[4][2] = {{1, 2}, {2, -1}, {-1, -2}, {-2, 1}};
     const double own = (double)frame->roughness[pixel], part = fmin(fmax((own - 0.05) / 0.1, 0), 1);
@@ -187,7 +187,7 @@ static void with_centres(const struct frame *frame, size_t pixel, bool has_past,
     }
 }
 
-/* Single bright pixels; the lower half is smoother. */
+/* Single bright pixels; surfaces in the lower half are smoother. */
 static void hot_pixels(struct frame *frame, int n) {
     EACH(i) {
         if ((i * 7 + (size_t)n * 5) % 23 == 0)

@@ -1,4 +1,4 @@
-/* Histories seen by cameras that move: places by the two cameras, and how long a history may be when the view turns. */
+/* Histories seen by moving cameras: reprojection by both cameras, and the maximum length of a history when the view turns. */
 #include <math.h>
 
 #include "cases/time/history_case.h"
@@ -25,7 +25,7 @@ static struct sight sight_of(const struct frame *frame, size_t pixel) {
     return s;
 }
 
-/* The history lies on the grid of the pixels, without the jitter of either frame. */
+/* The history is on the pixel grid without the jitter of either frame. */
 static void seen_at(const struct frame *frame, const double place[3], struct history_texels *past) {
     const double *then = frame->info.previous.view_to_clip, *now = frame->info.camera.view_to_clip;
     double view[3];
@@ -40,7 +40,7 @@ static void surface_seen(const struct frame *frame, int n, size_t pixel, struct 
     (void)n;
     seen_at(frame, sight_of(frame, pixel).place, past);
 }
-/* As far behind the surface as the ray went; without an end, 10^9 m do for it. */
+/* The mirrored hit point, at the hit distance behind the surface; 10^9 m for rays without a hit. */
 static void reflection_seen(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
     struct sight s = sight_of(frame, pixel);
     (void)n;
@@ -48,7 +48,7 @@ static void reflection_seen(const struct frame *frame, int n, size_t pixel, stru
     seen_at(frame, s.place, past);
 }
 
-/* A quarter of the lobe, which reaches twice the angle where GGX's density is a tenth, over what the view turned. */
+/* A quarter of the lobe, whose half width is twice the angle at which GGX's density is a tenth, divided by the turn of the view. */
 static void limit_history(const struct frame *frame, size_t pixel, struct history_texels *past) {
     const struct sight s = sight_of(frame, pixel);
     double view[3], apart[3];
@@ -97,7 +97,7 @@ static void turn_camera(struct frame *frame, int n) {
     set_camera(frame, n, 0, 0, 0, 0.013);
     wall_at(frame, -8);
 }
-/* There and back again, past what it looks at. */
+/* The camera moves forth and back, past the object that it looks at. */
 static void there_and_back(struct frame *frame, int n) {
     static const double places[2][3] = {{0, 0, 0}, {0, 0, -6}};
     frame_cameras(frame, places[n % 2], places[(n + 1) % 2], 0, 0);
@@ -108,7 +108,7 @@ static void pan_by_roughness(struct frame *frame, int n) {
     pan(frame, n);
     for (size_t i = 0; i < FRAME_PIXELS; i++) frame->roughness[i] = rough[i / FRAME_WIDTH / 2 % 4];
 }
-/* By a little, and motion vectors that say the same place. */
+/* A small movement, and motion vectors that state the same position. */
 static void shift_of_mirrors(struct frame *frame, int n) {
     set_camera(frame, n, 0.0005, 0, 0, 0);
     for (size_t i = 0; i < FRAME_PIXELS; i++) frame->roughness[i] = i / FRAME_WIDTH % 2 ? 0.06f : 0.04f;

@@ -1,4 +1,5 @@
-/* How far two images are apart, in whole and by class of pixel. docs/metrics.md states every formula and its source. */
+/* Error metrics of an image (`found`) against a better one (`truth`), over all pixels and by class of pixel. docs/metrics.md states
+   every formula and its source. */
 #ifndef GLINT_METRICS_H
 #define GLINT_METRICS_H
 
@@ -10,7 +11,7 @@
 extern "C" {
 #endif
 
-/* Values of `components` floats a pixel; `values` is malloc'd. */
+/* An image of `components` floats a pixel, rows from the top; `values` is malloc'd. */
 struct glint_pixels {
     uint32_t width, height, components;
     float *values;
@@ -25,8 +26,8 @@ enum glint_metric {
     GLINT_METRIC_RELATIVE_MSE,       /* mean of (found - truth)²/(truth² + epsilon) */
     GLINT_METRIC_SYMMETRIC,          /* mean of |found - truth|/(|found| + |truth| + GLINT_SYMMETRIC_EPSILON) */
     GLINT_METRIC_PSNR,               /* 20 log10(peak/RMSE) in dB: better is higher; +inf for equal images */
-    GLINT_METRIC_CLEAN_RMSE,         /* RMSE and relative MSE without what the truth's noise is expected to add */
-    GLINT_METRIC_CLEAN_RELATIVE_MSE, /* the same of the relative one */
+    GLINT_METRIC_CLEAN_RMSE,         /* RMSE without the expected contribution of the truth's noise */
+    GLINT_METRIC_CLEAN_RELATIVE_MSE, /* relative MSE without it */
     GLINT_METRIC_SSIM,               /* in [-1, 1], 1 for equal images: better is higher */
     GLINT_METRIC_FLIP,               /* in [0, 1] */
     GLINT_METRIC_HDR_FLIP,           /* in [0, 1] */
@@ -35,7 +36,7 @@ enum glint_metric {
 struct glint_metric_info {
     const char *name;  /* "relative_mse": as --metrics takes it and JSON has it */
     const char *title; /* "relative MSE" */
-    const char *what;  /* one line */
+    const char *what;  /* a description of one line */
     bool higher_is_better;
 };
 /* NULL past the last. */
@@ -43,10 +44,10 @@ const struct glint_metric_info *glint_metric(size_t metric);
 /* "rmse,flip": a bit (1 << metric) for each; "all" for all. */
 bool glint_metrics_parse(const char *names, uint32_t *metrics, struct glint_error *err);
 #define GLINT_METRICS_ALL ((1u << GLINT_METRIC_COUNT) - 1)
-/* What costs no more than reading the images once. */
+/* Metrics that need no more than a pass over both images. */
 #define GLINT_METRICS_CHEAP ((1u << GLINT_METRIC_SSIM) - 1)
 
-/* Added to the square of the truth below the fraction of the relative error, so that black can be compared. */
+/* Added to the denominators of the relative and of the symmetric error, so that black pixels can be compared. */
 #define GLINT_RELATIVE_EPSILON 0.01
 #define GLINT_SYMMETRIC_EPSILON 0.05
 /* Pixels per degree of a display 0.7 m wide, of 3840 pixels, seen from 0.7 m. */
@@ -54,127 +55,127 @@ bool glint_metrics_parse(const char *names, uint32_t *metrics, struct glint_erro
 
 /* ---- Classes of pixels ---- */
 
-/* A label for each pixel and the labels' names; any partition of an image: by surface, by angle, by source. */
+/* A partition of an image's pixels, such as by surface, by angle or by source: a label for each pixel, and the labels' names. */
 struct glint_classes {
-    const char *title;        /* "surface"; not copied, nor are the names */
-    const char *const *names; /* names[0] is that of label 1 */
-    uint32_t count;           /* of names; at most GLINT_CLASSES */
-    uint8_t *labels;          /* one a pixel, rows from the top: k for names[k - 1], 0 for none of them; malloc'd */
+    const char *title;        /* "surface"; neither it nor the names are copied */
+    const char *const *names; /* names[k - 1] belongs to label k */
+    uint32_t count;           /* number of names, at most GLINT_CLASSES */
+    uint8_t *labels;          /* one a pixel, rows from the top; 0: the pixel is in no class; malloc'd */
 };
 #define GLINT_CLASSES 64
 void glint_classes_finish(struct glint_classes *classes);
 
-/* How often each pair of labels of two sets meets; table[i·(b->count + 1) + j] counts pixels of label i of `a` and j of `b`. `table`
-   has (a->count + 1)·(b->count + 1) elements. `mask` as below. */
+/* The contingency table of two partitions: table[i·(b->count + 1) + j] receives the number of pixels with label i in `a` and j in `b`.
+   `table` has (a->count + 1)·(b->count + 1) elements. Pixels that are 0 in `mask` (may be NULL) are left out. */
 void glint_classes_cross(const struct glint_classes *a, const struct glint_classes *b, size_t pixels,
                          const uint8_t *mask, uint64_t *table);
 
 /* ---- Comparing ---- */
 
-/* Zero means the default that is named. */
+/* A zero-initialised struct selects the defaults that are stated. */
 struct glint_metric_options {
     uint32_t metrics; /* bits 1 << GLINT_METRIC_…; 0: GLINT_METRICS_CHEAP */
-    /* Names of the components, "R G B A"; NULL: R G B A as far as there are components. Compared are the channels that both
-       images have. SSIM is taken of the luminance of R G B, of a single channel where these are not all there; FLIP
-       needs R G B. */
+    /* Names of the components, such as "R G B A", which NULL stands for. Channels that both images have are compared. SSIM uses the
+       luminance of R G B, or a single channel if not all three are there; FLIP needs R G B. */
     const char *found_channels, *truth_channels;
-    const uint8_t
-        *mask; /* pixels that are 0 here are left out, and are black in both images for SSIM and FLIP; NULL: none */
-    const struct glint_classes *classes; /* sets of classes, each labelling every pixel */
+    /* Pixels that are 0 here are left out; for SSIM and FLIP they are black in both images. NULL: all pixels count. */
+    const uint8_t *mask;
+    const struct glint_classes *classes; /* `class_sets` partitions, whose classes get figures of their own */
     size_t class_sets;
-    /* One value a pixel or NULL: the standard error of a truth that is itself a mean of samples, relative to its value; pixels
-       of which it is +inf are left out, as by the mask. */
+    /* NULL, or one value a pixel: the relative standard error of a truth that is itself a mean of samples. Pixels where it is +inf are
+       left out as by the mask. */
     const float *truth_error;
     double epsilon;  /* of the relative MSE; 0: GLINT_RELATIVE_EPSILON */
-    double peak;     /* of PSNR; 0: the highest absolute value of the truth, among what is compared */
-    double ppd;      /* pixels per degree of FLIP; 0: GLINT_PPD */
-    double exposure; /* f-stops that the images are multiplied by (2^exposure) for SSIM and FLIP */
-    /* f-stops of HDR-FLIP; both 0: from the truth's luminance. */
+    double peak;     /* of PSNR; 0: the largest magnitude of the truth among the compared pixels */
+    double ppd;      /* pixels per degree for FLIP; 0: GLINT_PPD */
+    double exposure; /* in f-stops: SSIM and FLIP compare the images multiplied by 2^exposure */
+    /* First and last exposure of HDR-FLIP in f-stops; both 0: chosen by the truth's luminance. */
     double start_exposure, stop_exposure;
-    uint32_t resamples; /* of the bootstrap behind the intervals; 0: none, intervals are NAN */
+    uint32_t resamples; /* bootstrap resamples for the confidence intervals; 0: none, and the intervals are NAN */
     uint32_t seed;
     bool keep_resampled; /* for glint_metrics_difference */
 };
 #define GLINT_RESAMPLES 400
 
-/* `value` and its 95 % confidence interval (percentile bootstrap over tiles of pixels: neighbours do not err
-   independently). NAN: not asked for, or there is nothing that it could be computed from. */
+/* A value and its 95 % confidence interval, by percentile bootstrap over tiles of pixels, since the errors of neighbours are correlated.
+   NAN if it was not asked for or cannot be computed. */
 struct glint_figure {
     double value, low, high;
 };
 struct glint_metric_row {
-    const char *set, *name; /* "all", "all" for the first row; else a title and a name of the classes */
-    uint64_t pixels;        /* compared */
-    uint64_t invalid;       /* left out because one of the images is NaN or infinite there */
-    double truth_mean;      /* of all channels */
-    double truth_noise;     /* root mean square of what truth_error says */
+    const char *set, *name; /* title of the partition and name of the class; "all", "all" for the first row */
+    uint64_t pixels;        /* number of compared pixels */
+    uint64_t invalid;       /* pixels left out since one of the images is NaN or infinite there */
+    double truth_mean;      /* over all channels */
+    double truth_noise;     /* root mean square of the truth's standard error */
     struct glint_figure of[GLINT_METRIC_COUNT];
 };
 struct glint_metric_table {
-    struct glint_metric_row *rows; /* all pixels, then each class of each set, those without pixels too */
+    struct glint_metric_row *rows; /* all pixels, then each class of each partition, also classes without pixels */
     size_t count;
-    /* NaN or infinite in the found image, in the truth; the first such pixel of both. Such pixels are in no figure; whoever
-       reports figures must fail when there are any: glint_metrics_valid. */
+    /* Numbers of pixels that are NaN or infinite in the found image and in the truth, and the first such pixel. They are in no figure;
+       callers that report figures must fail if there are any (glint_metrics_valid). */
     uint64_t invalid_found, invalid_truth;
     uint32_t first_x, first_y;
-    double epsilon, peak, ppd, exposure;  /* as used */
-    double start_exposure, stop_exposure; /* of HDR-FLIP, f-stops */
-    uint32_t exposures;                   /* 0: not computed */
+    double epsilon, peak, ppd, exposure;  /* the values used */
+    double start_exposure, stop_exposure; /* the values used, f-stops */
+    uint32_t exposures;                   /* number of exposures of HDR-FLIP; 0: not computed */
     uint32_t resamples, seed, tile_px, tiles;
-    /* A value a pixel, malloc'd, NULL when not asked for. */
+    /* One value a pixel, malloc'd; NULL if not asked for. */
     float *flip, *hdr_flip;
     double *resampled; /* [row][metric][resample], malloc'd, NULL unless asked for */
 };
 
-/* Both images are of one size. False with an error when they are not, or share no channel. */
+/* Fails if the images differ in size or have no channel in common. */
 bool glint_metrics_compare(const struct glint_pixels *found, const struct glint_pixels *truth,
                            const struct glint_metric_options *options, struct glint_metric_table *table,
                            struct glint_error *err);
 void glint_metric_table_finish(struct glint_metric_table *table);
-/* False, with how many and where the first is, when either image was NaN or infinite; `what` begins the message. */
+/* Fails if either image has NaN or infinite pixels. The message begins with `what` and states their number and the first pixel. */
 bool glint_metrics_valid(const struct glint_metric_table *table, const char *what, struct glint_error *err);
 
-/* How much more `b` errs than `a` in a metric of a row, and the interval of that difference. Both are comparisons of images of one size by
-   the same classes, resamples and seed, and keep their resampled figures: tiles were drawn alike, so that what both pictures
-   have in common is in neither end of the interval. It is far narrower than what two intervals beside each other tell. */
+/* The difference of a metric between two comparisons, `b` minus `a`, and its confidence interval. Both must compare images of one size
+   with the same classes, resamples and seed and have kept their resampled figures. As they drew the same tiles, errors that both have in
+   common cancel, and the interval is far narrower than the two single intervals suggest. */
 bool glint_metrics_difference(const struct glint_metric_table *a, const struct glint_metric_table *b, size_t row,
                               enum glint_metric metric, struct glint_figure *difference, struct glint_error *err);
 
 /* ---- Errors by class of surface ---- */
 
-/* What a pixel shows, by roughness: mirror-like up to the first threshold, glossy up to the second, rough above. */
+/* Classes of surface by roughness: mirror-like up to the first threshold, glossy up to the second, rough above. */
 #define GLINT_MIRROR_ROUGHNESS 0.1
 #define GLINT_GLOSSY_ROUGHNESS 0.5
 enum glint_surface {
-    GLINT_SURFACE_NONE, /* sky, or nothing that reflects: in no figure */
+    GLINT_SURFACE_NONE, /* sky, or a surface that does not reflect; in no figure */
     GLINT_SURFACE_MIRROR,
     GLINT_SURFACE_GLOSSY,
     GLINT_SURFACE_ROUGH,
     GLINT_SURFACE_COUNT
 };
-/* "all", "mirror-like", "glossy", "rough": names of the elements of the arrays below, where all surfaces come first. */
+/* "all", "mirror-like", "glossy", "rough". Arrays of GLINT_SURFACE_COUNT figures below hold the figure of all surfaces in element 0. */
 const char *glint_surface_name(enum glint_surface surface);
-/* Labels that are enum glint_surface as a set of classes; they stay the caller's. */
+/* A partition whose labels are enum glint_surface. The caller keeps the labels. */
 struct glint_classes glint_surface_classes(const uint8_t *labels);
 enum glint_surface glint_surface_of(double roughness);
 
 struct glint_image_error {
-    uint64_t pixels;     /* compared */
-    uint64_t invalid;    /* NaN or infinite in one of the images; in no other figure */
-    double truth_mean;   /* of all channels */
+    uint64_t pixels;     /* number of compared pixels */
+    uint64_t invalid;    /* pixels that are NaN or infinite in one of the images, which are in no other figure */
+    double truth_mean;   /* over all channels */
     double mean;         /* of found - truth */
     double rmse;         /* root of the mean of (found - truth)² */
     double relative_mse; /* mean of (found - truth)²/(truth² + GLINT_RELATIVE_EPSILON) */
-    double symmetric; /* mean of |found - truth|/(|found| + |truth| + GLINT_SYMMETRIC_EPSILON): no outlier rules it */
-    /* rmse and relative_mse without what the truth's own noise is expected to add, and that noise's root mean square. Truths whose
-       draws are spread better than independent ones have less noise than they declare: the real error lies between. */
+    double
+        symmetric; /* mean of |found - truth|/(|found| + |truth| + GLINT_SYMMETRIC_EPSILON), robust against outliers */
+    /* rmse and relative_mse without the expected contribution of the truth's noise, and the root mean square of that noise. A truth
+       with stratified samples has less noise than it declares; the real error then lies between both values. */
     double clean_rmse, clean_relative_mse, truth_noise;
 };
 struct glint_image_errors {
     struct glint_image_error of[GLINT_SURFACE_COUNT]; /* [0]: all surfaces */
 };
-/* glint_metrics_compare of the first `channels` channels, by surface and without intervals. `surfaces` may be NULL: all
-   pixels are compared then, as [0] alone. */
+/* glint_metrics_compare of the first `channels` channels by surface, without intervals. If `surfaces` is NULL, all pixels are compared
+   and only element 0 is set. */
 bool glint_study_image(const struct glint_pixels *found, const struct glint_pixels *truth, uint32_t channels,
                        const uint8_t *surfaces, const float *truth_error, struct glint_image_errors *errors,
                        struct glint_error *err);
@@ -182,14 +183,14 @@ bool glint_study_image(const struct glint_pixels *found, const struct glint_pixe
 /* ---- Errors of distances ---- */
 
 struct glint_distance_error {
-    uint64_t rays, invalid; /* invalid: NaN, negative; counts as infinitely wrong */
-    double right;           /* share within 5 % of the truth */
-    double median, p95;     /* of |found - truth|/truth; 0 where both are infinite, infinite where one is */
+    uint64_t rays, invalid; /* invalid: rays with a NaN or negative distance, whose error counts as infinite */
+    double right;           /* fraction within 5 % of the truth */
+    double median, p95;     /* of |found - truth|/truth, which is 0 if both are infinite and infinite if one is */
 };
 struct glint_distance_errors {
     struct glint_distance_error of[GLINT_SURFACE_COUNT];
 };
-/* Distances in metres, +inf for the sky; `count` of each. Values of the truth that are not above 0 are left out. */
+/* Compares `count` distances in metres, +inf for the sky. Rays whose true distance is not above 0 are left out. */
 bool glint_study_distances(const float *found, const float *truth, const uint8_t *surfaces, size_t count,
                            struct glint_distance_errors *errors, struct glint_error *err);
 

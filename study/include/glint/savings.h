@@ -1,4 +1,4 @@
-/* What a plan saves: the passes as planned and all of them, timed in turns. */
+/* What planning saves: the time of the passes as planned against the time of all passes over all pixels, measured in turns. */
 #ifndef GLINT_SAVINGS_H
 #define GLINT_SAVINGS_H
 
@@ -8,24 +8,25 @@
 extern "C" {
 #endif
 
-/* Medians over the rounds; 0: it did not run, or on the host. */
+/* Medians over the rounds of one pass as planned, and in the whole pipeline; 0: it did not run, or it is a host pass. */
 struct glint_saving {
     uint64_t planned_ns, whole_ns;
 };
-/* Of all passes of a round, and of what part of them every frame pays: without work on cube maps that is done when one
-   changes. The survey counts as the plan's. */
+/* Sums over the passes of a round. The survey counts as part of the planned time. */
 struct glint_savings_time {
     struct glint_time planned, whole;
-    double ratio[3]; /* planned / whole of each round: the lower quartile, the median, the upper quartile */
+    double ratio[3]; /* quartiles over the rounds of planned / whole: lower, median, upper */
 };
 struct glint_savings {
     struct glint_saving *passes; /* in the order of the plan */
     size_t pass_count;
     uint32_t rounds;
-    uint64_t survey_ns; /* of pixels, and of cube maps, which is made once for as long as they stay; medians */
-    struct glint_savings_time all, frame;
+    uint64_t
+        survey_ns; /* median time of the survey of pixels and of that of cube maps, which is only needed when these change */
+    struct glint_savings_time all,
+        frame; /* of all passes; without those whose work is only needed when a cube map changes */
 };
-/* The replay has a device, and a capture is loaded. Of the options, what concerns times and memory is set here. */
+/* The replay must have a device and a loaded capture. Options about timing and memory are overridden. */
 bool glint_study_savings(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                          const struct glint_replay_options *options, uint32_t rounds, struct glint_savings *savings,
                          glint_progress progress, void *user, struct glint_error *err);

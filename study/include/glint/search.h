@@ -1,5 +1,5 @@
-/* Finds values of numbers and choices that make one figure least while another stays within a limit. Knows nothing of
-   what is measured. */
+/* Constrained optimisation: finds the values of numbers and choices that minimise an objective while a constraint stays within a limit.
+   It is independent of what the figures measure. */
 #ifndef GLINT_SEARCH_H
 #define GLINT_SEARCH_H
 
@@ -14,35 +14,35 @@ extern "C" {
 
 enum glint_search_scale {
     GLINT_SEARCH_LINEAR,  /* a step is an eighth of the range */
-    GLINT_SEARCH_DOUBLING /* a step doubles what is above the lowest value, near zero by a small constant */
+    GLINT_SEARCH_DOUBLING /* a step doubles the distance to the lowest value, offset by a small constant if that is 0 */
 };
 struct glint_search_axis {
     double lowest, highest, start; /* start lies within the range */
-    uint32_t choices; /* not 0: it takes 0 … choices - 1, which have no order; no range and no scale then */
-    bool whole;
-    bool
-        hidden; /* it may begin to matter when others change: it is not left alone for changing nothing around the start */
+    uint32_t choices; /* if not 0, the values are 0 … choices - 1 without an order, and range and scale do not apply */
+    bool whole;       /* whole numbers only */
+    bool keep; /* is searched even if it changes nothing around the start, since it may matter when other axes change */
     enum glint_search_scale scale;
 };
-/* The scale that suits a range: doubling where it spans decades, seen from its start. */
+/* The suitable scale of a range: doubling if the range spans decades around its start. */
 enum glint_search_scale glint_search_scale(double lowest, double highest, double start);
 
-/* NAN: such a point is no answer. */
+/* The figures of a point. NAN marks an invalid point. */
 struct glint_search_figures {
-    double wanted;  /* to be least */
-    double limited; /* to be at most the limit */
+    double objective;  /* to be minimised */
+    double constraint; /* must not exceed the limit */
 };
-/* One value an axis, each within its range. Called once a point. False with an error ends the search. */
-typedef bool (*glint_search_try)(void *user, const double *values, struct glint_search_figures *figures,
-                                 struct glint_error *err);
+/* Evaluates a point, given as one value an axis within its range. Called once for each point. False with an error ends the search. */
+typedef bool (*glint_search_evaluate)(void *user, const double *values, struct glint_search_figures *figures,
+                                      struct glint_error *err);
 struct glint_search_options {
     double limit;
-    uint32_t tries; /* points that may be tried, at most; the first is the start, then come the known ones */
-    uint64_t seed;  /* the same seed and the same figures: the same points in the same order */
-    double noise;   /* relative changes of `limited` up to this say nothing; 0: it is exact */
-    const double
-        *known; /* values of points that are tried first, one after the other, so that nothing worse is found */
-    size_t known_count;
+    uint32_t max_points; /* the maximum number of points to evaluate, the start and the initial points included */
+    uint64_t seed;       /* the same seed and figures give the same points in the same order */
+    double noise;        /* relative changes of the constraint up to this are insignificant; 0: it is exact */
+    /* Values of `initial_count` points, one point after the other, that are evaluated right after the start. The result is at least as
+       good as each of them. */
+    const double *initial;
+    size_t initial_count;
 };
 
 struct glint_search_point {
@@ -51,25 +51,26 @@ struct glint_search_point {
 };
 struct glint_search_result {
     size_t axes;
-    struct glint_search_point *points; /* all that were tried, in order */
+    struct glint_search_point *points; /* all evaluated points, in order */
     size_t count;
-    size_t best, least; /* the best, which may be beyond the limit; the one whose `limited` is least */
-    bool within;        /* best is within the limit */
-    bool *matters;      /* one an axis: some value changed a figure; true also where there was no try left for it */
+    size_t best, lowest; /* the best point, which may exceed the limit; the point with the lowest constraint */
+    bool feasible;       /* the best point is within the limit */
+    bool *matters;       /* for each axis: some value changed a figure; true also if that could not be evaluated */
 };
 void glint_search_result_finish(struct glint_search_result *result);
-/* Whether `a` is the better answer: within the limit by what is wanted, beyond it by what is limited. */
+/* Whether `a` is better than `b`: a feasible point by its objective, an infeasible one by its constraint. */
 bool glint_search_better(const struct glint_search_figures *a, const struct glint_search_figures *b, double limit);
 
-/* Steps of two, one, half … on every axis around the best point; what they change alone predicts what they change together,
-   and the best sum within the limit is tried (a Lagrangian multiplier finds it), and what gains is gone on with (R. Hooke and T. A.
-   Jeeves, "Direct search", 1961). When that gains no more, COBYLA (M. J. D.
-   Powell, "A direct search optimization method that models the objective and constraint functions by linear
-   interpolation", 1994; from NLopt) goes on over the numbers, and then the search starts again from the best point, thrown off it at
-   random. With fewer tries than the first steps on every axis take, groups of axes are screened for what they change together, and
-   the first steps are those of the axes that weigh most. `result` holds what was found until an error, too; finish it in any case. */
+/* The search evaluates steps of two, one, half … on every axis around the best point. The changes of single steps predict those of
+   combined steps, and the combination that is predicted best within the limit, found by a Lagrange multiplier, is evaluated next. A
+   direction that improves the best point is followed further (R. Hooke and T. A. Jeeves, "Direct search", 1961). When that no longer
+   improves it, COBYLA (M. J. D. Powell, "A direct search optimization method that models the objective and constraint functions by
+   linear interpolation", 1994; from NLopt) continues over the numbers, and then the search restarts from a random displacement of the
+   best point. If max_points do not suffice for the first steps on all axes, groups of axes are screened first, and steps begin with the
+   axes of the largest effect. After an error `result` holds what was found so far; release it in any case. */
 bool glint_search(const struct glint_search_axis *axes, size_t count, const struct glint_search_options *options,
-                  glint_search_try try_point, void *user, struct glint_search_result *result, struct glint_error *err);
+                  glint_search_evaluate try_point, void *user, struct glint_search_result *result,
+                  struct glint_error *err);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,4 @@
-/* What is learned from runs. */
+/* Results of runs as the study measures them: the reflection, classes of pixels, why and where rays ended. */
 #ifndef GLINT_STUDY_H
 #define GLINT_STUDY_H
 
@@ -11,108 +11,109 @@ extern "C" {
 
 /* ---- Classes of pixels ---- */
 
-/* One enum glint_surface for each pixel of the G-buffer, rows from the top; malloc'd, NULL on failure. */
+/* The class of each pixel of the G-buffer as enum glint_surface, rows from the top; malloc'd, NULL on failure. */
 uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error *err);
 
-/* What a capture says of each pixel of its G-buffer. Labels are 0 where nothing reflects, so that those of the first set are the mask
-   of what is compared. */
+/* Partitions of the pixels that follow from the capture. A label of 0 means that the pixel does not reflect, so that the labels of the
+   first partition are the mask of the pixels to compare. */
 enum {
-    GLINT_CLASSES_SURFACE, /* by roughness: enum glint_surface */
-    GLINT_CLASSES_ANGLE, /* by N·V, the cosine between normal and direction to the eye: up to 0.1 (grazing), 0.25, 0.5, 1 */
-    GLINT_CLASSES_DISTANCE, /* by the surface's distance from the eye: up to 3 m, 10 m, 30 m, farther */
-    GLINT_CLASSES_HIT, /* by how far the exact mirror ray goes: up to 1 m, 4 m, 16 m, farther, sky; needs truth.mirror */
+    GLINT_CLASSES_SURFACE,  /* by roughness: enum glint_surface */
+    GLINT_CLASSES_ANGLE,    /* by N·V: up to 0.1 (grazing), 0.25, 0.5, 1 */
+    GLINT_CLASSES_DISTANCE, /* by the distance from the camera: up to 3 m, 10 m, 30 m, farther */
+    GLINT_CLASSES_HIT, /* by the hit distance of the exact mirror ray: up to 1 m, 4 m, 16 m, farther, sky; needs truth.mirror */
     GLINT_CAPTURE_CLASSES
 };
-/* *count receives how many sets there are: GLINT_CAPTURE_CLASSES, or one less without truth.mirror. Each is released by
+/* *count receives the number of partitions: GLINT_CAPTURE_CLASSES, or one less without truth.mirror. Release each with
    glint_classes_finish. */
 bool glint_study_classes(struct glint_capture *capture, struct glint_classes sets[GLINT_CAPTURE_CLASSES], size_t *count,
                          struct glint_error *err);
-/* Where the last run, one with diagnostics, has each pixel's reflection from, by the end reason of its ray: screen, cube map, fallback,
-   sky, nothing found; 0 without a ray. `labels` is NULL when no tracer ran. */
+/* A partition by where the last run, which must have had diagnostics, found each pixel's reflection: screen, cube map, fallback, sky,
+   nothing found; 0: the pixel has no ray. `labels` is NULL if no tracer ran. */
 bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t height, struct glint_classes *source,
                         struct glint_error *err);
 
-/* ---- What is compared ---- */
+/* ---- Reflections and pictures ---- */
 
-/* The reflection of the last run at full resolution, as the passes left it for `compose`. False with an error when
-   there is none. */
+/* The reflection of the last run at full resolution, before it is composed into the picture. Fails if there is none. */
 bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err);
-/* The image that these are read from; NULL when there is none. */
+/* The image of that reflection, or NULL. */
 const struct glint_image *glint_study_reflection_image(struct glint_replay *replay);
 /* The reflection of a run folder. */
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err);
-/* truth.reflection.LOBE of the lobe that the pipeline draws from (downsample.ndf), R G B; *error receives its standard error in
-   each pixel, malloc'd: channel `error`, 0 when the part has none, +inf where nothing is known (`weight` 0). */
+/* The capture's true reflection (part truth.reflection.LOBE) for the lobe that the pipeline draws rays from, as R G B. *error receives
+   the relative standard error of each pixel, malloc'd: channel `error`, 0 if the part lacks it, +inf where the truth is unknown (`weight`
+   is 0). */
 bool glint_study_truth(struct glint_capture *capture, const struct glint_pipeline *pipeline,
                        struct glint_pixels *pixels, float **error, struct glint_error *err);
-/* The preset `reference`, asked the same question as `pipeline`: its lobe and its fog. */
+/* The preset `reference` with those parameters of `pipeline` that define what is to be estimated: its lobe and its fog. */
 struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err);
 
-/* Which pixels the last run gives `reflection` for, 1 or 0 each: at least half of what is there is its own, by the
-   reflection's alpha and, where the run makes one, the image `contribution`. malloc'd, NULL on failure. */
-uint8_t *glint_study_given(struct glint_replay *replay, const struct glint_pixels *reflection, struct glint_error *err);
+/* Coverage of the last run's reflection: 1 for each pixel of which the run traced at least half, by the alpha of `reflection` times the
+   image of role CONTRIBUTION if the run makes one; otherwise 0. malloc'd, NULL on failure. */
+uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_pixels *reflection,
+                              struct glint_error *err);
 
-/* The last picture at full resolution, composed or with what is laid over it; NULL when there is none. */
+/* The final picture at full resolution, with transparent surfaces and water if the run composes them, or NULL. */
 const struct glint_image *glint_study_picture(struct glint_replay *replay);
-/* Whether a pass of the last run read `part` of the capture ("water", "transparent"). */
-bool glint_study_draws(struct glint_replay *replay, const char *part);
-/* A picture against the capture's `scene` where `part` covers the opaque surfaces; 0 pixels where the capture lacks one of
-   them. */
-bool glint_study_over(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
-                      struct glint_image_error *error, struct glint_error *err);
+/* Whether a pass of the last run reads a part of the capture ("water", "transparent"). */
+bool glint_study_reads_part(struct glint_replay *replay, const char *part);
+/* The error of a picture against the capture's part `scene`, over the pixels where a surface of `part` covers the opaque ones. `pixels` is
+   0 if the capture lacks one of both parts. */
+bool glint_study_overlay_error(const struct glint_pixels *picture, struct glint_capture *capture, const char *part,
+                               struct glint_image_error *error, struct glint_error *err);
 
 /* ---- Rays ---- */
 
-/* Rays that ended for one reason in one tracer, by what the tracers' diagnostics say, whatever the truth. */
+/* Rays that ended for one reason in one tracer, according to the tracer's diagnostics. */
 struct glint_end_row {
     char tracer[32];     /* "screen" for screen_end */
     const char *reason;  /* a name of passes/shared/end_reasons.h */
-    const char *text;    /* what it means */
-    uint64_t rays;       /* that no later tracer went on with */
-    uint64_t pixels;     /* of those that were compared, those whose ray this is */
-    double share, error; /* of all rays; mean symmetric error of those pixels, NAN without any */
+    const char *text;    /* its meaning */
+    uint64_t rays;       /* number of rays that no later tracer continued */
+    uint64_t pixels;     /* number of compared pixels with such a ray */
+    double share, error; /* fraction of all rays; mean symmetric error of these pixels, NAN without any */
 };
 struct glint_ends {
     struct glint_end_row rows[64]; /* those with rays, in the order of the tracers */
     size_t count;
     uint64_t rays;
-    double steps, fetches; /* a ray, of all tracers together */
+    double steps, fetches; /* mean for a ray, over all tracers together */
 };
-/* After a run with diagnostics. `surfaces` (glint_study_surfaces: rays of those that reflect nothing count nowhere; NULL: all
-   do), `found`, `truth` and `compared` (1: this pixel) are of full resolution; the last two NULL: no errors. A run
-   without a tracer has no rays. */
+/* Call it after a run with diagnostics. All images are of full resolution. Rays of pixels that are 0 in `surfaces`
+   (glint_study_surfaces; NULL: none) do not count. Errors are those of `found` against `truth` in the pixels that are 1 in `compared`;
+   both may be NULL for no errors. A run without a tracer has no rays. */
 bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, const struct glint_pixels *found,
                       const struct glint_pixels *truth, const uint8_t *compared, struct glint_ends *ends,
                       struct glint_error *err);
 
 enum { GLINT_TRUTH_ON_SCREEN, GLINT_TRUTH_ELSEWHERE, GLINT_TRUTH_SKY, GLINT_TRUTH_ENDS };
-/* Rays that ended for one reason in one tracer. Their distance is compared with truth.mirror at the pixel they start
-   from. A ray that reports +inf (only the direction counts) is right where the truth is the sky, and infinitely wrong
-   elsewhere; so is the converse. */
+/* Rays that ended for one reason in one tracer. Their distance is compared with truth.mirror at the pixel they start from. The error is 0 if
+   both distances are +inf (sky) and infinite if only one is. */
 struct glint_trace_row {
     const char *tracer; /* "screen", "cube map", "all" */
     const char *reason; /* a name of passes/shared/end_reasons.h, "all" */
-    const char *text;   /* what it means */
+    const char *text;   /* its meaning */
     size_t rays;
-    size_t truth[GLINT_TRUTH_ENDS]; /* of these rays, where the truth's mirror ray ends */
-    double share;                   /* of all rays */
-    double right;                   /* share of this row's rays within 5 % of the truth */
+    size_t truth[GLINT_TRUTH_ENDS]; /* numbers of these rays by where the true mirror ray ends */
+    double share;                   /* fraction of all rays */
+    double right;                   /* fraction of these rays within 5 % of the true distance */
     double median_error;            /* relative */
     double p95_error;
-    double
-        radiance_error; /* mean of |found - truth|/(found + truth + GLINT_SYMMETRIC_EPSILON) over R G B of reflection_half and
-                              truth.reflection.ggx, where it is known; NAN when it is nowhere. The truth has no fog: compare without */
+    /* Mean of |found - truth|/(found + truth + GLINT_SYMMETRIC_EPSILON) over R G B of the rays' radiance and truth.reflection.ggx, where
+       that is known; NAN if it is nowhere. The truth has no fog, so run without fog. */
+    double radiance_error;
 };
 struct glint_trace_table {
-    struct glint_trace_row rows[32]; /* those with rays, tracer by tracer; the last one is all of them */
+    struct glint_trace_row rows[32]; /* rows with rays, tracer by tracer; the last row is the total */
     size_t count;
-    struct glint_distance_errors surfaces; /* all rays, those of rougher surfaces too */
-    double fetches[GLINT_SURFACE_COUNT];   /* mean of both tracers' texture fetches for a ray, what no device changes */
+    struct glint_distance_errors surfaces; /* over all rays, also those from surfaces rougher than max_roughness */
+    double fetches
+        [GLINT_SURFACE_COUNT]; /* mean texture fetches of both tracers for a ray, which do not depend on the device */
 };
 
-/* After a run with diagnostics that wrote depth_half, normal_half, pick, travelled and the tracers' end reasons (those of
-   a slot left out count as not traced). Rays from surfaces up to `max_roughness`; mirror rays are compared, so run with
-   downsample.jitter=0. The capture must carry truth.mirror. */
+/* Call it after a run with diagnostics in which rays are mirror rays (downsample.jitter=0) and the images of the roles RAY_* and of the
+   tracers' end reasons are available; a tracer that the pipeline leaves out counts as not traced. The rows contain rays from surfaces up
+   to `max_roughness`. The capture must have truth.mirror. */
 bool glint_study_trace(struct glint_replay *replay, struct glint_capture *capture, double max_roughness,
                        struct glint_trace_table *table, struct glint_error *err);
 

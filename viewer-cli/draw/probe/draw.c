@@ -43,9 +43,9 @@ static double legend(const struct drawing *d, double y) {
     for (size_t i = 0; i < DRAW_LOOKS; i++) {
         char shape[96];
         const char *text = "";
-        for (float w = 0; glint_probe_word("decision", w).name; w++)
-            if (strcmp(glint_probe_word("decision", w).name, draw_looks[i].decision) == 0)
-                text = glint_probe_word("decision", w).text;
+        for (float w = 0; glint_probe_label("decision", w).name; w++)
+            if (strcmp(glint_probe_label("decision", w).name, draw_looks[i].decision) == 0)
+                text = glint_probe_label("decision", w).text;
         if (!d->used[i]) continue;
         if (x + 30 + 6.3 * (double)text_width(text) > DRAW_WIDTH) x = 30, y += 18;
         snprintf(shape, sizeof shape, "<circle r=\"4.5\" cx=\"1\" fill=\"%s\"/>", draw_looks[i].color);
@@ -67,7 +67,7 @@ static char *draw_panels(struct drawing *d) {
     char *body = NULL;
     size_t size;
     if (!(d->out = open_memstream(&body, &size))) return NULL;
-    const struct glint_probe_story *story = &d->probe->own.story;
+    const struct glint_probe_trace *story = &d->probe->own.story;
     draw_define(d);
     for (size_t i = 0, end; i < story->count; i = end) {
         const struct glint_probe_record *first = &story->records[i];

@@ -21,7 +21,7 @@ struct mixture {
 };
 
 static const char *image_of(const struct glint_probe_record *record) {
-    const struct glint_probe_word word = glint_probe_word("image", (float)draw_value(record, "image"));
+    const struct glint_probe_label word = glint_probe_label("image", (float)draw_value(record, "image"));
     return word.name ? word.name : "";
 }
 
@@ -168,7 +168,7 @@ static void draw_weights(struct drawing *d, const struct ray_records *records, s
 
 static void draw_layer(struct drawing *d, const struct ray_records *records, const struct glint_probe_record *layer) {
     static const char *const names[][3] = {{"r", "g", "b"}, {"below_r", "below_g", "below_b"}};
-    const struct glint_probe_word under = glint_probe_word("image", (float)draw_value(layer, "under"));
+    const struct glint_probe_label under = glint_probe_label("image", (float)draw_value(layer, "under"));
     const double share =
         (draw_value(layer, "share_r") + draw_value(layer, "share_g") + draw_value(layer, "share_b")) / 3;
     draw_heading(d, records, "blends one colour over another");

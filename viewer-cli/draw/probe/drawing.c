@@ -14,7 +14,7 @@ const struct draw_look draw_looks[DRAW_LOOKS] = {
 };
 
 static size_t look_of(const struct glint_probe_record *record) {
-    const struct glint_probe_word word = glint_probe_word("decision", glint_probe_value(record, "decision"));
+    const struct glint_probe_label word = glint_probe_label("decision", glint_probe_value(record, "decision"));
     for (size_t i = 0; i < DRAW_LOOKS; i++)
         if (word.name && strcmp(word.name, draw_looks[i].decision) == 0) return i;
     return 0;
@@ -39,7 +39,7 @@ struct panel draw_panel(const struct drawing *d) {
 }
 
 static const char *end_of(const struct glint_probe_record *end) {
-    const struct glint_probe_word why = glint_probe_word("end reason", (float)draw_value(end, "end"));
+    const struct glint_probe_label why = glint_probe_label("end reason", (float)draw_value(end, "end"));
     return why.text ? why.text : "";
 }
 
@@ -58,7 +58,7 @@ void draw_seen(const struct drawing *d, const struct panel *panel) {
 }
 
 double draw_reference_m(const struct drawing *d, const struct ray_records *records, const char *kind) {
-    const struct glint_probe_story *story = &d->probe->reference.story;
+    const struct glint_probe_trace *story = &d->probe->reference.story;
     const struct glint_probe_record *end = NULL;
     for (size_t i = 0; i < story->count; i++) {
         const struct glint_probe_record *record = &story->records[i];
@@ -66,7 +66,7 @@ double draw_reference_m(const struct drawing *d, const struct ray_records *recor
             strcmp(record->pass->slot, records->records->pass->slot) == 0)
             end = record;
     }
-    const struct glint_probe_word why = glint_probe_word("end reason", (float)draw_value(end, "end"));
+    const struct glint_probe_label why = glint_probe_label("end reason", (float)draw_value(end, "end"));
     return why.name && strcmp(why.name, "hit") == 0 ? draw_value(end, "travelled_m") : NAN;
 }
 
@@ -84,7 +84,7 @@ void draw_end(struct drawing *d, const struct panel *panel) {
 void draw_step(struct drawing *d, const struct panel *panel, const struct glint_probe_record *record, double x,
                double y, size_t number) {
     const size_t look = look_of(record);
-    const struct glint_probe_word word = glint_probe_word("decision", glint_probe_value(record, "decision"));
+    const struct glint_probe_label word = glint_probe_label("decision", glint_probe_value(record, "decision"));
     const bool hit = strcmp(draw_looks[look].decision, "hit") == 0;
     char style[96], hint[200];
     d->used[look] = true;

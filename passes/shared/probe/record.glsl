@@ -1,5 +1,5 @@
-// The story of single pixels, told while they are computed (replay/engine/probe.c). Without probes the constant probe_pass is 0, and
-// nothing of it is left in the program; with them no other value of a pass is computed differently.
+// Records the steps of probed pixels while they are computed (replay/engine/probe.c). Without probes the constant probe_pass is 0 and the
+// compiler removes all of this; with probes no other value of a pass changes.
 #ifndef GLINT_PROBE
 #define GLINT_PROBE
 #define PROBE(kind, title) const uint PROBE_##kind = __LINE__;
@@ -74,7 +74,7 @@ void probe_of(uint place, uint kind, vec4 a, vec4 b, vec4 c) {
     probes.words[at + 2u] = frame.flags.w;
     for (uint i = 0u; i < 12u; ++i) probes.words[at + 4u + i] = floatBitsToUint(values[i]);
 }
-// One more record, its values in the order of its kind's rows.
+// Adds a record with its values in the order of its kind's rows.
 void probe(uint kind, vec4 a, vec4 b, vec4 c) {
     if (!probing()) return;
     for (uint i = probed; i <= (probed_level == 0 ? probed : probed_last); ++i)
@@ -86,8 +86,8 @@ void probe(uint kind, vec4 a) { probe(kind, a, vec4(0.0), vec4(0.0)); }
 void probe_layer(uint below_image, vec3 below, uint image, vec3 color, vec3 share) {
     probe(PROBE_layer, vec4(image, share), vec4(color, below_image), vec4(below, 0.0));
 }
-// mix(below, color, share), told with what images they are.
-vec3 told_mix(uint below_image, vec3 below, uint image, vec3 color, float share) {
+// mix(below, color, share), recorded with the images of both colours.
+vec3 probed_mix(uint below_image, vec3 below, uint image, vec3 color, float share) {
     probe_layer(below_image, below, image, color, vec3(share));
     return mix(below, color, share);
 }
