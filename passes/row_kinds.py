@@ -40,7 +40,7 @@ BINDING = 'layout(set = 0, binding = __LINE__) uniform $kind $image;'
 WRITTEN = 'layout(set = 0, binding = __LINE__) uniform writeonly $kind $image;'
 OPTIONAL = BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;'
 LIST = OPTIONAL.replace('$kind', 'utextureBuffer').replace('$image', '$list')
-# The second row that C gets of a DISPATCH_LIST.
+# In C a DISPATCH_LIST is a READ of the list, too.
 READ_LIST = ('}, {.kind = GLINT_ROW_READ, .id = __LINE__, .name = #$list, .glsl = "utextureBuffer", .optional = true, '
              '.format = GLINT_FORMAT_R32UI, .size = GLINT_SIZE_LIST, .fallback = 0xFFFFFFFFu')
 IMAGE = ('.name = #$image, .glsl = #$kind, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, .unit = $unit, '
@@ -89,7 +89,7 @@ KINDS = [
          'An image that this pass makes. An image with levels (a size class ..._MIPS) is written one level at a time: dispatch_level, whose size '
          'imageSize() gives. Cube maps are written as image2DArray: layer 6 * cube + face (faces +X -X +Y -Y +Z -Z), which is '
          'gl_GlobalInvocationID.z. A LIST is a buffer of uints (uimageBuffer, read as utextureBuffer) of tiles, laid out as in '
-         'shared/work_list.h. Nothing clears it; what lies behind the items is the maker\'s own.',
+         'shared/work_list.h. Nothing clears it; the words after the items are scratch space of the pass that makes it.',
          row=IMAGE, bindings=WRITTEN),
     Kind('DIAGNOSTIC', 'kind, image, format, unit, size, channels, fallback, meaning',
          'A WRITE that is made only when diagnostics are on; a stand-in of 1 x 1 is bound otherwise.', row=IMAGE, bindings=WRITTEN),

@@ -1,24 +1,26 @@
-// Makes a list of tiles (work_list.h) in two dispatches over it, by prefix sums alone, so that it is the same in every run: the first
-// marks each region's tiles, the second puts them in their places. Next include of a pass with WORKGROUP(16, 16), two rows DISPATCH over
-// the list and READ_OWN(utextureBuffer, marked, ...) of it.
+// Makes a list of tiles (work_list.h) in two dispatches: the first classifies the tiles of each region, the second writes them to the list.
+// Their positions are prefix sums, so that the order is the same in every run. Next include of a pass with WORKGROUP(16, 16), two rows
+// DISPATCH over the list and READ_OWN(utextureBuffer, marked, ...) of it.
 #define LIST_WORD(place) texelFetch(marked, place).x
 #include "shared/work_list.glsl"
 
 const uint SMOOTH = 1u, ROUGH = 2u;
-// Which classes of surfaces a texel is of, SMOOTH | ROUGH; 0 where there is nothing to do, as beyond the image.
+// Defined by the pass: the classes of a texel's surfaces, SMOOTH | ROUGH; 0 for a texel without work or outside of the image.
 uint class_of(ivec2 texel);
 
-// In the order of the list.
-const uint ROUGH_ALONE = 0u, ROUGH_AND_SMOOTH = 1u, SMOOTH_ALONE = 2u, EMPTY = 3u, KINDS = 4u; // KINDS: outside of the picture
-const uint PACKED = 8u; // kinds to a word
+// The kinds of tiles, in the order of the list. A tile outside of the picture has the kind KINDS and is not listed.
+const uint ROUGH_ALONE = 0u, ROUGH_AND_SMOOTH = 1u, SMOOTH_ALONE = 2u, EMPTY = 3u, KINDS = 4u;
+const uint PACKED = 8u; // kinds in a word
 const uint LANES = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
 const uint TILES = uint(REGION_TILES), WORDS = TILES / PACKED; // of a region
 
-// Behind the list, what passes from marking to placing: of each region the words with its tiles' kinds, and of each two counts.
+// After the items of the list, the first dispatch leaves for the second one the kinds of each region's tiles, and then two words for each
+// region with the number of its tiles of each kind.
 int kinds_place(uint region) { return LIST_ITEMS + int(TILES * region_count() + WORDS * region); }
 int counts_place(uint region) { return kinds_place(region_count()) + 2 * int(region); }
 
-// The region's tiles lie strip by strip, column after column. The number of one; where one lies in the picture.
+// Tiles of a region are numbered strip by strip, column after column. The number of a tile by its position in the region, and a tile's
+// position in the picture by its number.
 uint tile_at(uvec2 tile) {
     return STRIP_TILES * (tile.x / STRIP_TILES * REGION_ROWS + tile.y) + tile.x % STRIP_TILES;
 }
@@ -33,11 +35,11 @@ uint kind_of(uvec2 tile, uint found) {
     return found == SMOOTH ? SMOOTH_ALONE : found == ROUGH ? ROUGH_ALONE : found == 0u ? EMPTY : ROUGH_AND_SMOOTH;
 }
 
-shared uint classes[TILES]; // that the region's tiles hold
+shared uint classes[TILES]; // SMOOTH | ROUGH of the region's tiles
 shared uint kinds[WORDS];
-shared uvec2 numbers[WORDS], before[WORDS]; // of each kind, 16 bits each: in the word, in the words before it
+shared uvec2 numbers[WORDS], before[WORDS]; // the number of tiles of each kind, 16 bits each: in the word, in all words before it
 
-// A bit for each of the word's tiles that are of a kind.
+// The lowest of a tile's four bits is set for the tiles of a word that have the given kind.
 uint those_of(uint word, uint kind) {
     uint other = word ^ kind * 0x11111111u;
     other |= other >> 1u;
@@ -77,9 +79,9 @@ void mark_region(writeonly uimageBuffer list, float scale) {
     if (lane < 2u) imageStore(list, counts_place(workgroup_index()) + int(lane), uvec4(number_in(WORDS)[lane]));
 }
 
-shared uint counts[2u * KINDS]; // of all tiles, and of those of the regions before
+shared uint counts[2u * KINDS]; // the number of tiles of each kind: in the picture, in the regions before this one
 
-// What opens the list.
+// A word of the list's header. ends: the end of each kind in the list.
 uint header_word(int place, uvec4 ends) {
     const uvec2 ranges[RANGES] = uvec2[](uvec2(0u, ends.z), uvec2(ends.z, ends.w), uvec2(ends.x, ends.z),
                                          uvec2(ends.z, ends.w + ends.x), uvec2(0u, ends.y), uvec2(ends.y, ends.w));
@@ -94,7 +96,7 @@ uint header_word(int place, uvec4 ends) {
     return word == 0 ? (groups + rows - 1u) / rows : word == 1 ? rows : word == 2 ? 1u : tiles;
 }
 
-// Tiles lie behind those of the kinds before their own, and those of their kind in the regions before, and before in their own.
+// A tile follows all tiles of the kinds before its own, the tiles of its kind in earlier regions, and those before it in its own region.
 void place_region(writeonly uimageBuffer list) {
     uint lane = gl_LocalInvocationIndex, region = workgroup_index();
     if (lane < 2u * KINDS) counts[lane] = 0u;
@@ -121,13 +123,13 @@ void place_region(writeonly uimageBuffer list) {
         if (kind == KINDS) continue;
         uint place = (kind > 0u ? ends[kind - 1u] : 0u) + counts[KINDS + kind];
         place += before[word][kind / 2u] >> 16u * (kind % 2u) & 0xFFFFu;
-        place += uint(bitCount(those_of(kinds[word], kind) & (1u << at) - 1u)); // of the word's own
+        place += uint(bitCount(those_of(kinds[word], kind) & (1u << at) - 1u)); // those before it in its word
         uvec2 tile = place_of(i);
         imageStore(list, LIST_ITEMS + int(place), uvec4(tile.x | tile.y << 16u));
     }
 }
 
-// phase: 0 in the first of the two dispatches. scale: pixels of the picture to a texel of what class_of() looks at, along an axis.
+// phase: 0 in the first of the two dispatches, 1 in the second. scale: width in pixels of the texels that class_of() classifies.
 void make_list(writeonly uimageBuffer list, uint phase, float scale) {
     if (phase == 0u) mark_region(list, scale);
     else place_region(list);

@@ -1,7 +1,7 @@
-// Which texel an invocation works on, by its place in the picture or by a list of tiles (work_list.h). Next include of a pass with a row
-// DISPATCH_LIST(tile_list, ...). A pass that goes by another list, or reads one of its own, first defines LIST_WORD(place). No
-// kernel's reach has to be added to the tiles: what a neighbour or the next frame takes is what the picture shows, which has a tile
-// of its own, and where it shows nothing images hold nothing (shown.glsl).
+// The texel of an invocation, in a dispatch over an image or over a list of tiles (work_list.h). Next include of a pass with a row
+// DISPATCH_LIST(tile_list, ...). A pass with a list of another name defines LIST_WORD(place) before. The tiles need no margin for the
+// kernels of later passes: these and the next frame's history read only visible pixels, which have tiles of their own, and elsewhere
+// images hold their fallback values (shown.glsl).
 #ifndef GLINT_WORK_LIST
 #define GLINT_WORK_LIST
 #include "shared/work_list.h"
@@ -18,7 +18,7 @@ uint region_count() {
 uvec2 tile_grid() { return (frame.size.xy + uint(TILE_WIDE) - 1u) / uint(TILE_WIDE); }
 uint tile_count() { return tile_grid().x * tile_grid().y; }
 
-// scale: pixels of the picture to a texel of the image, along an axis. Beyond every image: no texel.
+// scale: width in pixels of the image's texels. Invocations beyond the end of the range get a texel outside of every image.
 ivec2 tile_texel(float scale) {
     if (tile_range == ALL_TILES) return ivec2(gl_GlobalInvocationID.xy);
     int range = LIST_RANGES + 2 * int(tile_range);
@@ -27,7 +27,7 @@ ivec2 tile_texel(float scale) {
     uint place = lanes / texels * workgroup_index() + lane / texels, total = tile_count();
     if (place >= LIST_WORD(range + 1)) return ivec2(0x7FFFFFFF);
     place += LIST_WORD(range);
-    uint item = LIST_WORD(LIST_ITEMS + int(place < total ? place : place - total)); // a range may go on at the list's beginning
+    uint item = LIST_WORD(LIST_ITEMS + int(place < total ? place : place - total)); // a range may continue at the beginning of the list
     return ivec2(wide * uvec2(item & 0xFFFFu, item >> 16u) + uvec2(lane % wide, lane / wide % wide));
 }
 #endif

@@ -1,23 +1,23 @@
-/* How a list of work lies in memory, read by C and GLSL. Its items are tiles of 2x2 pixels of the picture, x + 65536 y, in four
-   kinds one after the other: with rough surfaces alone, with both, with smooth ones alone, with nothing to do. Passes run over a range
-   of them, and then over the rest. For each of the RANGES, and for the rest behind it, a list opens with three quadruples: the
-   workgroups that an indirect dispatch over it starts, with 16, 32 and 64 tiles to each of them, and how many tiles they are for.
-   Within a kind, tiles are ordered by the picture's regions, in a region by columns of strips, in a strip along x: what a
-   workgroup works on lies together. */
+/* The layout of a list of tiles, for C and GLSL. Its items are the tiles of 2x2 pixels of the picture, as x + 65536 y. They are sorted
+   into four kinds: with rough surfaces only, with rough and smooth ones, with smooth ones only, without work. A pass runs over a range
+   of the list with one dispatch, and over the rest with another. The list starts with three quadruples for each range and each rest:
+   the workgroup counts of an indirect dispatch with 16, 32 or 64 tiles in a workgroup, and the number of tiles. Tiles of a kind are
+   ordered by regions of the picture, in a region by columns of strips, in a strip along x, so that the tiles of a workgroup are close
+   together. */
 #ifndef GLINT_WORK_LIST_H
 #define GLINT_WORK_LIST_H
-#define TILE_WIDE 2     /* pixels of the picture, either way */
-#define STRIP_TILES 8   /* tiles of a strip, side by side: as many texels at half resolution as llvmpipe works on at once */
-#define REGION_COLUMNS 4 /* strips side by side in a region, of which a workgroup of the maker lists all */
+#define TILE_WIDE 2     /* width and height of a tile in pixels of the picture */
+#define STRIP_TILES 8   /* tiles side by side in a strip: at half resolution the 8 texels that llvmpipe computes at a time */
+#define REGION_COLUMNS 4 /* strips side by side in a region, whose tiles one workgroup lists */
 #define REGION_ROWS 32
 #define REGION_TILES (REGION_COLUMNS * REGION_ROWS * STRIP_TILES)
-#define REGION_WIDE 64 /* pixels, either way */
-#define RANGE_shown 0  /* numbers of the ranges; behind each, that of the rest */
-#define RANGE_smooth 2 /* up to the largest roughness of a row DISPATCH_LIST_BY */
-#define RANGE_rough 4  /* from the least roughness of one */
+#define REGION_WIDE 64 /* width and height of a region in pixels */
+#define RANGE_shown 0  /* the ranges; each is followed by its rest */
+#define RANGE_smooth 2 /* surfaces up to the highest roughness of a row DISPATCH_LIST_BY */
+#define RANGE_rough 4  /* surfaces from the lowest roughness of such a row */
 #define RANGES 6
-#define LIST_RANGES 128 /* place of each range's first tile and number of tiles */
-#define LIST_ITEMS 256  /* place of the tiles */
-/* Words of a list with what its maker notes behind it: four bits of each tile, two words of each region. */
+#define LIST_RANGES 128 /* index of the word with the first tile of range 0; its number of tiles follows, then the other ranges */
+#define LIST_ITEMS 256  /* index of the first tile */
+/* The number of words of a list with its scratch space: four bits for each tile, two words for each region. */
 #define LIST_WORDS(regions) (LIST_ITEMS + (regions) * (REGION_TILES / 8 * 9 + 2))
 #endif

@@ -1,4 +1,4 @@
-/* What a pass's rows dispatch: a list of dispatches, each with its level, its phase and its descriptors. */
+/* Turns the rows of a pass into dispatches. */
 #include "run.h"
 
 #include <stdlib.h>
@@ -15,7 +15,7 @@ struct pooled *run_bound(const struct run *run, const struct glint_row *binding)
     return run->images[graph_bound(run->graph, binding) - run->graph->images];
 }
 
-/* The layers of a level that a dispatch works on; NULL: all. */
+/* The layers that a dispatch over a MIP level runs over; NULL: all. */
 static struct face_run *needed_layers(const struct run *run, const struct step *step, const struct glint_row *row,
                                       uint32_t level, uint32_t *count) {
     uint8_t faces[GLINT_SURVEY_CUBEMAPS];

@@ -1,4 +1,4 @@
-/* Dispatches over the tiles of a list (passes/shared/work_list.h): which list, with how many workgroups, how much they go over. */
+/* Dispatches over the tiles of a list (passes/shared/work_list.h). */
 #include "run.h"
 
 #include "shared/work_list.h"
@@ -12,7 +12,7 @@ const struct glint_row *step_list(const struct run *run, const struct step *step
     return NULL;
 }
 
-/* Texels along a tile's side in an image over all of the picture. */
+/* Width and height of a tile in texels of an image of the picture. */
 static uint32_t tile_side(const struct run *run, const struct image_desc *over) {
     return over->width == run->sizes->full[0] ? TILE_WIDE : TILE_WIDE / 2;
 }
@@ -36,7 +36,7 @@ bool step_add_list(const struct run *run, struct step *step, uint32_t phase, con
     return true;
 }
 
-/* Tiles at the picture's border are cut off there. */
+/* The number of texels of a dispatch. Tiles at the border of the picture may extend beyond it. */
 static uint64_t count_texels(const struct run *run, const struct dispatch *dispatch, const uint32_t *list) {
     const uint32_t *range = list + LIST_RANGES + 2 * dispatch->range, total = tile_count(run->sizes);
     const uint32_t width = dispatch->over->width, height = dispatch->over->height;

@@ -1,4 +1,4 @@
-/* Fills the images that no shader makes: decoded capture parts, tables, images of a run folder, "nothing". Pixels go
+/* Fills the images that no shader makes: decoded capture parts, tables, images of a run folder, fallback values. Pixels go
    straight into mapped staging memory in the image's format. */
 #include "run.h"
 

@@ -32,7 +32,7 @@ void results_forget(struct glint_replay *replay);
 
 /* record.c: run.json without files. It is made when the run ends, since the caller owns the pipeline and the options. */
 json_t *run_record(const struct glint_replay *replay, const struct run *run);
-/* work.c: adds the numbers of list items and rays to the passes of the record. */
+/* work.c: adds the numbers of rays to the passes of the record. */
 bool replay_count_work(struct glint_replay *replay, json_t *root, struct glint_error *err);
 /* run_write.c: adds members that are known only when the run is written. */
 bool run_finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err);

@@ -55,7 +55,7 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
         else if (pass->rows[i].kind == GLINT_ROW_FACT)
             fits = add_constant(constants, pass->rows[i].id, !(graph_pass->false_facts >> facts++ & 1));
         else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
-        else if (pass->rows[i].optional) /* has_NAME */
+        else if (pass->rows[i].optional) /* has_NAME, of OPTIONAL_READ and DISPATCH_LIST */
             fits = add_constant(constants, 1000 + pass->rows[i].id,
                                 graph_bound(graph, &pass->rows[i])->source != SOURCE_FALLBACK);
         else if (pass->rows[i].kind == GLINT_ROW_PUSH && (fits = constants->push_count < PUSH_BYTES_MAX / 4))

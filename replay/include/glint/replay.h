@@ -170,7 +170,7 @@ struct glint_replay_options {
     const char *history;
     const char *const *skip, *const *force; /* slots, NULL-terminated */
     /* Runs every pass over all of its pixels: without a survey, without dropping passes that would do nothing and without culling
-       invisible pixels. Passes that make lists of pixels are skipped unless `passes` names them. */
+       invisible pixels. Passes that make lists of tiles are skipped unless `passes` names them. */
     bool all;
     /* Full-resolution pixels whose steps the shaders record (glint/probe.h). This changes no bit of an image, but passes that
        support it execute even if their images are up to date. */
@@ -324,10 +324,10 @@ void glint_run_close(struct glint_run **run);
    "cube_faces" {uploaded, filtered}: each the number of faces and the number without culling,
    "bad_values" [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …],
    "seconds" by phase, "peak_memory_bytes", "warnings",
-   "passes" [{slot, variant, ran, reason, cached, cached_work, dispatches, work {texels, of, lists {name: items}, rays}, host,
-   shader, parameters {name: value}, time_ns {n, min, median, max},
+   "passes" [{slot, variant, ran, reason, cached, cached_work, dispatches, work {texels, of, rays}, host, shader,
+   parameters {name: value}, time_ns {n, min, median, max},
    images [{name, file, part, channels, unit, meaning, width, height, format}, …]}, …].
-   work: the texels that a pass was dispatched over (for a list its items), their number without culling, and with diagnostics
+   work: the texels that a pass was dispatched over (for a list those of its tiles), their number without culling, and with diagnostics
    the number of rays that a tracer traced. */
 const char *glint_run_json(const struct glint_run *run);
 size_t glint_run_image_count(const struct glint_run *run);
