@@ -193,6 +193,8 @@ REASONS = {
     ("inner volumes", "ms of all passes"): "few rays start in one or come into one; to ask costs a GPU more than it saves, so that the preset goes without",
     ("half resolution", None): PRICE,
     ("pyramid against the linear march", "ms of all passes"): PRICE,
+    ("rays of all the lobe against its middle", "mean off by, rough, %"): "both means are within 3 % of the truth, the cut's because its errors "
+    "cancel: pixel by pixel its rough surfaces are half as wrong again (symmetric error 0.148 against 0.104, 240×135)",
     ("extra samples where history is missing", "RMSE, rough"): "few pixels of a moving frame are without history; what those gain is in the "
     "first frame's row",
     ("another pixel each frame", None): "a jittered camera covers the block already. What is left is that a texel's history holds pixels of "
