@@ -13,6 +13,9 @@
 
 static uint32_t count = 6, first = 6; /* two of these six once found lookups that depended on what lay beside them */
 
+/* Seeds of small captures that once found that a cube map's colour was divided by its opacity only in frames that show sky. */
+static const uint32_t found_before[] = {65, 115};
+
 static size_t preset_count(void) {
     size_t count = 0;
     while (glint_preset(count)) count++;
@@ -56,7 +59,9 @@ static void plans_of_drawn_captures_change_no_bit(void **state) {
     for (size_t turn = 0; turn < 2 * presets; turn++)
         for (uint32_t seed = first; seed < first + count; seed++)
             if (seed % presets == turn / 2 && stores_halves(seed) == turn % 2) faults += differences(pair, seed) > 0;
-    if (faults) fail_msg("%u of %u captures differ; to see one again: gpu_drawn 1 SEED", faults, count);
+    for (size_t i = 0; i < sizeof found_before / sizeof *found_before; i++)
+        faults += differences(pair, found_before[i]) > 0;
+    if (faults) fail_msg("%u captures differ; to see one again: gpu_drawn 1 SEED", faults);
     fixture_check_messages(pair->fixture);
 }
 

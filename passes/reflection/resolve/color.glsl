@@ -144,8 +144,9 @@ vec4 surface_in_cubemap(Ray ray, vec3 center, uint place) {
 
 vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = active_centers[place].xyz;
-    if (joint && fact_sky_seen && !ray.endless) return surface_in_cubemap(ray, center, place);
-    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place), false);
+    bool surface = joint && !ray.endless;
+    if (surface && fact_sky_seen) return surface_in_cubemap(ray, center, place);
+    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place), surface);
     if (!fact_sky_seen) return vec4(color.rgb, 1.0);
     color.a = opacity(color.a);
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
