@@ -1,7 +1,7 @@
 """Neither replay/ nor study/ names a slot, a variant or an image: what they look for is declared as a row ROLE and found by kind.
 Fails on every such name there, in strings and in identifiers. A name of several words, such as screen_trace, counts wherever it stands, in
-"screen_trace.steps" and in SCREEN_TRACE_STEPS, too. A name of one word is often an English word: it counts where it is a whole string, and as an
-identifier if it is a slot's. What is exempt is listed below, and the list only shrinks."""
+"screen_trace.steps" and in SCREEN_TRACE_STEPS, too. A name of one word is often an English word: it counts where it is a whole string, and a slot's
+also in "blur=plus" and has_blur. What is exempt is listed below, and the list only shrinks."""
 import pathlib
 import re
 import sys
@@ -56,16 +56,17 @@ def without_keys(text):
 def matches(text, names, slots, where, used):
     """Where a file without comments holds a name: (position, what stands there)."""
     several = re.compile(r"(?<![a-z])(?:" + "|".join(sorted((n for n in names if "_" in n), key=len, reverse=True)) + r")(?![a-z])", re.I)
+    assigned = re.compile(r"(?:" + "|".join(sorted(slots)) + r")(?:[=./].*)?")
     for literal in STRING.finditer(text):
-        if several.search(literal[1]):
+        if several.search(literal[1]) or assigned.fullmatch(literal[1]):
             yield literal.start(), literal[0]
     for literal in STRING.finditer(without_keys(text)):
         if literal[1] in EXCEPTIONS.get(where, {}):
             used.add((where, literal[1]))
-        elif literal[1] in names and "_" not in literal[1]:
+        elif literal[1] in names and "_" not in literal[1] and not assigned.fullmatch(literal[1]):
             yield literal.start(), literal[0]
     for word in re.finditer(r"\b[A-Za-z_]\w*", STRING.sub(lambda s: " " * len(s[0]), text)):
-        if not DECLARED.match(word[0]) and (several.search(word[0]) or word[0] in slots - OWN_WORDS):
+        if not DECLARED.match(word[0]) and (several.search(word[0]) or slots & set(word[0].lower().split("_"))):
             yield word.start(), word[0]
 
 
@@ -77,7 +78,7 @@ def main():
     for path in sorted(p for folder in ("replay", "study") for kind in ("*.[ch]", "*.cc") for p in (ROOT / folder).rglob(kind)):
         text = re.sub(r"/\*.*?\*/", lambda c: re.sub(r"[^\n]", " ", c[0]), path.read_text(encoding="utf-8"), flags=re.S)
         where = path.relative_to(ROOT).as_posix()
-        for start, found in matches(text, names, slots, where, used):
+        for start, found in matches(text, names, slots - OWN_WORDS, where, used):
             line = text.count("\n", 0, start) + 1
             faults.append(f"{where}:{line}: {found} is a name of the passes; expected a row ROLE, and its kind here")
     faults += [f"tests/check_names.py: {where} names {word} no more: take the exception out"
