@@ -1,11 +1,13 @@
 """Neither replay/ nor study/ names a slot, a variant or an image: what they look for is declared as a row ROLE and found by kind.
-Fails on every string literal there that is such a name, but for those of EXCEPTIONS, a list that only shrinks."""
+Fails on every such name there, in strings and in identifiers. A name of several words, such as screen_trace, counts wherever it stands, in
+"screen_trace.steps" and in SCREEN_TRACE_STEPS, too. A name of one word is often an English word: it counts where it is a whole string, and a slot's
+also in "blur=plus" and has_blur. What is exempt is listed below, and the list only shrinks."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# Words that are something else where they stand, by file.
+# Strings that are something else where they stand, by file.
 EXCEPTIONS = {
     "replay/include/glint/replay.h": {"none"},  # how a slot is left out; a variant of downsample is called that, too
     "replay/plan/survey_record.c": {"none"},  # what moved
@@ -13,21 +15,27 @@ EXCEPTIONS = {
     "study/shown/ends.c": {"sky"},  # where a reflection comes from
     "study/shown/regions.c": {"hit", "sky"},  # how far a mirror ray goes
 }
+# Slots whose names are also what replay/ calls things of its own: the survey, and layers of a capture.
+OWN_WORDS = {"survey", "planar", "water"}
+# Roles and size classes, some of which are called after images.
+DECLARED = re.compile(r"^GLINT_(ROLE|SIZE)_[A-Z_]+$")
 # JSON's keys are the words of run.json. These calls take keys as literals; what json_string makes is a value.
 KEYED = re.compile(r"\bjson_(?:object_\w+|pack)\s*\(")
+STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
 
 def registry():
-    """Every name that the passes declare."""
-    names = set()
+    """Every name that the passes declare, and which of them are slots."""
+    names, slots = set(), set()
     for path in (ROOT / "passes").rglob("*.pass.h"):
         slot, variant = path.parent.name, path.name.removesuffix(".pass.h")
         names |= {slot, variant, f"{slot}/{variant}"}
+        slots.add(slot)
     for path in (ROOT / "passes").rglob("*.h"):
         text = path.read_text(encoding="utf-8")
         names.update(re.findall(r"^(?:WRITE|DIAGNOSTIC)\(\w+,\s*(\w+),", text, re.M))
         names.update(re.findall(r"^CAPTURE\((\w+),", text, re.M))
-    return names
+    return names, slots
 
 
 def without_keys(text):
@@ -45,24 +53,36 @@ def without_keys(text):
     return out + text[at:]
 
 
+def matches(text, names, slots, where, used):
+    """Where a file without comments holds a name: (position, what stands there)."""
+    several = re.compile(r"(?<![a-z])(?:" + "|".join(sorted((n for n in names if "_" in n), key=len, reverse=True)) + r")(?![a-z])", re.I)
+    assigned = re.compile(r"(?:" + "|".join(sorted(slots)) + r")(?:[=./].*)?")
+    for literal in STRING.finditer(text):
+        if several.search(literal[1]) or assigned.fullmatch(literal[1]):
+            yield literal.start(), literal[0]
+    for literal in STRING.finditer(without_keys(text)):
+        if literal[1] in EXCEPTIONS.get(where, {}):
+            used.add((where, literal[1]))
+        elif literal[1] in names and "_" not in literal[1] and not assigned.fullmatch(literal[1]):
+            yield literal.start(), literal[0]
+    for word in re.finditer(r"\b[A-Za-z_]\w*", STRING.sub(lambda s: " " * len(s[0]), text)):
+        if not DECLARED.match(word[0]) and (several.search(word[0]) or slots & set(word[0].lower().split("_"))):
+            yield word.start(), word[0]
+
+
 def main():
-    names = registry()
-    if len(names) < 150:
-        sys.exit(f"only {len(names)} names found in passes/, expected the whole registry")
+    names, slots = registry()
+    if len(names) < 150 or len(slots) < 20:
+        sys.exit(f"only {len(names)} names and {len(slots)} slots found in passes/, expected the whole registry")
     faults, used = [], set()
-    for path in sorted(p for folder in ("replay", "study") for p in (ROOT / folder).rglob("*.[ch]")):
+    for path in sorted(p for folder in ("replay", "study") for kind in ("*.[ch]", "*.cc") for p in (ROOT / folder).rglob(kind)):
         text = re.sub(r"/\*.*?\*/", lambda c: re.sub(r"[^\n]", " ", c[0]), path.read_text(encoding="utf-8"), flags=re.S)
         where = path.relative_to(ROOT).as_posix()
-        for literal in re.finditer(r'"((?:[^"\\\n]|\\.)*)"', without_keys(text)):
-            if literal[1] not in names:
-                continue
-            if literal[1] in EXCEPTIONS.get(where, {}):
-                used.add((where, literal[1]))
-                continue
-            line = text.count("\n", 0, literal.start()) + 1
-            faults.append(f'{where}:{line}: "{literal[1]}" is a name of the passes; expected a row ROLE, and its kind here')
+        for start, found in matches(text, names, slots - OWN_WORDS, where, used):
+            line = text.count("\n", 0, start) + 1
+            faults.append(f"{where}:{line}: {found} is a name of the passes; expected a row ROLE, and its kind here")
     faults += [f"tests/check_names.py: {where} names {word} no more: take the exception out"
-               for where, words in EXCEPTIONS.items() for word in words if (where, word) not in used]
+               for where, words in EXCEPTIONS.items() for word in sorted(words) if (where, word) not in used]
     print("\n".join(faults), file=sys.stderr)
     sys.exit(1 if faults else 0)
 

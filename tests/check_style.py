@@ -51,6 +51,16 @@ for f in files:
     for n, line in enumerate(lines, 1):
         if line.rstrip() != line:
             faults.append(f"{f}:{n}: trailing space")
+# The build gives a room the headers of the rooms that it may know; a path with .. would go around it.
+for f in files:
+    if not f.endswith((".c", ".h", ".cc")):
+        continue
+    depth = 2 if f.startswith(("replay/", "study/")) else 1
+    with open(f, encoding="utf-8") as text:
+        for n, line in enumerate(text, 1):
+            named = re.match(r'\s*#\s*include\s*"([^"]*\.\./[^"]*)"', line)
+            if named and os.path.normpath(os.path.join(os.path.dirname(f), named[1])).split("/")[:depth] != f.split("/")[:depth]:
+                faults.append(f"{f}:{n}: includes {named[1]}, which leaves its room; expected a header that the build lets it see")
 generated = tempfile.TemporaryDirectory()
 os.mkdir(os.path.join(generated.name, "glint"))
 subprocess.run([sys.executable, "passes/table.py", "rows", os.path.join(generated.name, "glint/row_kinds.h")], check=True)

@@ -2,18 +2,8 @@
 #include "run.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "shared/work_list.h"
-
-struct pooled *run_image(const struct run *run, const char *name) {
-    const struct graph_image *image = graph_find(run->graph, name);
-    return image ? run->images[image - run->graph->images] : NULL;
-}
-
-struct pooled *run_bound(const struct run *run, const struct glint_row *binding) {
-    return run->images[graph_bound(run->graph, binding) - run->graph->images];
-}
 
 /* The layers that a dispatch over a MIP level runs over; NULL: all. */
 static struct face_run *needed_layers(const struct run *run, const struct step *step, const struct glint_row *row,

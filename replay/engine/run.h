@@ -98,9 +98,11 @@ bool run_restore(struct run *run, struct step *step);
 /* upload.c: fills images that no shader writes. */
 bool run_upload(struct run *run, struct glint_error *err);
 
-/* dispatch.c: turns the rows of a pass into dispatches. describe.c: its descriptors, barriers and commands. */
+/* images.c: the image of a name, or NULL if the graph has none, and the image that a row of a pass is bound to. */
 struct pooled *run_image(const struct run *run, const char *name);
 struct pooled *run_bound(const struct run *run, const struct glint_row *binding);
+
+/* dispatch.c: turns the rows of a pass into dispatches. describe.c: its descriptors, barriers and commands. */
 bool step_plan(const struct run *run, struct step *step, struct glint_error *err);
 bool step_describe(const struct run *run, struct step *step, struct glint_error *err);
 void step_record(const struct run *run, struct step *step);

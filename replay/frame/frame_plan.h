@@ -10,7 +10,7 @@
 
 enum {
     LIST_WIDTH = 256,
-    COCOON_SIZE = 32 /* shared/cocoon.glsl */,
+    SMALL_FACE = 32 /* of GLINT_SIZE_COCOON (shared/cocoon.glsl) */,
     FIGURES = 512 /* survey/gbuffer.comp */
 };
 

@@ -124,7 +124,7 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
         desc->layers = layers * (sizes->active ? sizes->active : 1);
         break;
     case GLINT_SIZE_COCOON:
-        expected[0] = expected[1] = sizes->active ? COCOON_SIZE : 0;
+        expected[0] = expected[1] = sizes->active ? SMALL_FACE : 0;
         desc->layers = layers * (sizes->active ? sizes->active : 1);
         break;
     case GLINT_SIZE_SKY:

@@ -32,7 +32,7 @@ static uint64_t cubemaps_key(const struct frame_source *source, const struct gli
 }
 
 enum {
-    SQUARES = 6 * COCOON_SIZE * COCOON_SIZE /* texels for each cube map */,
+    SQUARES = 6 * SMALL_FACE * SMALL_FACE /* texels for each cube map */,
     NEARBY_WORDS = 4 /* index of the first mask `nearby` */
 };
 

@@ -219,14 +219,15 @@ static bool use_variant(struct glint_pipeline *pipeline, const char *slot, const
 struct glint_pipeline *glint_players_pipeline(const struct glint_players *players, uint32_t exchanged,
                                               struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_copy(players->pipeline[MODE_OWN], err);
-    const struct exchange *compose = players_with_role(players, GLINT_ROLE_COMPOSED),
+    const struct exchange *composer = players_with_role(players, GLINT_ROLE_COMPOSED),
                           *draws = players_with_role(players, GLINT_ROLE_LOBE);
     bool ok = pipeline != NULL;
     for (size_t i = 0; ok && i < players->slot_count; i++) {
         const struct exchange *slot = &players->slots[i];
         const bool exchange = is_exchanged(players, slot, exchanged);
         const struct glint_pass *pass = slot->pass[exchange ? MODE_REFERENCE : MODE_OWN];
-        if (!slot->matters && slot != compose) pass = NULL; /* passes after compose do not affect the reflection */
+        if (!slot->matters && slot != composer)
+            pass = NULL; /* passes after the composer do not affect the reflection */
         if (exchange || !pass) ok = use_variant(pipeline, slot->slot, pass, err);
         if (ok && pass) ok = set_values(players, slot, exchanged, pipeline, err);
     }

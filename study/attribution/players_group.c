@@ -92,23 +92,23 @@ static bool may_depend_on(const struct exchange *slot, const struct exchange *ma
     return false;
 }
 
-static bool makes_reflection(const struct exchange *slot, const struct exchange *compose) {
+static bool makes_reflection(const struct exchange *slot, const struct exchange *composer) {
     for (int mode = 0; mode < MODES; mode++)
         for (size_t r = 0; r < row_count(slot, mode); r++) {
             const struct glint_row *row = &slot->pass[mode]->rows[r];
             if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance") != 0)
                 continue;
             for (int reader = 0; reader < MODES; reader++)
-                if (compose->pass[reader] && glint_pass_row(compose->pass[reader], GLINT_ROW_READ, row->name))
+                if (composer->pass[reader] && glint_pass_row(composer->pass[reader], GLINT_ROW_READ, row->name))
                     return true;
         }
     return false;
 }
 
 static void find_what_matters(struct glint_players *players) {
-    const struct exchange *compose = players_with_role(players, GLINT_ROLE_COMPOSED);
+    const struct exchange *composer = players_with_role(players, GLINT_ROLE_COMPOSED);
     for (size_t i = 0; i < players->slot_count; i++)
-        players->slots[i].matters = !compose || makes_reflection(&players->slots[i], compose);
+        players->slots[i].matters = !composer || makes_reflection(&players->slots[i], composer);
     for (bool more = true; more;) {
         more = false;
         for (size_t i = 0; i < players->slot_count; i++)

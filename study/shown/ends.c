@@ -44,15 +44,20 @@ uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_pi
 /* The diagnostic images of a tracer. */
 struct tracer {
     char name[32];
+    const struct glint_pass *pass;
     const struct glint_image *end;
     uint32_t *reasons;
 };
 
+/* The diagnostic image of a tracer that has this unit, or NULL. */
 static const struct glint_image *diagnostic_image(struct glint_replay *replay, const struct tracer *tracer,
-                                                  const char *what) {
-    char name[64];
-    snprintf(name, sizeof name, "%s_%s", tracer->name, what);
-    return glint_replay_find_image(replay, name);
+                                                  const char *unit) {
+    for (size_t r = 0; r < tracer->pass->row_count; r++) {
+        const struct glint_row *row = &tracer->pass->rows[r];
+        if (row->kind == GLINT_ROW_DIAGNOSTIC && strcmp(row->unit, unit) == 0)
+            return glint_replay_find_image(replay, row->name);
+    }
+    return NULL;
 }
 
 /* Finds passes with end reasons, in order of execution. A pass whose images have another size traces other rays and is left out. */
@@ -68,6 +73,7 @@ static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, si
             const struct glint_image *first = *count ? tracers[0].end : NULL;
             t->end = glint_replay_find_image(replay, row->name);
             if (!t->end || (first && (t->end->width != first->width || t->end->height != first->height))) continue;
+            t->pass = results[p].pass;
             const char *cut = strrchr(row->name, '_');
             snprintf(t->name, sizeof t->name, "%.*s", cut ? (int)(cut - row->name) : 31, row->name);
             if (!(t->reasons = study_values(replay, t->end, GLINT_U32, err))) return false;
@@ -103,11 +109,11 @@ static bool clear_hidden_rays(struct glint_replay *replay, struct tracer *tracer
     return true;
 }
 
-/* Sums the diagnostic image `what` of all tracers over all rays. */
-static bool sum_diagnostic(struct glint_replay *replay, const struct tracer *tracers, size_t count, const char *what,
+/* Sums the diagnostic images of a unit, of all tracers, over all rays. */
+static bool sum_diagnostic(struct glint_replay *replay, const struct tracer *tracers, size_t count, const char *unit,
                            double *sum, struct glint_error *err) {
     for (size_t t = 0; t < count; t++) {
-        const struct glint_image *image = diagnostic_image(replay, &tracers[t], what);
+        const struct glint_image *image = diagnostic_image(replay, &tracers[t], unit);
         uint32_t *values = image ? study_values(replay, image, GLINT_U32, err) : NULL;
         if (image && !values) return false;
         for (size_t i = 0; image && i < (size_t)image->width * image->height; i++)
@@ -189,7 +195,7 @@ static uint8_t ray_source(const struct tracer *tracers, size_t group) {
     if (group == 0) return 0;
     const size_t reason = group % REASONS;
     if (reason == GLINT_END_HIT)
-        return strcmp(tracers[group / REASONS].name, "screen") ? SOURCE_CUBE_MAP : SOURCE_SCREEN;
+        return glint_pass_role(tracers[group / REASONS].pass, GLINT_ROLE_SCREEN_END) ? SOURCE_SCREEN : SOURCE_CUBE_MAP;
     if (reason == GLINT_END_SKY) return SOURCE_SKY;
     return reason == GLINT_END_FALLBACK ? SOURCE_FALLBACK : SOURCE_MISS;
 }

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_compose(const struct glint_pass *pass) {
+static bool composes(const struct glint_pass *pass) {
     return pass && glint_pass_role(pass, GLINT_ROLE_COMPOSED);
 }
 
@@ -28,18 +28,18 @@ uint8_t *glint_study_surfaces(struct glint_capture *capture, struct glint_error 
     return surfaces;
 }
 
-/* Only images that `compose` reads count, if the run has it: water and glass are composed afterwards, and images that only they read are not
+/* Only images that the composer reads count, if the run has it: water and glass are composed afterwards, and images that only they read are not
    reflections in the opaque surfaces. */
 const struct glint_image *glint_study_reflection_image(struct glint_replay *replay) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     const struct glint_image *last = NULL;
-    const struct glint_pass *compose = NULL;
+    const struct glint_pass *composer = NULL;
     for (size_t i = 0; i < count; i++)
-        if (results[i].shown && is_compose(results[i].pass)) compose = results[i].pass;
+        if (results[i].shown && composes(results[i].pass)) composer = results[i].pass;
     for (size_t i = 0; i < count; i++) {
         const struct glint_image *image =
-            results[i].ran && results[i].pass != compose ? study_radiance(replay, results[i].pass, compose) : NULL;
+            results[i].ran && results[i].pass != composer ? study_radiance(replay, results[i].pass, composer) : NULL;
         if (image) last = image;
     }
     return last;
@@ -55,20 +55,20 @@ bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pi
 
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err) {
     const struct glint_run_image *last = NULL;
-    const struct glint_pass *compose = NULL;
+    const struct glint_pass *composer = NULL;
     uint32_t widest = 0;
     *pixels = (struct glint_pixels){0};
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
         const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
-        if (is_compose(pass)) compose = pass;
+        if (composes(pass)) composer = pass;
     }
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
-        if (strcmp(image->unit, "radiance") || (compose && !strcmp(image->slot, compose->slot)) || image->integer)
+        if (strcmp(image->unit, "radiance") || (composer && !strcmp(image->slot, composer->slot)) || image->integer)
             continue;
         if (image->cube || image->width < widest) continue; /* cubes; half resolution */
-        if (compose && !glint_pass_row(compose, GLINT_ROW_READ, image->name)) continue;
+        if (composer && !glint_pass_row(composer, GLINT_ROW_READ, image->name)) continue;
         widest = image->width;
         last = image;
     }

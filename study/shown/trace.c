@@ -13,7 +13,7 @@ enum { REASONS = GLINT_END_REASONS, TRACERS = 2, GROUPS = TRACERS * REASONS };
 static const char *const tracers[TRACERS] = {"screen", "cube map"};
 
 /* The images of the run that are compared, by role. */
-enum { NORMAL, PICK, TRAVELLED, FINISHED, SCREEN_END, CUBEMAP_END, SCREEN_FETCHES, CUBEMAP_FETCHES, RADIANCE, IMAGES };
+enum { NORMAL, PICK, TRAVELLED, FINISHED, SCREEN_REASON, CUBE_REASON, SCREEN_FETCHED, CUBE_FETCHED, RADIANCE, IMAGES };
 static const struct {
     enum glint_pass_role role;
     enum glint_type type;
@@ -23,10 +23,10 @@ static const struct {
     [PICK] = {GLINT_ROLE_RAY_PICK, GLINT_U32, "picked pixels"},
     [TRAVELLED] = {GLINT_ROLE_RAY_DISTANCE, GLINT_F32, "travelled distances"},
     [FINISHED] = {GLINT_ROLE_SCREEN_FINISHED, GLINT_U32, NULL},
-    [SCREEN_END] = {GLINT_ROLE_SCREEN_END, GLINT_U32, NULL},
-    [CUBEMAP_END] = {GLINT_ROLE_CUBEMAP_END, GLINT_U32, NULL},
-    [SCREEN_FETCHES] = {GLINT_ROLE_SCREEN_FETCHES, GLINT_U32, NULL},
-    [CUBEMAP_FETCHES] = {GLINT_ROLE_CUBEMAP_FETCHES, GLINT_U32, NULL},
+    [SCREEN_REASON] = {GLINT_ROLE_SCREEN_END, GLINT_U32, NULL},
+    [CUBE_REASON] = {GLINT_ROLE_CUBEMAP_END, GLINT_U32, NULL},
+    [SCREEN_FETCHED] = {GLINT_ROLE_SCREEN_FETCHES, GLINT_U32, NULL},
+    [CUBE_FETCHED] = {GLINT_ROLE_CUBEMAP_FETCHES, GLINT_U32, NULL},
     [RADIANCE] = {GLINT_ROLE_RAY_RADIANCE, GLINT_F32, NULL},
 };
 
@@ -161,8 +161,8 @@ static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) 
     if (x >= in->width || y >= in->height) return;
     size_t pixel = (size_t)y * in->width + x;
     bool on_screen = in->images[FINISHED].u && in->images[FINISHED].u[i] != 0;
-    bool by_screen = on_screen || !in->images[CUBEMAP_END].u; /* no tracer continues where the screen ends */
-    uint32_t reason = reason_at(in, by_screen ? SCREEN_END : CUBEMAP_END, i);
+    bool by_screen = on_screen || !in->images[CUBE_REASON].u; /* no tracer continues where the screen ends */
+    uint32_t reason = reason_at(in, by_screen ? SCREEN_REASON : CUBE_REASON, i);
     float distance = in->mirror[2 * pixel], travelled = in->images[TRAVELLED].f[i],
           roughness = in->images[NORMAL].f[4 * i + 3];
     if (reason == 0 || !(distance > 0)) return;
@@ -170,7 +170,7 @@ static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) 
     rays->truth[rays->count] = distance;
     enum glint_surface surface = glint_surface_of((double)roughness);
     rays->surfaces[rays->count++] = (uint8_t)surface;
-    rays->fetches[surface] += fetches_at(in, SCREEN_FETCHES, i) + fetches_at(in, CUBEMAP_FETCHES, i);
+    rays->fetches[surface] += fetches_at(in, SCREEN_FETCHED, i) + fetches_at(in, CUBE_FETCHED, i);
     if (!(roughness <= (float)rays->max_roughness)) return;
     rays->samples[rays->sample_count++] =
         (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),

@@ -32,7 +32,7 @@ enum {
 #define USE_OPTION \
     {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; the variant none removes the slot", 0}
 #define ALL_OPTION \
-    {"all",     KEY_ALL,     NULL,             0, "Run every pass on every pixel, without the survey, the plan and pixel lists. The image is the same, bit for bit", 0}
+    {"all",     KEY_ALL,     NULL,             0, "Run every pass on every pixel, without the survey, the plan and lists of tiles. The image is the same, bit for bit", 0}
 /* A pipeline, and what it is for the command. */
 #define WHOLE_PIPELINE_OPTIONS(what) \
     {"preset",  'p',         "NAME|FILE",      0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
@@ -41,7 +41,7 @@ enum {
     {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead of the built-in one", 0}, \
     ALL_OPTION, DEVICE_OPTION
 #define SKIP_OPTION \
-    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these passes; passes that read their images get the declared default values instead, so the image changes", 0}
+    {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these passes; passes that read their images get fallback values instead, so the image changes", 0}
 /* And which part of it. */
 #define PIPELINE_OPTIONS \
     WHOLE_PIPELINE_OPTIONS("The pipeline"), \
