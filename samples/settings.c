@@ -1,4 +1,4 @@
-/* XXH3-128 over the numbers that make a scene and over the options. */
+/* Hashes a scene's numbers and the options with XXH3-128. */
 #include "settings.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Right-handed view space that looks along -Z; NDC +1 is the top; jitter is part of view_to_clip. */
+/* Right-handed view space with the view along -Z; NDC +1 is at the top; jitter is part of view_to_clip. */
 #include "view.h"
 
 #include "noise.h"
@@ -22,7 +22,7 @@ static struct axes look(const double eye[3], const double target[3]) {
     struct axes axes;
     for (int i = 0; i < 3; i++) axes.forward[i] = target[i] - eye[i];
     normalised(axes.forward);
-    /* Straight up or down, the world's up says nothing about the picture's. */
+    /* If the view is vertical, the world's up does not determine that of the image. */
     const double up[3] = {0, 1, 0}, ahead[3] = {0, 0, -1};
     crossed(axes.forward, fabs(axes.forward[1]) > 0.9999 ? ahead : up, axes.right);
     normalised(axes.right);
@@ -48,7 +48,7 @@ static void projection(struct view *view, enum glint_depth_encoding depth, doubl
         m[11] = n * f / (f - n);
         break;
     default:
-        m[11] = n; /* reversed, infinitely far */
+        m[11] = n; /* reversed, with an infinite far plane */
     }
 }
 
