@@ -76,7 +76,7 @@ static bool find_text(struct check *c, const unsigned char *data, size_t bytes, 
     return true;
 }
 
-/* Reads a count or offset, or `fallback` if absent. Anything but a get_number from 0 to 2^31 is an error. */
+/* Reads a count or offset, or `fallback` if absent. Anything but a number from 0 to 2^31 is an error. */
 static bool get_number(const json_t *object, const char *key, uint64_t fallback, uint64_t *value) {
     const json_t *found = json_object_get(object, key);
     *value = fallback;

@@ -107,7 +107,7 @@ void prop_railing(struct scene *scene, float length_m) {
     scene_tube(scene, v3(0, 0.55f, 0), v3(length_m, 0.55f, 0), 0.012f, 8);
 }
 
-/* A leaf: a bent strip from `root` in the direction `direction`, drooping. */
+/* A leaf: a bent strip from `root` in the given direction, drooping. */
 static void leaf(struct scene *scene, vec3 root, vec3 direction, float length_m, float rise) {
     enum { PARTS = 6 };
     vec3 side = unit(cross(direction, v3(0, 1, 0)));

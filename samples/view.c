@@ -18,7 +18,7 @@ static void normalised(double v[3]) {
     for (int i = 0; i < 3; i++) v[i] /= l;
 }
 
-static struct axes look(const double eye[3], const double target[3]) {
+static struct axes axes_of_view(const double eye[3], const double target[3]) {
     struct axes axes;
     for (int i = 0; i < 3; i++) axes.forward[i] = target[i] - eye[i];
     normalised(axes.forward);
@@ -65,7 +65,7 @@ struct view view_through(const struct scene *scene, const struct glint_sample_op
             (i ? target : view.eye)[k] = (options->camera_given ? given[k] : (double)start[k]) + time * moves;
         }
     }
-    struct axes axes = look(view.eye, target);
+    struct axes axes = axes_of_view(view.eye, target);
     double *m = view.camera.world_to_view;
     for (int k = 0; k < 3; k++) {
         m[k] = axes.right[k];

@@ -134,7 +134,7 @@ static void fill_hit(const struct world *world, const struct RTCRayHit *found, v
     hit->v = v;
 }
 
-static struct hit trace(const struct world *world, RTCScene tree, vec3 origin, vec3 direction, float t_min) {
+static struct hit trace_tree(const struct world *world, RTCScene tree, vec3 origin, vec3 direction, float t_min) {
     struct RTCRayHit ray = {.ray = {.org_x = origin.x,
                                     .org_y = origin.y,
                                     .org_z = origin.z,
@@ -158,12 +158,12 @@ static struct hit trace(const struct world *world, RTCScene tree, vec3 origin, v
 }
 
 struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min) {
-    return trace(world, world->tree, origin, direction, t_min);
+    return trace_tree(world, world->tree, origin, direction, t_min);
 }
 
 struct hit world_see(const struct world *world, vec3 origin, vec3 direction, float t_min) {
     struct hit behind = world_trace(world, origin, direction, t_min);
-    struct hit front = trace(world, world->front, origin, direction, t_min);
+    struct hit front = trace_tree(world, world->front, origin, direction, t_min);
     return front.t < behind.t ? front : behind;
 }
 

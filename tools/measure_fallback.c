@@ -108,7 +108,8 @@ static double symmetric(const float *found, const float *truth) {
     return sum / 3;
 }
 
-static void add(const struct frame *before, const struct frame *now, struct tally *error, struct tally change[2]) {
+static void add_change(const struct frame *before, const struct frame *now, struct tally *error,
+                       struct tally change[2]) {
     for (size_t i = 0; i < (size_t)now->width * now->height; ++i) {
         if (now->fell[i]) {
             error->rays++;
@@ -164,7 +165,7 @@ int main(int argc, char **argv) {
             !glint_replay_run(replay, pipeline, &options, NULL, NULL, &err))
             die(&err);
         struct frame now = frame_of(replay, capture);
-        add(&before, &now, &error, change);
+        add_change(&before, &now, &error, change);
         free_frame(&before);
         before = now;
         glint_replay_load(replay, NULL, NULL);

@@ -281,7 +281,7 @@ static bool print_statistics(const struct source *source, const struct arguments
     return ok;
 }
 
-/* Draws one image, and has_text_output what is requested of it. */
+/* Draws one image, and prints what is requested of it. */
 static bool show_image(struct picture *picture, struct arguments *a, struct glint_error *err) {
     struct source source = {0};
     size_t invalid = 0;

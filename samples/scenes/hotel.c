@@ -232,7 +232,7 @@ static void furniture(struct scene *scene) {
     scene_place(scene, gray(0), 0);
 }
 
-static void outside(struct scene *scene) {
+static void add_street(struct scene *scene) {
     const struct material road = {
         .albedo = gray(0.05f), .roughness = 0.4f, .specular = 0.45f, .stencil = STENCIL_WORLD, .paint = paint_road};
     const struct material pavement = {
@@ -297,7 +297,7 @@ void build_hotel(struct scene *scene) {
     gallery(scene);
     lights(scene);
     furniture(scene);
-    outside(scene);
+    add_street(scene);
     probes(scene);
     scene->eye = v3(-1.2f, 1.75f, -9.6f);
     scene->target = v3(0.5f, 0.8f, 0);

@@ -238,7 +238,7 @@ static void second_room(struct scene *scene) {
     lamp(scene, v3(3.7f, 2.05f, 2.5f), v3(0.9f, 0.72f, 0.45f));
 }
 
-static void outside(struct scene *scene) {
+static void add_garden(struct scene *scene) {
     const struct material gravel = {
         .albedo = {0.24f, 0.22f, 0.19f}, .roughness = 1, .specular = 0.2f, .stencil = STENCIL_WORLD};
     const struct material lawn = {.albedo = {0.12f, 0.17f, 0.06f},
@@ -292,7 +292,7 @@ void build_kitchen(struct scene *scene) {
     worktops(scene);
     table(scene);
     second_room(scene);
-    outside(scene);
+    add_garden(scene);
     probes(scene);
     scene->eye = v3(0.85f, 1.55f, -0.6f);
     scene->target = v3(2.95f, 1.2f, -4.3f);

@@ -49,7 +49,7 @@ static void read_moved(struct glint_capture *capture, const char *channel, uint3
         fail_msg("%s", err.message);
 }
 
-static void finish(struct glint_capture *capture) {
+static void close_capture(struct glint_capture *capture) {
     glint_capture_close(&capture);
     unlink(path);
 }
@@ -108,7 +108,7 @@ static void values_move_by_half_a_step(void **state) {
         assert_true(fabs((double)differ - 4 * PIXELS / 7.0) < 2.5 * sqrt(PIXELS));
         read_moved(capture, "material.metalness", 0, NULL, moved);
         assert_memory_equal(moved, values, sizeof moved);
-        finish(capture);
+        close_capture(capture);
     }
 }
 
@@ -134,7 +134,7 @@ static void channels_of_a_pixel_have_nothing_in_common(void **state) {
     for (size_t i = 0; i < PIXELS; i++)
         for (size_t k = 0; k < 3; k++) assert_int_equal(agree[k][i], 4);
     assert_memory_not_equal(first, moved, sizeof first);
-    finish(capture);
+    close_capture(capture);
 }
 
 /* t² / |B| · h, whether the buffer was decoded before or is by the reader; sky stays. */
@@ -162,7 +162,7 @@ static void depth_moves_as_its_buffer_does(void **state) {
             /* To first order; half a step of 16 bits is up to t/B · 8e-6 of it. */
             else assert_true(fabs(by / (t * t / scale / fabs(m[11]) * 0.5 / 65535) - 1) < 0.01);
         }
-        finish(capture);
+        close_capture(capture);
     }
 }
 
@@ -188,7 +188,7 @@ static void only_what_is_named_moves(void **state) {
     assert_false(glint_capture_perturb(capture, 3, (const char *const[]){"gbuffer:norm", NULL}, &err));
     assert_non_null(strstr(err.message, "found \"gbuffer:norm\""));
     assert_int_equal(glint_capture_perturbed(capture), 0);
-    finish(capture);
+    close_capture(capture);
 }
 
 int main(void) {

@@ -74,7 +74,7 @@ static void pixels_come_from_the_sibling(void **state) {
     }
 }
 
-static void refused(const char *words) {
+static void assert_refused(const char *words) {
     struct glint_error err = {0};
     struct glint_capture *capture = glint_capture_open(capture_path, NULL, &err);
     if (capture) fail_msg("taken, expected \"%s\"", words);
@@ -94,7 +94,7 @@ static void one_changed_byte_is_refused(void **state) {
     fseek(file, -1, SEEK_END);
     fputc(last ^ 1, file);
     fclose(file);
-    refused("expected the hash");
+    assert_refused("expected the hash");
 }
 
 static void another_file_of_that_name_is_refused(void **state) {
@@ -103,9 +103,9 @@ static void another_file_of_that_name_is_refused(void **state) {
     write_probes(0);
     assert_true(write_capture("probes.exr", false, &err));
     write_probes(1);
-    refused("expected the hash");
+    assert_refused("expected the hash");
     unlink(probes);
-    refused("No such file");
+    assert_refused("No such file");
 }
 
 /* The hash is right, but the file holds no such part: only a writer that lies can make one. */
@@ -114,7 +114,7 @@ static void a_sibling_without_the_part_is_refused(void **state) {
     struct glint_error err = {0};
     assert_true(fixture_write(&fixture, probes, FIXTURE_LIT + 1, NULL, &err));
     assert_true(write_capture("probes.exr", false, &err));
-    refused("expected a part of this name");
+    assert_refused("expected a part of this name");
 }
 
 static void a_sibling_that_is_not_there_is_an_error_of_the_writer(void **state) {

@@ -42,7 +42,7 @@ static struct glint_writer *begin(const char *path, bool background) {
     return writer;
 }
 
-static bool add(struct glint_writer *writer, enum fixture_part which, struct glint_error *err) {
+static bool add_part(struct glint_writer *writer, enum fixture_part which, struct glint_error *err) {
     struct fixture_channels channels;
     const struct glint_part part = fixture_part(&fixture, which, &channels);
     return glint_writer_add_part(writer, &part, err);
@@ -117,7 +117,7 @@ static void finish_returns_before_the_file_exists(void **state) {
     fixture_path(path, "background.exr");
     snprintf(temporary, sizeof temporary, "%s.tmp-%ld", path, (long)getpid());
     struct glint_writer *writer = begin(path, true);
-    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add(writer, (enum fixture_part)p, &err));
+    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add_part(writer, (enum fixture_part)p, &err));
     assert_int_equal(mkfifo(temporary, 0600), 0);
     assert_true(glint_writer_finish(writer, &err));
     assert_false(exists(path));
@@ -137,7 +137,7 @@ static void memory_is_the_callers_again_after_add_part(void **state) {
     struct glint_error err = {0};
     static float color[FIX_W * FIX_H * 3], out[FIX_W * FIX_H * 3];
     struct glint_writer *writer = begin(fixture_path(path, "copied.exr"), true);
-    assert_true(add(writer, FIXTURE_GBUFFER, &err));
+    assert_true(add_part(writer, FIXTURE_GBUFFER, &err));
     for (size_t i = 0; i < FIX_W * FIX_H * 3; i++) color[i] = (float)i;
     char names[3][2] = {"R", "G", "B"}, part_name[] = "lit";
     struct glint_channel channels[3];
@@ -168,7 +168,7 @@ static void nothing_is_left_without_finish(void **state) {
     struct glint_error err = {0};
     for (int background = 0; background < 2; background++) {
         struct glint_writer *writer = begin(fixture_path(path, "dropped.exr"), background);
-        for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add(writer, (enum fixture_part)p, &err));
+        for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add_part(writer, (enum fixture_part)p, &err));
         glint_writer_destroy(&writer);
         assert_null(writer);
         assert_false(leftovers(path));
@@ -184,7 +184,7 @@ static void a_failed_write_leaves_what_was_there(void **state) {
     fputs("old", old);
     fclose(old);
     struct glint_writer *writer = begin(path, false);
-    assert_true(add(writer, FIXTURE_GBUFFER, &err)); /* lit is missing */
+    assert_true(add_part(writer, FIXTURE_GBUFFER, &err)); /* lit is missing */
     assert_false(glint_writer_finish(writer, &err));
     assert_int_equal(err.code, GLINT_ERROR_FORMAT);
     assert_non_null(strstr(err.message, "lit"));
@@ -309,11 +309,11 @@ static void what_breaks_a_rule_is_refused_and_the_writer_stays_usable(void **sta
                 fail_msg("refusal %zu: code %d, \"%s\"", i, (int)err.code, err.message);
     }
     for (int p = 0; p < FIXTURE_PARTS; p++)
-        if (!add(writer, (enum fixture_part)p, &err)) fail_msg("%s", err.message);
-    assert_false(add(writer, FIXTURE_LIT, &err)); /* two of one name */
+        if (!add_part(writer, (enum fixture_part)p, &err)) fail_msg("%s", err.message);
+    assert_false(add_part(writer, FIXTURE_LIT, &err)); /* two of one name */
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     if (!glint_writer_finish(writer, &err)) fail_msg("%s", err.message);
-    assert_false(add(writer, FIXTURE_LIT, &err)); /* after finish */
+    assert_false(add_part(writer, FIXTURE_LIT, &err)); /* after finish */
     glint_writer_destroy(&writer);
     assert_true(exists(path));
     unlink(path);
@@ -349,7 +349,7 @@ static void zero_is_the_default(void **state) {
     frame.camera = fixture_frame().camera;
     struct glint_writer *writer = glint_writer_create(fixture_path(path, "zero.exr"), NULL, &err);
     assert_true(glint_writer_set_frame(writer, &frame, &err));
-    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add(writer, (enum fixture_part)p, &err));
+    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add_part(writer, (enum fixture_part)p, &err));
     if (!glint_writer_finish(writer, &err)) fail_msg("%s", err.message);
     glint_writer_destroy(&writer);
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);

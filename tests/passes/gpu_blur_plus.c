@@ -67,7 +67,7 @@ static double weight(const struct images *in, bool ggx, int x, int y, int ox, in
     return fade * lobe(ggx, rough, fmin(cosine / sqrt(lengths[0] * lengths[1]), 1));
 }
 
-static void load(struct gpu *gpu) {
+static void load_relief(struct gpu *gpu) {
     char path[256];
     plain_capture(
         gpu_path(gpu, "relief", path),
@@ -111,7 +111,7 @@ static const int centres[4][2] = {{1, 2}, {2, -1}, {-1, -2}, {-2, 1}};
 static void a_plus_is_weighted_by_the_lobe(void **state) {
     struct gpu *gpu = *state;
     for (int ggx = 0; ggx < 2; ++ggx) {
-        load(gpu);
+        load_relief(gpu);
         gpu_use(gpu, "blur=plus");
         gpu_set(gpu, ggx ? "blur.ndf=ggx" : "blur.ndf=blinn_phong");
         gpu_run(gpu);
@@ -121,7 +121,7 @@ static void a_plus_is_weighted_by_the_lobe(void **state) {
 
 static void without_history_the_centres_around_are_shared_too(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_relief(gpu);
     gpu_use(gpu, "blur=plus");
     gpu_use(gpu, "temporal=rough");
     gpu_run(gpu);
@@ -150,7 +150,7 @@ static void what_shares_nothing_keeps_what_it_has(struct gpu *gpu) {
 static void bad_colours_are_left_out(void **state) {
     struct gpu *gpu = *state;
     for (int mips = 0; mips < 2; ++mips) {
-        load(gpu);
+        load_relief(gpu);
         gpu_set(gpu, "resolve.texel_scale=2");
         gpu_use(gpu, mips ? "blur=mips" : "blur=plus");
         if (!mips) gpu_use(gpu, "temporal=rough");
@@ -198,7 +198,7 @@ static float *second_frame(struct gpu *gpu, const uint32_t *pick) {
 /* A block's history lies where its picked pixel was, whatever its other pixels say. */
 static void the_picked_pixel_moves_its_block(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_relief(gpu);
     gpu_use(gpu, "temporal=rough");
     float *all = second_frame(gpu, NULL);
     uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), others = 0;

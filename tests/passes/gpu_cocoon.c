@@ -20,8 +20,8 @@ static float *level_of(struct gpu *gpu, uint32_t level, uint32_t *width) {
     return gpu_floats(gpu, name, width, &height);
 }
 
-static void start(struct gpu *gpu, const char *name, uint32_t size, uint32_t count,
-                  void (*cube)(uint32_t, const double *, float *)) {
+static void load_cubemaps(struct gpu *gpu, const char *name, uint32_t size, uint32_t count,
+                          void (*cube)(uint32_t, const double *, float *)) {
     char path[256];
     struct plain plain = {
         .width = 40, .height = 24, .fov_y_degrees = 60, .cube_size = size, .cube_count = count, .cube = cube};
@@ -191,7 +191,7 @@ static void check_map(struct gpu *gpu, const float *base, uint32_t number, bool 
 
 static void each_level_is_the_slides_maximum(void **state) {
     struct gpu *gpu = *state;
-    start(gpu, "lumpy", SIZE, 2, lumpy);
+    load_cubemaps(gpu, "lumpy", SIZE, 2, lumpy);
     gpu_set(gpu, "cocoon.size=8");
     size_t counts[4] = {0};
     for (uint32_t k = 0; k < 4; ++k) {
@@ -216,7 +216,7 @@ static void all_sky_stays_sky_and_one_texel_works(void **state) {
     struct gpu *gpu = *state;
     const uint32_t sizes[] = {1, 8};
     for (int s = 0; s < 2; ++s) {
-        start(gpu, "sky", sizes[s], 3, lumpy);
+        load_cubemaps(gpu, "sky", sizes[s], 3, lumpy);
         gpu_run(gpu);
         uint32_t width;
         float *found = level_of(gpu, 0, &width);
@@ -247,7 +247,7 @@ static void odd_levels_take_the_farthest_of_all_that_they_cover(void **state) {
     struct gpu *gpu = *state;
     enum { ODD = 13 };
     float finer[6 * ODD * ODD], out[5];
-    start(gpu, "odd", ODD, 1, unlike);
+    load_cubemaps(gpu, "odd", ODD, 1, unlike);
     gpu_set(gpu, "cocoon.size=1");
     gpu_run(gpu);
     for (uint32_t i = 0; i < 6 * ODD * ODD; ++i) {

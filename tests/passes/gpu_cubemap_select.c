@@ -39,7 +39,7 @@ static double score(const struct weights *w, uint32_t map, const double at[3], c
 }
 
 /* Counts pixels by the cube map that they should take; places are in the order of the host's table. */
-static void check(struct gpu *gpu, const struct weights *w, const char *what) {
+static void check_selection(struct gpu *gpu, const struct weights *w, const char *what) {
     char setting[64];
     gpu_reset(gpu);
     gpu_use(gpu, "cubemap_select=score");
@@ -94,12 +94,12 @@ static void each_term_alone_and_together_decides(void **state) {
     }
     plain_capture(gpu_path(gpu, "spheres", path), &plain);
     gpu_load(gpu, "spheres");
-    check(gpu, &(struct weights){0, 1, 0, 0, 0}, "distance");
-    check(gpu, &(struct weights){0, 0, 1, 0, 0}, "direction");
-    check(gpu, &(struct weights){1, 0.2, 0, 0, 0}, "visibility, then distance");
-    check(gpu, &(struct weights){0, 0.5, 0, 1, 0}, "fade, then distance");
-    check(gpu, &(struct weights){1, 0.2, 0, 0, 1.5}, "visibility farther along the ray, then distance");
-    check(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
+    check_selection(gpu, &(struct weights){0, 1, 0, 0, 0}, "distance");
+    check_selection(gpu, &(struct weights){0, 0, 1, 0, 0}, "direction");
+    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 0}, "visibility, then distance");
+    check_selection(gpu, &(struct weights){0, 0.5, 0, 1, 0}, "fade, then distance");
+    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 1.5}, "visibility farther along the ray, then distance");
+    check_selection(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
 }
 
 /* Right in a cube map's centre no direction is more along the ray than another. */

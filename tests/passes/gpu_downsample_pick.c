@@ -17,7 +17,7 @@ static const double farthest = 1.95 / 128; /* √DRAWS */
 
 /* Half a degree of view onto a plane: all view directions are the normal, and with a power of 30 a draw in 50,000 is
    below the horizon. */
-static void load(struct gpu *gpu, float roughness) {
+static void load_plane(struct gpu *gpu, float roughness) {
     char path[256], name[32];
     snprintf(name, sizeof name, "plane%.0f", (double)roughness * 100);
     plain_capture(gpu_path(gpu, name, path),
@@ -78,14 +78,14 @@ static void expect_distribution(double *cosine, distribution *below, const char 
 
 static void blinn_phong_is_the_slides(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     gpu_set(gpu, "downsample.ndf=blinn_phong");
     expect_distribution(cosines(gpu), phong, "Blinn-Phong, power 30");
 }
 
 static void a_share_cuts_the_angle_and_keeps_proportions(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     gpu_set(gpu, "downsample.ndf=blinn_phong");
     gpu_set(gpu, "downsample.share=0.5");
     double *cosine = cosines(gpu);
@@ -95,14 +95,14 @@ static void a_share_cuts_the_angle_and_keeps_proportions(void **state) {
 
 static void ggx_is_the_default(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     expect_distribution(cosines(gpu), ggx_above, "GGX, alpha 0.25");
 }
 
 static void roughness_zero_and_no_jitter_are_the_normal(void **state) {
     struct gpu *gpu = *state;
     for (int i = 0; i < 2; ++i) {
-        load(gpu, i == 0 ? 0.0f : 0.5f);
+        load_plane(gpu, i == 0 ? 0.0f : 0.5f);
         if (i == 1) gpu_set(gpu, "downsample.jitter=0");
         double *cosine = cosines(gpu);
         for (int k = 0; k < DRAWS; ++k) assert_true(cosine[k] == 1);
@@ -158,7 +158,7 @@ static void a_normal_that_faces_away_has_the_cone_of_an_edge(void **state) {
 
 static void the_pick_alternates_or_is_the_first(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     for (int alternate = 1; alternate >= 0; --alternate) {
         gpu_set(gpu, alternate ? "downsample.alternate=1" : "downsample.alternate=0");
         gpu_run(gpu);

@@ -17,7 +17,7 @@
 enum { WIDTH = 48, HEIGHT = 80, PIXELS = WIDTH * HEIGHT };
 
 /* Every pixel has a ray, none is drawn at random. */
-static void load(struct gpu *gpu, const struct plain *plain) {
+static void load_capture(struct gpu *gpu, const struct plain *plain) {
     char path[256];
     struct plain sized = *plain;
     sized.width = WIDTH, sized.height = HEIGHT, sized.fov_y_degrees = 60;
@@ -44,7 +44,7 @@ static void rays_from_before_the_near_plane_go_nowhere(void **state) {
     enum { FACED_VIEWER = 5 };
     struct gpu *gpu = *state;
     for (int pyramid = 0; pyramid < 2; ++pyramid) {
-        load(gpu, &(struct plain){.spoil = before_near});
+        load_capture(gpu, &(struct plain){.spoil = before_near});
         if (pyramid) use_pyramid(gpu);
         gpu_run(gpu);
         float *travelled_m = gpu_floats(gpu, "screen_travelled", NULL, NULL);
@@ -79,7 +79,7 @@ static void near_plane(const struct plain *plain, float *values) {
    infinity within two texels is the steepest there is. Its neighbours rise by less than all of their inverse depth. */
 static void no_facet_is_steeper_than_a_rim(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.spoil = combs});
+    load_capture(gpu, &(struct plain){.spoil = combs});
     use_pyramid(gpu);
     gpu_run(gpu);
     float *slopes = gpu_floats(gpu, "depth_slopes", NULL, NULL);
@@ -94,7 +94,7 @@ static void no_facet_is_steeper_than_a_rim(void **state) {
 
 static void a_near_surface_leans_as_it_does(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.spoil = near_plane});
+    load_capture(gpu, &(struct plain){.spoil = near_plane});
     use_pyramid(gpu);
     gpu_run(gpu);
     float *slopes = gpu_floats(gpu, "depth_slopes", NULL, NULL);
@@ -112,7 +112,7 @@ static void rough_surfaces_alone_have_fewer_cells(void **state) {
     for (int rough = 0; rough < 2; ++rough) {
         uint32_t *steps[2], most[2] = {0};
         for (int few = 0; few < 2; ++few) {
-            load(gpu, &(struct plain){.floor = true, .roughness = rough ? 0.5F : 0.05F});
+            load_capture(gpu, &(struct plain){.floor = true, .roughness = rough ? 0.5F : 0.05F});
             use_pyramid(gpu);
             if (few) gpu_set(gpu, "screen_trace.cells_lq=2");
             gpu_run(gpu);
@@ -129,7 +129,7 @@ static void rough_surfaces_alone_have_fewer_cells(void **state) {
 /* Of the wall green and blue are the same everywhere, and red is another in each column. */
 static void an_unfiltered_colour_is_a_pixels(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.floor = true});
+    load_capture(gpu, &(struct plain){.floor = true});
     gpu_set(gpu, "resolve.filter_color=false");
     gpu_run(gpu);
     float *color = gpu_floats(gpu, "reflection_half", NULL, NULL);
@@ -160,7 +160,7 @@ static void a_cone_wider_than_the_picture_sees_all_of_it(void **state) {
     static const char *const words[] = {"downsample.jitter=true", "downsample.share=0", "downsample.cone_factor=8",
                                         "downsample.horizon=false", "resolve.texel_scale=0.25"};
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.floor = true, .roughness = 0.3F, .spoil = rows_of_light});
+    load_capture(gpu, &(struct plain){.floor = true, .roughness = 0.3F, .spoil = rows_of_light});
     gpu_use(gpu, "lit_mips=cone");
     for (size_t i = 0; i < sizeof words / sizeof *words; ++i) gpu_set(gpu, words[i]);
     gpu_run(gpu);
@@ -206,7 +206,7 @@ static void trace_to_half_sky(struct gpu *gpu, int kind) {
                           .cube = half_sky,
                           .sky = dim};
     if (kind == ENDLESS) plain.cubes[0].center[0] = -1000;
-    load(gpu, &plain);
+    load_capture(gpu, &plain);
     for (size_t i = 0; i < sizeof words / sizeof *words; ++i) gpu_set(gpu, words[i]);
     gpu_use(gpu, "cubemap_mips=prefilter");
     if (kind == ENDLESS) gpu_use(gpu, "cubemap_trace=lookup");
@@ -259,7 +259,7 @@ static void fog_lies_before_what_is_reflected(void **state) {
     struct gpu *gpu = *state;
     for (int even = 0; even < 2; ++even) {
         const struct glint_fog fog = {{1, 0, 2}, 0.04, -1, even ? 0 : 4};
-        load(gpu, &(struct plain){.fog = &fog, .cube_size = 8, .cube_count = 1, .cube = even_ball});
+        load_capture(gpu, &(struct plain){.fog = &fog, .cube_size = 8, .cube_count = 1, .cube = even_ball});
         gpu_set(gpu, "screen_trace.length_m=0");
         gpu_run(gpu);
         float *color = gpu_floats(gpu, "reflection_half", NULL, NULL),

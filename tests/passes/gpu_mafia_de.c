@@ -36,7 +36,7 @@ static void far_away(uint32_t number, const double direction[3], float out[5]) {
     for (int k = 0; k < 5; ++k) out[k] = k == 4 ? 100 : 1;
 }
 
-static void load(struct gpu *gpu, const struct plain *plain) {
+static void load_capture(struct gpu *gpu, const struct plain *plain) {
     char path[256];
     struct plain with = *plain;
     with.cube_size = 8;
@@ -57,8 +57,9 @@ static void rays_lie_evenly_around_the_mirror_direction(void **state) {
     double off[2];
     for (int reflection = 0; reflection < 2; ++reflection) {
         /* The viewer is at +z to within 0.005 rad. */
-        load(gpu, &(struct plain){
-                      .width = 2 * SIZE, .height = 2 * SIZE, .roughness = 0.3f, .fov_y_degrees = 0.5, .spoil = tilt});
+        load_capture(
+            gpu, &(struct plain){
+                     .width = 2 * SIZE, .height = 2 * SIZE, .roughness = 0.3f, .fov_y_degrees = 0.5, .spoil = tilt});
         gpu_set(gpu, reflection ? "downsample.lobe=reflection" : "downsample.lobe=half_vector");
         gpu_run(gpu);
         float *normal = gpu_floats(gpu, "normal_jittered", NULL, NULL);
@@ -88,7 +89,7 @@ static void rays_lie_evenly_around_the_mirror_direction(void **state) {
 
 static void a_mirror_has_its_own_ray(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = tilt});
+    load_capture(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = tilt});
     gpu_set(gpu, "downsample.lobe=reflection");
     gpu_run(gpu);
     float *normal = gpu_floats(gpu, "normal_jittered", NULL, NULL), *own = gpu_floats(gpu, "normal_half", NULL, NULL);
@@ -106,7 +107,7 @@ static void levels_hold_pixels_of_the_picture_and_their_edges(void **state) {
     struct gpu *gpu = *state;
     static const char *const levels[] = {"", ".level1", ".level2"};
     const double half = tan(30 * 3.14159265358979323846 / 180);
-    load(gpu, &(struct plain){.width = SIZE + 6, .height = SIZE + 2, .fov_y_degrees = 60, .floor = true});
+    load_capture(gpu, &(struct plain){.width = SIZE + 6, .height = SIZE + 2, .fov_y_degrees = 60, .floor = true});
     gpu_run(gpu);
     for (uint32_t l = 0; l < 3; ++l) {
         char name[64];
@@ -156,7 +157,8 @@ static void stripes_of_roughness(const struct plain *plain, float *values) {
    1, and what is alike besides, plane and normal, makes it no more. */
 static void edges_are_open_in_part(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = stripes_of_roughness});
+    load_capture(gpu,
+                 &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = stripes_of_roughness});
     gpu_run(gpu);
     uint32_t width, height, *edges = gpu_uints(gpu, "edge_levels", &width, &height);
     for (uint32_t i = 0; i < width * height; ++i) {
@@ -181,8 +183,9 @@ static void noise_of_rough_surfaces_falls_and_mirrors_keep_theirs(void **state) 
     struct gpu *gpu = *state;
     for (int rough = 0; rough < 2; ++rough) {
         double mean[2], variance[2];
-        load(gpu, &(struct plain){
-                      .width = 2 * SIZE, .height = 2 * SIZE, .roughness = rough ? 0.7f : 0.15f, .fov_y_degrees = 60});
+        load_capture(
+            gpu, &(struct plain){
+                     .width = 2 * SIZE, .height = 2 * SIZE, .roughness = rough ? 0.7f : 0.15f, .fov_y_degrees = 60});
         gpu_use(gpu, "blur=upscale_blur");
         gpu_set(gpu, rough ? "blur.width=1" : "blur.width=0");
         gpu_shader(gpu, "resolve", "stand_in.comp");
@@ -216,8 +219,9 @@ static int leaks(struct gpu *gpu, const char *image, uint32_t shift) {
 static void nothing_leaks_over_edges(void **state) {
     struct gpu *gpu = *state;
     for (int off = 0; off < 2; ++off) {
-        load(gpu, &(struct plain){
-                      .width = SIZE, .height = SIZE, .roughness = 0.7f, .fov_y_degrees = 60, .spoil = two_walls});
+        load_capture(
+            gpu,
+            &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.7f, .fov_y_degrees = 60, .spoil = two_walls});
         gpu_use(gpu, "blur=upscale_blur");
         gpu_use(gpu, "upscale=edges");
         gpu_set(gpu, "blur.width=1");
@@ -239,7 +243,7 @@ static void nothing_leaks_over_edges(void **state) {
 }
 
 static void sharing(struct gpu *gpu, const struct plain *plain, const char *colors) {
-    load(gpu, plain);
+    load_capture(gpu, plain);
     gpu_use(gpu, "blur=upscale_blur");
     gpu_set(gpu, "blur.width=8"); /* lobes are wider than any level's texels: all is taken from the coarser ones */
     gpu_shader(gpu, "resolve", "stand_in.comp");
@@ -312,7 +316,7 @@ static void corners_keep_their_colours(void **state) {
     }; /* the corner runs through blocks, near a pixel of the floor */
     int wrong[3] = {0}, checked = 0;
     for (int kind = 0; kind < 3; ++kind) {
-        load(gpu, &(struct plain){.width = SIZE, .height = HEIGHT, .fov_y_degrees = 60, .floor = true});
+        load_capture(gpu, &(struct plain){.width = SIZE, .height = HEIGHT, .fov_y_degrees = 60, .floor = true});
         gpu_use(gpu, kind == BILINEAR ? "upscale=bilinear" : "upscale=edges");
         if (kind == BLIND_TO_LOBES) gpu_set(gpu, "upscale.lobes=false");
         gpu_shader(gpu, "resolve", "stand_in.comp");
@@ -348,7 +352,7 @@ static double luminance(const float *c) {
 static void bright_samples_are_held_at_what_is_around(void **state) {
     struct gpu *gpu = *state;
     enum { N = SIZE / 2 };
-    load(gpu, &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.5f, .fov_y_degrees = 60});
+    load_capture(gpu, &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.5f, .fov_y_degrees = 60});
     gpu_use(gpu, "temporal=outliers");
     gpu_set(gpu, "temporal.outlier=1.25");
     gpu_shader(gpu, "resolve", "stand_in.comp");

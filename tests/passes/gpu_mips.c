@@ -30,7 +30,7 @@ static uint32_t level_count(uint32_t size) {
     return count;
 }
 
-static void start(struct gpu *gpu, const char *name, const struct plain *plain) {
+static void load_capture(struct gpu *gpu, const char *name, const struct plain *plain) {
     char path[256];
     plain_capture(gpu_path(gpu, name, path), plain);
     gpu_load(gpu, name);
@@ -67,7 +67,7 @@ static void a_constant_environment_stays_constant(void **state) {
     for (int s = 0; s < 3; ++s) {
         struct plain plain = plain_with(sizes[s], gray);
         plain.sky = gray_sky;
-        start(gpu, "constant", &plain);
+        load_capture(gpu, "constant", &plain);
         gpu_run(gpu);
         for (int k = 0; k < 4; ++k)
             for (uint32_t level = 0; level < (k == 2 ? 5 : level_count(sizes[s])); ++level) {
@@ -151,7 +151,7 @@ static void levels_stand_for_the_lobe_of_their_cone(void **state) {
     static const char *const variants[] = {"cubemap_mips.reach=0", "cubemap_mips.reach=3", "cubemap_mips.reach=18"};
     double errors[3][8];
     struct plain plain = plain_with(SIZE, varied);
-    start(gpu, "varied", &plain);
+    load_capture(gpu, "varied", &plain);
     for (int v = 0; v < 3; ++v) {
         gpu_set(gpu, variants[v]);
         gpu_run(gpu);
@@ -171,7 +171,7 @@ static void levels_stand_for_the_lobe_of_their_cone(void **state) {
 static void colour_is_weighted_by_what_is_not_sky(void **state) {
     struct gpu *gpu = *state;
     struct plain plain = plain_with(32, varied);
-    start(gpu, "varied", &plain);
+    load_capture(gpu, "varied", &plain);
     gpu_run(gpu);
     for (uint32_t level = 0; level < 6; ++level) {
         uint32_t width, height;
@@ -198,7 +198,7 @@ static void distances_join_what_is_not_sky(void **state) {
     static const char *const joins[] = {"mean", "nearest", "farthest"};
     for (int join = 0; join < 3; ++join) {
         struct plain plain = plain_with(12, varied);
-        start(gpu, "twelve", &plain);
+        load_capture(gpu, "twelve", &plain);
         char setting[64];
         snprintf(setting, sizeof setting, "cubemap_mips.join=%s", joins[join]);
         gpu_use(gpu, join == 1 ? "cubemap_mips=plain" : "cubemap_mips=prefilter");
@@ -255,7 +255,7 @@ static double bilinear(const float *image, uint32_t width, uint32_t height, doub
 static void the_picture_is_filtered_with_29_taps(void **state) {
     struct gpu *gpu = *state;
     struct plain plain = {.width = 37, .height = 21, .fov_y_degrees = 60, .spoil = ramp};
-    start(gpu, "ramp", &plain);
+    load_capture(gpu, "ramp", &plain);
     gpu_run(gpu);
     for (uint32_t level = 1; level < 6; ++level) {
         uint32_t finer_width, finer_height, width, height, taps = 0;
@@ -297,7 +297,7 @@ static void every_level_of_the_picture_is_as_wide_as_its_cone(void **state) {
     struct gpu *gpu = *state;
     enum { SIZE = 128 };
     struct plain plain = {.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = dot_of_light};
-    start(gpu, "dot", &plain);
+    load_capture(gpu, "dot", &plain);
     gpu_run(gpu);
     double sum = 0, total = 0, step = 0.01;
     for (double r = step / 2; r < texel_scale; r += step) {
@@ -330,7 +330,7 @@ static void spoiled(const struct plain *plain, float *values) {
 static void bad_pixels_do_not_spread(void **state) {
     struct gpu *gpu = *state;
     struct plain plain = {.width = 24, .height = 16, .fov_y_degrees = 60, .spoil = spoiled};
-    start(gpu, "spoiled", &plain);
+    load_capture(gpu, "spoiled", &plain);
     gpu_run(gpu);
     for (uint32_t level = 1; level < 5; ++level) {
         uint32_t width, height;

@@ -42,7 +42,7 @@ static struct errors near_and_far(const struct rays *r, const bool *marked, cons
     return errors_of(r, marked, 0, INFINITY, what);
 }
 
-static void load(struct gpu *gpu) {
+static void load_box(struct gpu *gpu) {
     gpu_sample(
         gpu, "mirror_box", "box",
         &(struct glint_sample_options){
@@ -74,7 +74,7 @@ static bool *cubemap_hits(const struct rays *r, size_t *floor, size_t *missed) {
 
 static void cube_maps_alone_meet_the_closed_form(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_set(gpu, "screen_trace.length_m=0");
     fine_steps(gpu);
     gpu_run(gpu);
@@ -91,7 +91,7 @@ static void cube_maps_alone_meet_the_closed_form(void **state) {
 
 static void cube_maps_alone_with_the_slides_steps(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_set(gpu, "screen_trace.length_m=0");
     gpu_run(gpu);
     struct rays r = rays_of(gpu);
@@ -107,7 +107,7 @@ static void cube_maps_alone_with_the_slides_steps(void **state) {
 
 static void the_exact_tracer_is_exact(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_use(gpu, "cubemap_trace=exact");
     gpu_set(gpu, "screen_trace.length_m=0");
     gpu_run(gpu);
@@ -129,7 +129,7 @@ static void the_exact_tracer_may_skip_what_is_far(void **state) {
     struct rays r[2];
     double steps[2] = {0, 0};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         gpu_use(gpu, "cubemap_trace=exact");
         gpu_use(gpu, "cubemap_mips=plain");
         gpu_set(gpu, "cubemap_mips.join=nearest");
@@ -161,7 +161,7 @@ static void an_inner_volume_is_skipped(void **state) {
     struct gpu *gpu = *state;
     size_t steps[2] = {0, 0};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         gpu_set(gpu, "screen_trace.length_m=0");
         fine_steps(gpu);
         if (i == 1) gpu_set(gpu, "cubemap_trace.skip_volume=true");
@@ -202,7 +202,7 @@ static void the_screen_alone_meets_the_closed_form(void **state) {
     struct gpu *gpu = *state;
     const char *const steps[] = {"screen_trace.steps=256", NULL};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         gpu_set(gpu, "cubemap_trace.fallback=black");
         if (steps[i]) gpu_set(gpu, steps[i]);
         gpu_run(gpu);
@@ -290,7 +290,7 @@ static void the_floor_shows_the_walls_light(void **state) {
     struct gpu *gpu = *state;
     const char *const settings[] = {"screen_trace.length_m=0", "screen_trace.steps=128"};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         fine_steps(gpu);
         gpu_set(gpu, settings[i]);
         gpu_run(gpu);
@@ -318,7 +318,7 @@ static void the_floor_shows_the_walls_light(void **state) {
 
 static void a_thousand_kilometres_change_nothing(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_run(gpu);
     uint32_t width, height;
     float *here = gpu_floats(gpu, "reflection", &width, &height);

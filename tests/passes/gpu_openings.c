@@ -41,7 +41,7 @@ static bool closed;
 static uint32_t first_map;
 
 /* How far a ray goes until it enters a box; +inf: it does not. */
-static double meets(const double origin[3], const double d[3], int *axis) {
+static double distance_to_box(const double origin[3], const double d[3], int *axis) {
     double nearest = INFINITY;
     for (size_t i = 0; i < sizeof boxes / sizeof *boxes - (closed ? 0 : OPENINGS); ++i) {
         double enter = 0, leave = INFINITY;
@@ -59,7 +59,7 @@ static double meets(const double origin[3], const double d[3], int *axis) {
 }
 
 static void cube(uint32_t number, const double d[3], float out[5]) {
-    const double distance = meets(centers[first_map + number], d, NULL);
+    const double distance = distance_to_box(centers[first_map + number], d, NULL);
     out[0] = out[1] = out[2] = (float)(isinf(distance) ? 0 : wall_light);
     out[3] = isinf(distance) ? 0.0F : 1.0F;
     out[4] = (float)distance;
@@ -80,7 +80,7 @@ static struct ray ray_of(uint32_t x, uint32_t y) {
     double d[3] = {half_view * ((2.0 * x + 1) / SIZE - 1), half_view * (1 - (2.0 * y + 1) / SIZE), -1};
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + 1);
     int axis = 0;
-    ray.depth_m = meets(eye, d, &axis);
+    ray.depth_m = distance_to_box(eye, d, &axis);
     ray.normal[axis] = d[axis] > 0 ? -1 : 1;
     for (int k = 0; k < 3; ++k) {
         ray.start[k] = ray.depth_m * d[k];
@@ -128,13 +128,13 @@ static void capture(struct gpu *gpu, uint32_t first, uint32_t count) {
 }
 
 /* Whether a cube map sees a place, and nothing nearer beside it, where texels of both would decide. */
-static bool sees(int map, const double at[3]) {
+static bool sees_point(int map, const double at[3]) {
     const double beside = 2.0 / CUBE; /* a texel of a face, which is two wide */
     for (int i = 0; i < 7; ++i) {
         double way[3], distance = 0;
         for (int k = 0; k < 3; ++k) way[k] = at[k] - centers[map][k], distance += way[k] * way[k];
         if (i > 0) way[(i - 1) / 2] += (i % 2 ? beside : -beside) * sqrt(distance);
-        if (meets(centers[map], way, NULL) < (i > 0 ? 0.95 : 1 - 1e-6)) return false;
+        if (distance_to_box(centers[map], way, NULL) < (i > 0 ? 0.95 : 1 - 1e-6)) return false;
     }
     return true;
 }
@@ -146,7 +146,7 @@ static bool seen_all_the_way(const struct ray *ray, double end_m) {
         const double t = isinf(end_m) ? 1000 * part * part * part : part * end_m;
         bool any = false;
         for (int k = 0; k < 3; ++k) at[k] = ray->start[k] + t * ray->d[k];
-        for (int map = 0; map < MAPS && !any; ++map) any = sees(map, at);
+        for (int map = 0; map < MAPS && !any; ++map) any = sees_point(map, at);
         if (!any) return false;
     }
     return true;
@@ -175,7 +175,7 @@ static void rays_end_where_a_cube_map_sees_them(void **state) {
     for (uint32_t i = 0; i < SIZE * SIZE; ++i) {
         const struct ray ray = ray_of(i % SIZE, i / SIZE);
         if (isinf(ray.depth_m)) continue;
-        const double end_m = meets(ray.start, ray.d, NULL), found_m = (double)travelled[i];
+        const double end_m = distance_to_box(ray.start, ray.d, NULL), found_m = (double)travelled[i];
         const bool seen = seen_all_the_way(&ray, end_m);
         const bool bright = (double)light[4 * i] > 0.5 * sky_light;
         if (isinf(end_m)) add(seen ? &in_sky : &sky_hidden, bright && isinf(found_m));
@@ -186,7 +186,7 @@ static void rays_end_where_a_cube_map_sees_them(void **state) {
         }
         if (isinf(found_m)) {
             const bool none = place[i] == NO_PLACE;
-            add(&endless, none || (place[i] < MAPS && isinf(meets(centers[place[i]], ray.d, NULL))));
+            add(&endless, none || (place[i] < MAPS && isinf(distance_to_box(centers[place[i]], ray.d, NULL))));
         }
     }
     print_count("surfaces, seen all the way: met within 2 %", met);

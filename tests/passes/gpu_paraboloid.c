@@ -29,7 +29,7 @@ static void dark(const double direction[3], float out[3]) {
     out[0] = out[1] = out[2] = 0;
 }
 
-static void load(struct gpu *gpu) {
+static void load_directions(struct gpu *gpu) {
     char path[256];
     const struct plain plain = {.width = 16,
                                 .height = 8,
@@ -83,7 +83,7 @@ static void direction_of(int i, int count, double d[3]) {
 
 static void directions_come_back(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_directions(gpu);
     gpu_run(gpu);
     uint32_t width, height;
     float *map = gpu_floats(gpu, "paraboloids", &width, &height);
@@ -142,7 +142,7 @@ static void filled_levels_meet_at_the_rim(void **state) {
     struct gpu *gpu = *state;
     double apart[2] = {0, 0}, dark[2] = {0, 0};
     for (int fill = 0; fill < 2; ++fill) {
-        load(gpu);
+        load_directions(gpu);
         gpu_set(gpu, fill ? "cubemap_convert.fill=true" : "cubemap_convert.fill=false");
         gpu_run(gpu);
         for (int level = 0, size = SIZE; level < 5; ++level, size /= 2) {
@@ -178,7 +178,7 @@ static void filled_levels_meet_at_the_rim(void **state) {
 static void levels_are_means_by_solid_angle(void **state) {
     struct gpu *gpu = *state;
     for (int by_angle = 0; by_angle < 2; ++by_angle) {
-        load(gpu);
+        load_directions(gpu);
         gpu->float_precision = true;
         gpu_set(gpu, by_angle ? "cubemap_convert.solid_angle=true" : "cubemap_convert.solid_angle=false");
         gpu_run(gpu);
@@ -210,7 +210,7 @@ static void levels_are_means_by_solid_angle(void **state) {
 
 static void rays_see_the_direction_they_go_in(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_directions(gpu);
     gpu_run(gpu);
     uint32_t width, height;
     float *color = gpu_floats(gpu, "reflection_half", &width, &height),

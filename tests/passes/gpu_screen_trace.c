@@ -36,7 +36,7 @@ static void set_up(struct gpu *gpu, const char *variant) {
     gpu->all = true;
 }
 
-static struct traced trace(struct gpu *gpu) {
+static struct traced trace_screen(struct gpu *gpu) {
     struct traced t = {0};
     gpu_run(gpu);
     t.travelled = gpu_floats(gpu, "screen_travelled", &t.width, &t.height);
@@ -124,7 +124,7 @@ static void against_the_walk(struct gpu *gpu, const char *scene) {
     for (int v = 0; v < 2; ++v) {
         struct agreement a = {0};
         set_up(gpu, variants[v]);
-        struct traced t = trace(gpu);
+        struct traced t = trace_screen(gpu);
         struct paths paths = paths_of(gpu, &t);
         for (size_t i = 0; i < (size_t)t.width * t.height; ++i) {
             struct depth_ray ray;
@@ -156,11 +156,11 @@ static void on_room_as_in_double(void **state) {
 static void hiz_as_dda(struct gpu *gpu, const char *what) {
     struct agreement a = {0};
     set_up(gpu, "dda");
-    struct traced expected = trace(gpu);
+    struct traced expected = trace_screen(gpu);
     set_up(gpu, "hiz");
     gpu_set(gpu, "screen_trace.cells=65536"); /* the way is compared, not where it is given up */
     gpu_set(gpu, "screen_trace.cells_lq=65536");
-    struct traced t = trace(gpu);
+    struct traced t = trace_screen(gpu);
     double fetches = 0, texels = 0;
     struct paths paths = paths_of(gpu, &t);
     for (size_t i = 0; i < (size_t)t.width * t.height; ++i) {
@@ -245,7 +245,7 @@ static void reversed_depth_gives_the_same_hits(void **state) {
         options.encodings.depth = encodings[i];
         gpu_sample(gpu, "street", i ? "reversed" : "device", &options);
         set_up(gpu, "hiz");
-        t[i] = trace(gpu);
+        t[i] = trace_screen(gpu);
     }
     struct paths paths = paths_of(gpu, &t[1]);
     for (size_t i = 0; i < (size_t)t[0].width * t[0].height; ++i)
@@ -308,7 +308,7 @@ static struct traced middle_ray(struct gpu *gpu, const char *variant, double x, 
     gpu_load(gpu, "special");
     set_up(gpu, variant);
     gpu->float_precision = true;
-    struct traced t = trace(gpu);
+    struct traced t = trace_screen(gpu);
     const size_t middle = (size_t)(HIGH / 2) * WIDE + WIDE / 2;
     t.travelled[0] = t.travelled[middle], t.end[0] = t.end[middle], t.finished[0] = t.finished[middle];
     return t;
@@ -361,7 +361,7 @@ static void from_the_floor_to_the_wall(void **state) {
         size_t floor = 0, seen = 0, hits = 0, wrong = 0;
         set_up(gpu, walkers[v]);
         gpu->float_precision = true;
-        struct traced t = trace(gpu);
+        struct traced t = trace_screen(gpu);
         float *normal = gpu_floats(gpu, "normal_half", NULL, NULL);
         for (uint32_t i = 0; i < t.width * t.height; ++i) {
             if (normal[4 * i + 1] < 0.5f) continue;
@@ -391,7 +391,7 @@ static void from_the_floor_to_the_wall(void **state) {
 static double median_error(struct gpu *gpu, const char *setting, size_t *hits) {
     set_up(gpu, "linear_binary");
     gpu_set(gpu, setting);
-    struct traced t = trace(gpu);
+    struct traced t = trace_screen(gpu);
     struct paths paths = paths_of(gpu, &t);
     double *errors = malloc((size_t)t.width * t.height * sizeof *errors);
     assert_non_null(errors);
@@ -432,7 +432,7 @@ static void with_infinite_thickness_all_is_solid(void **state) {
         set_up(gpu, "hiz");
         gpu_set(gpu, "screen_trace.pass_behind=false");
         if (i) gpu_set(gpu, "screen_trace.thickness_m=1e6");
-        struct traced t = trace(gpu);
+        struct traced t = trace_screen(gpu);
         for (size_t k = 0; k < (size_t)t.width * t.height; ++k) {
             behind[i] += t.end[k] == END_behind;
             hits[i] += is_hit(&t, k);

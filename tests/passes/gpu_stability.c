@@ -49,7 +49,7 @@ static void copy_part(struct glint_writer *writer, struct glint_capture *capture
 }
 
 /* Loads a copy of what is loaded. */
-static void declare(struct gpu *gpu, const char *name, const char *channel, const char *storage) {
+static void declare_storage(struct gpu *gpu, const char *name, const char *channel, const char *storage) {
     struct glint_error err = {0};
     char path[256];
     struct glint_writer *writer = glint_writer_create(gpu_path(gpu, name, path), NULL, &err);
@@ -67,7 +67,7 @@ static void declare(struct gpu *gpu, const char *name, const char *channel, cons
 }
 
 /* Mirror rays through the cube maps alone, whose distances are exact on planes. */
-static void load(struct gpu *gpu, const char *name, struct glint_encodings encodings) {
+static void load_mirror_rays(struct gpu *gpu, const char *name, struct glint_encodings encodings) {
     gpu_sample(gpu, "mirror_box", name,
                &(struct glint_sample_options){.width = WIDTH,
                                               .height = HEIGHT,
@@ -89,7 +89,7 @@ static void measure(struct gpu *gpu, const char *const *inputs, uint32_t seeds, 
         fail_msg("%s", err.message);
 }
 
-static const struct glint_stability_image *find(const struct glint_stability *stability, const char *name) {
+static const struct glint_stability_image *find_image(const struct glint_stability *stability, const char *name) {
     for (size_t i = 0; i < stability->image_count; i++)
         if (!strcmp(stability->images[i].name, name)) return &stability->images[i];
     fail_msg("image %s: missing", name);
@@ -151,14 +151,15 @@ static void depth_is_amplified_as_the_closed_form_says(void **state) {
     struct glint_stability stability;
     struct agreement a = {0};
     double eye[3];
-    load(gpu, "device", (struct glint_encodings){.depth = GLINT_DEPTH_DEVICE});
-    declare(gpu, "d16", "depth.Z", "D16");
+    load_mirror_rays(gpu, "device", (struct glint_encodings){.depth = GLINT_DEPTH_DEVICE});
+    declare_storage(gpu, "d16", "depth.Z", "D16");
     gpu_run(gpu);
     struct rays rays = rays_of(gpu);
     uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL);
     eye_of(gpu, eye);
     measure(gpu, (const char *const[]){"gbuffer:depth", NULL}, 2, &stability);
-    const struct glint_stability_image *image = find(&stability, "travelled"), *depth = find(&stability, "depth_full");
+    const struct glint_stability_image *image = find_image(&stability, "travelled"),
+                                       *depth = find_image(&stability, "depth_full");
     assert_true(image->width == rays.width && image->height == rays.height);
     for (size_t i = 0; i < (size_t)rays.width * rays.height; i++) {
         const struct expected *e = &rays.expected[i];
@@ -202,14 +203,14 @@ static void normals_are_amplified_as_the_closed_form_says(void **state) {
     static const char *const channels[] = {"gbuffer:normal.X", "gbuffer:normal.Z", "gbuffer:normal"};
     struct gpu *gpu = *state;
     double eye[3];
-    load(gpu, "unorm", (struct glint_encodings){.normal = GLINT_NORMAL_UNORM});
+    load_mirror_rays(gpu, "unorm", (struct glint_encodings){.normal = GLINT_NORMAL_UNORM});
     eye_of(gpu, eye);
     for (int c = 0; c < 3; c++) {
         struct glint_stability stability;
         struct agreement a = {0};
         struct rays rays = rays_of(gpu);
         measure(gpu, (const char *const[]){channels[c], NULL}, c < 2 ? 2 : 8, &stability);
-        const struct glint_stability_image *image = find(&stability, "travelled");
+        const struct glint_stability_image *image = find_image(&stability, "travelled");
         for (size_t i = 0; i < (size_t)rays.width * rays.height; i++) {
             const struct expected *e = &rays.expected[i];
             double moved[2], by[2];

@@ -35,7 +35,7 @@ static void ends_free(struct ends *e) {
 }
 
 /* Part of the rays that end elsewhere: farther apart than a part of the way, or in another place. */
-static double elsewhere(const struct ends *a, const struct ends *b, double part) {
+static double fraction_elsewhere(const struct ends *a, const struct ends *b, double part) {
     size_t rays = 0, apart = 0;
     assert_int_equal(a->count, b->count);
     for (size_t i = 0; i < a->count; ++i) {
@@ -75,7 +75,7 @@ static void finer_steps_on_screen_end_as_texel_by_texel(void **state) {
         snprintf(text, sizeof text, "screen_trace.steps=%s", steps[i]);
         gpu_set(gpu, text);
         struct ends stepped = ends_of(gpu, "screen_travelled", "screen_finished", "screen_end");
-        double part = elsewhere(&stepped, &walked, 1e-4);
+        double part = fraction_elsewhere(&stepped, &walked, 1e-4);
         print_message("# %s steps: %.3f %% of the rays end elsewhere\n", steps[i], 100 * part);
         assert_true(part < before);
         before = part;
@@ -115,7 +115,7 @@ static void finer_steps_through_cube_maps_end_as_by_texels(void **state) {
     gpu_sample(gpu, "room", "room", &(struct glint_sample_options){.width = 96, .height = 54, .cube_size = 64});
     struct ends half = followed(gpu, "cubemap_trace.texel_part=0.5"),
                 fine = followed(gpu, "cubemap_trace.texel_part=0.1");
-    double own = elsewhere(&half, &fine, 0.02), before = 1;
+    double own = fraction_elsewhere(&half, &fine, 0.02), before = 1;
     for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
         cube_map_rays(gpu, "cubemap_trace=march");
         for (size_t k = 0; k < sizeof always / sizeof *always; ++k) {
@@ -125,7 +125,7 @@ static void finer_steps_through_cube_maps_end_as_by_texels(void **state) {
         snprintf(text, sizeof text, "cubemap_trace.steps_hq=%s", steps[i]);
         gpu_set(gpu, text);
         struct ends marched = ends_of(gpu, "travelled", "cubemap_index", "cubemap_end");
-        double part = elsewhere(&marched, &fine, 0.02);
+        double part = fraction_elsewhere(&marched, &fine, 0.02);
         print_message("# %s steps: %.2f %% of the rays end elsewhere; of steps of half a texel %.2f %%\n", steps[i],
                       100 * part, 100 * own);
         assert_true(part < before);

@@ -23,7 +23,7 @@ static void use_panes(struct gpu *gpu) {
     for (size_t i = 0; i < sizeof slots / sizeof *slots; ++i) gpu_use(gpu, slots[i]);
 }
 
-static void load(struct gpu *gpu, const char *scene) {
+static void load_scene(struct gpu *gpu, const char *scene) {
     gpu_sample(gpu, scene, scene,
                &(struct glint_sample_options){
                    .width = WIDTH, .height = HEIGHT, .cube_size = 64, .light_samples = 8, .unjittered = true});
@@ -53,11 +53,11 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
     static const char *const off[] = {NULL, "transparent_screen_trace.length_m=0", "transparent_cubemap_trace.chain=1",
                                       "transparency.fresnel=false", "transparency.intensity=0"};
     double errors[5];
-    load(gpu, "glasshouse");
+    load_scene(gpu, "glasshouse");
     float *opacity = gpu_part(gpu, "transparent", (const char *[]){"A"}, 1),
           *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
     for (int i = 0; i < 5; ++i) {
-        load(gpu, "glasshouse");
+        load_scene(gpu, "glasshouse");
         if (off[i]) gpu_set(gpu, off[i]);
         gpu_run(gpu);
         errors[i] = error_of(gpu, opacity, scene, false);
@@ -75,7 +75,7 @@ static void a_frame_without_glass_leaves_it_out(void **state) {
     struct gpu *gpu = *state;
     size_t count = 0;
     bool found = false;
-    load(gpu, "matte");
+    load_scene(gpu, "matte");
     gpu_run(gpu);
     const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
     for (size_t i = 0; i < count; ++i) {

@@ -22,7 +22,7 @@ static void two_surfaces(const struct plain *plain, float *values) {
         values[i] = depth_at(i % plain->width, i / plain->width);
 }
 
-static void load(struct gpu *gpu, float roughness, bool floor) {
+static void load_stripes(struct gpu *gpu, float roughness, bool floor) {
     char path[256];
     plain_capture(gpu_path(gpu, "surfaces", path), &(struct plain){.width = SIZE,
                                                                    .height = SIZE,
@@ -50,7 +50,7 @@ static void every_pixel_takes_a_sample_of_its_own_surface(void **state) {
     static const char *const worse[] = {"upscale.depth_weight=0", "downsample.tie=near", NULL};
     struct gpu *gpu = *state;
     for (int i = 0; i < 4; ++i) {
-        load(gpu, 0.5f, false);
+        load_stripes(gpu, 0.5f, false);
         gpu_shader(gpu, "resolve", "stand_in.comp");
         gpu_set(gpu, "resolve.texel_scale=3");
         if (i == 3) gpu_use(gpu, "upscale=bilinear");
@@ -71,7 +71,7 @@ static void the_last_of_the_images_is_taken(void **state) {
                                                                                                "reflection_blurred",
                                                                                                "reflection_temporal"};
     struct gpu *gpu = *state;
-    load(gpu, 0.5f, true);
+    load_stripes(gpu, 0.5f, true);
     gpu_use(gpu, "downsample=none");
     for (int s = 0; s < 3; ++s) {
         if (steps[s]) gpu_use(gpu, steps[s]);
@@ -93,7 +93,7 @@ static void the_last_of_the_images_is_taken(void **state) {
 /* Rays of every pixel, resolved twice: the same colours. */
 static void smooth_pixels_are_resolved_by_their_own_normals(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0, true);
+    load_stripes(gpu, 0, true);
     gpu_use(gpu, "downsample=none");
     gpu_use(gpu, "resolve_sharp=hit");
     gpu_run(gpu);
@@ -195,7 +195,7 @@ static void the_own_ray_takes_the_hits_around_that_it_meets(void **state) {
 /* Rough pixels are no smooth ones, and a frame of them has nothing to resolve anew. */
 static void rough_pixels_keep_what_was_upscaled(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.3f, true);
+    load_stripes(gpu, 0.3f, true);
     gpu_use(gpu, "resolve_sharp=hit");
     gpu_run(gpu);
     uint32_t *source = gpu_uints(gpu, "sharp_source", NULL, NULL);

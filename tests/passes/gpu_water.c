@@ -15,7 +15,7 @@
 
 enum { WIDTH = 192, HEIGHT = 108 };
 
-static void load(struct gpu *gpu) {
+static void load_lake(struct gpu *gpu) {
     gpu_sample(gpu, "lake", "lake",
                &(struct glint_sample_options){.width = WIDTH,
                                               .height = HEIGHT,
@@ -55,11 +55,11 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
                                       "water.fresnel=false",
                                       "water.intensity=0"};
     double errors[7];
-    load(gpu);
+    load_lake(gpu);
     float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1),
           *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
     for (int i = 0; i < 7; ++i) {
-        load(gpu);
+        load_lake(gpu);
         if (off[i]) gpu_set(gpu, off[i]);
         gpu_run(gpu);
         errors[i] = error_of(gpu, opacity, scene);
@@ -78,7 +78,7 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
 /* Where no water is, and what stands before it, is the picture as it was, bit for bit. */
 static void all_else_stays(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_lake(gpu);
     gpu_run(gpu);
     float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1);
     float *finished = gpu_floats(gpu, "composed_water", NULL, NULL),
@@ -102,7 +102,7 @@ static void all_else_stays(void **state) {
    the plane's points are seen at the same place by both cameras. */
 static void a_flat_mirror_is_looked_up_in_place(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_lake(gpu);
     gpu_set(gpu, "planar.perturb=false");
     gpu_run(gpu);
     const struct glint_part_info *info = glint_capture_find(gpu->capture, "planar.000");
@@ -139,7 +139,7 @@ static void encodings_change_nothing(void **state) {
     struct gpu *gpu = *state;
     double errors[2];
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_lake(gpu);
         if (i)
             gpu_sample(gpu, "lake", "encoded",
                        &(struct glint_sample_options){.width = WIDTH,

@@ -39,7 +39,7 @@ static double meet(const double box[2][3], const double origin[3], const double 
 }
 
 /* The room has no ceiling. */
-static struct seen look(const double origin[3], const double d[3]) {
+static struct seen trace_scene(const double origin[3], const double d[3]) {
     struct seen s = {0};
     int axis, of_block;
     double t = meet(room, origin, d, true, &axis), behind = meet(block, origin, d, false, &of_block), p[3], length = 0;
@@ -65,7 +65,7 @@ static struct seen seen_from(const double origin[3], const double direction[3]) 
     double o[3], d[3];
     memcpy(o, origin, sizeof o), memcpy(d, direction, sizeof d);
     if (swapped) swap_axes(o), swap_axes(d);
-    struct seen s = look(o, d);
+    struct seen s = trace_scene(o, d);
     if (swapped) swap_axes(s.normal);
     return s;
 }

@@ -60,7 +60,7 @@ static struct stand_in *corridor(size_t count) {
     return s;
 }
 
-static void run(struct stand_in *s) {
+static void run_pass(struct stand_in *s) {
     const struct glint_pass *pass = glint_pass_find("cubemap_active", "nearest");
     assert_non_null(pass);
     struct glint_error err = {0};
@@ -73,7 +73,7 @@ static void the_nearest_in_order(void **state) {
     s->frame.has_player = true;
     s->frame.player[0] = 6.2;
     s->count = 5;
-    run(s);
+    run_pass(s);
     const uint32_t expected[] = {5, 6, 4, 7, 3};
     assert_int_equal(s->index.width, 5);
     assert_memory_equal(s->index.texels.u, expected, sizeof expected);
@@ -85,7 +85,7 @@ static void around_the_camera_without_a_player(void **state) {
     struct stand_in *s = corridor(12);
     s->context.eye[0] = 11.9;
     s->count = 1;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 11);
     free(s);
 }
@@ -94,12 +94,12 @@ static void one_outdoor_is_kept(void **state) {
     (void)state;
     struct stand_in *s = corridor(12);
     s->cubemaps[9].outdoor = s->cubemaps[11].outdoor = true;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.width, 8);
     assert_int_equal(s->index.texels.u[7], 9); /* the nearer of both */
     assert_int_equal(s->index.texels.u[6], 6);
     s->outdoor = 0;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[7], 7);
     free(s);
 }
@@ -109,7 +109,7 @@ static void an_outdoor_one_already_there_changes_nothing(void **state) {
     for (size_t there = 0; there < 8; there++) {
         struct stand_in *s = corridor(12);
         s->cubemaps[there].outdoor = s->cubemaps[11].outdoor = true;
-        run(s);
+        run_pass(s);
         assert_int_equal(s->index.texels.u[7], 7);
         free(s);
     }
@@ -123,14 +123,14 @@ static void floors_are_kept_apart(void **state) {
     s->cubemaps[1].center[0] = 8; /* 8 m along */
     s->frame.up = GLINT_AXIS_Z;
     s->count = 1;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 1);
     s->vertical = 1;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 0);
     s->vertical = 4;
     s->frame.up = GLINT_AXIS_NEG_Y; /* then z is no height */
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 0);
     free(s);
 }
@@ -140,7 +140,7 @@ static void chains_start_with_themselves_and_go_by_distance(void **state) {
     struct stand_in *s = corridor(5);
     const double x[] = {0, 1, 3, 7, 15};
     for (int i = 0; i < 5; ++i) s->cubemaps[i].center[0] = x[i];
-    run(s);
+    run_pass(s);
     assert_int_equal(s->chains.width, 4);
     assert_int_equal(s->chains.height, 5);
     const uint32_t expected[5][4] = {{0, 1, 2, 3}, {1, 0, 2, 3}, {2, 1, 0, 3}, {3, 2, 1, 0}, {4, 3, 2, 1}};
@@ -151,7 +151,7 @@ static void chains_start_with_themselves_and_go_by_distance(void **state) {
 static void a_chain_is_no_longer_than_there_are_cube_maps(void **state) {
     (void)state;
     struct stand_in *s = corridor(2);
-    run(s);
+    run_pass(s);
     assert_int_equal(s->chains.width, 2);
     const uint32_t expected[2][2] = {{0, 1}, {1, 0}};
     assert_memory_equal(s->chains.texels.u, expected, sizeof expected);
@@ -164,7 +164,7 @@ static void centres_lose_nothing_far_from_the_origin(void **state) {
     s->frame.metres_per_unit = 0.01;
     s->cubemaps[0].center[0] = 1e8 + 0.125; /* 1,000 km */
     s->context.eye[0] = 1e8;
-    run(s);
+    run_pass(s);
     assert_true(s->center.texels.f[0] == 0.00125f); /* a float holds no 1e8 + 0.125 */
     assert_true(s->center.texels.f[3] == 1.0f);
     free(s);
@@ -212,7 +212,7 @@ static void inner_volumes_become_planes_and_spheres_around_the_eye(void **state)
         for (int k = 0; k < 3; ++k) hull->planes[i][k] = i >> k & 1 ? 7 : -7;
         hull->planes[i][3] = -7;
     }
-    run(s);
+    run_pass(s);
     assert_int_equal(s->volumes.width, 9);
     assert_int_equal(s->volumes.height, 4);
     /* In metres from the eye, whose unit is half a metre: the box has its centre at (0.5, 0, 0). */

@@ -13,7 +13,7 @@
 
 enum { W = (FIXTURE_WIDTH + 1) / 2, H = (FIXTURE_HEIGHT + 1) / 2, NOTHING = 7 };
 
-static void set(struct made *made, size_t place, const char *parameter) {
+static void set_parameter(struct made *made, size_t place, const char *parameter) {
     const struct glint_pass *pass = made->pipeline.passes[place].pass;
     for (size_t r = 0; r < pass->row_count; r++)
         if (pass->rows[r].name && strcmp(pass->rows[r].name, parameter) == 0) made->values[place][r] = 1;
@@ -39,12 +39,12 @@ static void a_pass_works_on_its_list(void **state) {
     struct made made, alone;
     MADE(&alone, &made_worker);
     MADE(&made, &made_sieve, &made_worker);
-    set(&alone, 0, "tell"), set(&made, 1, "tell");
+    set_parameter(&alone, 0, "tell"), set_parameter(&made, 1, "tell");
     made_run(fixture, &alone, &(struct glint_replay_options){.no_cache = true});
     check_worked(fixture, (const int[]){0, 0, 0, 0, 0}); /* no list: the whole image */
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .repeat = 3});
     check_worked(fixture, (const int[]){-1, RANGE_smooth + 1, RANGE_smooth + 1, -1, -1});
-    set(&made, 0, "empty");
+    set_parameter(&made, 0, "empty");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     check_worked(fixture, (const int[]){-1, -1, -1, -1, -1}); /* an empty range starts nothing */
 }
@@ -55,7 +55,7 @@ static void without_its_maker_a_list_is_the_whole_image(void **state) {
     const char *const skip[] = {"sieve", NULL};
     struct made made;
     MADE(&made, &made_sieve, &made_worker);
-    set(&made, 1, "tell");
+    set_parameter(&made, 1, "tell");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .skip = skip});
     check_worked(fixture, (const int[]){0, 0, 0, 0, 0});
 }
@@ -96,7 +96,7 @@ static void a_list_of_a_run_is_not_taken(void **state) {
     char folder[128];
     struct made made;
     MADE(&made, &made_forger, &made_worker);
-    set(&made, 1, "tell");
+    set_parameter(&made, 1, "tell");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = forger});
     fixture_write_run(fixture, "forged", folder);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = passes, .inputs = folder});
@@ -105,8 +105,8 @@ static void a_list_of_a_run_is_not_taken(void **state) {
 }
 
 /* The worker with a change of its first row of that kind and name; another kind: of its first row of that name. */
-static void refused(struct fixture *fixture, const char *name, enum glint_row_kind kind, struct glint_row change,
-                    const char *because) {
+static void assert_refused(struct fixture *fixture, const char *name, enum glint_row_kind kind, struct glint_row change,
+                           const char *because) {
     struct glint_error err = {0};
     struct glint_row rows[24];
     struct glint_pass pass = made_worker;
@@ -127,21 +127,23 @@ static void wrong_declarations_are_refused(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_row list = *glint_pass_row(&made_worker, GLINT_ROW_READ, "list_a"), wrong = list;
     wrong.name = "depth_full";
-    refused(fixture, "list_a", GLINT_ROW_READ, wrong,
-            "worker/made reads depth_full as utextureBuffer, but it is not a list");
+    assert_refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+                   "worker/made reads depth_full as utextureBuffer, but it is not a list");
     wrong = list;
     wrong.fallback = 0;
-    refused(fixture, "list_a", GLINT_ROW_READ, wrong, "list list_a: expected R32UI and a fallback value of 0xFFFFFFFF");
+    assert_refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+                   "list list_a: expected R32UI and a fallback value of 0xFFFFFFFF");
     wrong = list;
     wrong.glsl = "utexture2D";
-    refused(fixture, "list_a", GLINT_ROW_READ, wrong,
-            "worker/made reads list_a as utexture2D, but it is a list, to be read as utextureBuffer");
-    refused(fixture, "worked", GLINT_ROW_DISPATCH,
-            (struct glint_row){.kind = GLINT_ROW_DISPATCH_LIST, .name = "list_a"},
-            "worker/made: DISPATCH_LIST list_a: expected a DISPATCH before it");
-    refused(fixture, "", GLINT_ROW_WORKGROUP,
-            (struct glint_row){.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16},
-            "worker/made: DISPATCH_LIST list_a: expected 16, 32 or 64 tiles of 1 x 1 texels in a workgroup, found 128");
+    assert_refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+                   "worker/made reads list_a as utexture2D, but it is a list, to be read as utextureBuffer");
+    assert_refused(fixture, "worked", GLINT_ROW_DISPATCH,
+                   (struct glint_row){.kind = GLINT_ROW_DISPATCH_LIST, .name = "list_a"},
+                   "worker/made: DISPATCH_LIST list_a: expected a DISPATCH before it");
+    assert_refused(
+        fixture, "", GLINT_ROW_WORKGROUP,
+        (struct glint_row){.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16},
+        "worker/made: DISPATCH_LIST list_a: expected 16, 32 or 64 tiles of 1 x 1 texels in a workgroup, found 128");
 }
 
 int main(void) {

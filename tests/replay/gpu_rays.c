@@ -18,7 +18,7 @@ enum {
     SQUARES = 6 /* (0 + 1 + 4 + 9 + 16) / 5 */
 };
 
-static void make(struct made *made, uint32_t rays) {
+static void make_ray_passes(struct made *made, uint32_t rays) {
     char assignment[32];
     struct glint_error err = {0};
     MADE(made, &made_base, &made_cast, &made_catch, &made_tally);
@@ -44,7 +44,7 @@ static void what_is_accumulated_becomes_the_mean(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     size_t count;
     struct made made;
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .repeat = 2});
     check_tallied(fixture, SQUARES, RAYS - 1);
     const struct glint_pass_result *results = glint_replay_results(fixture->replay, &count);
@@ -60,7 +60,7 @@ static void each_ray_has_its_own_random_numbers(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
     double sum = 0, squares = 0;
-    make(&made, 100);
+    make_ray_passes(&made, 100);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     float *caught = made_read(fixture, "caught");
     for (int i = 0; i < W * H; i++) {
@@ -78,7 +78,7 @@ static void each_ray_has_its_own_random_numbers(void **state) {
 static void one_ray_is_left_as_it_is(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
-    make(&made, 1);
+    make_ray_passes(&made, 1);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     check_tallied(fixture, 0, 0);
 }
@@ -90,7 +90,7 @@ static void rays_are_cached_and_share_memory_as_one_does(void **state) {
     const char *const outputs[] = {"tallied", NULL};
     struct glint_error err = {0};
     struct made made;
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     made_run(fixture, &made, NULL);
     assert_true(fixture_result(fixture, "cast")->cached && fixture_result(fixture, "tally")->cached);
@@ -99,11 +99,11 @@ static void rays_are_cached_and_share_memory_as_one_does(void **state) {
     assert_true(fixture_result(fixture, "base")->cached);
     assert_false(fixture_result(fixture, "cast")->cached);
     check_tallied(fixture, 5.0 / 3, 2);
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.outputs = outputs});
     check_tallied(fixture, SQUARES, RAYS - 1);
     /* Another catch alone: cast has to run for it again. */
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     static struct glint_pass other;
     static struct glint_row rows[8];
@@ -129,7 +129,7 @@ static void cuts_around_the_loop_give_the_bits_of_the_whole(void **state) {
     struct made made;
     struct snapshot whole, part;
     char folder[128];
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     snapshot_take(&whole, fixture->replay);
     fixture_write_run(fixture, "rays", folder);
@@ -145,7 +145,7 @@ static void cuts_around_the_loop_give_the_bits_of_the_whole(void **state) {
                                   &(struct glint_replay_options){.passes = inside, .inputs = folder}, NULL, NULL,
                                   &err));
     fixture_says(&err, "catch/made reads shot, which cast makes anew for each of 5 rays");
-    make(&made, 1);
+    make_ray_passes(&made, 1);
     made_check_cuts(fixture, &made, (struct glint_replay_options){0});
 }
 
@@ -176,7 +176,7 @@ static void the_number_of_rays_has_its_range(void **state) {
     struct made made;
     static const char *const wrong[] = {"pipeline.rays=0", "pipeline.rays=1025", "pipeline.rays=1.5",
                                         "pipeline.rays=many"};
-    make(&made, 1024);
+    make_ray_passes(&made, 1024);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct glint_error err = {0};
         assert_false(glint_pipeline_set(&made.pipeline, wrong[i], &err));

@@ -39,7 +39,7 @@ static struct glint_reference *need_reference(struct fixture *fixture, const cha
     return reference;
 }
 
-static void trace(struct glint_reference *reference, uint32_t rays, double noise) {
+static void trace_rays(struct glint_reference *reference, uint32_t rays, double noise) {
     struct glint_error err = {0};
     if (!glint_reference_trace(reference, rays, noise, NULL, NULL, &err)) fail_msg("%s", err.message);
 }
@@ -62,10 +62,10 @@ static void noise_falls_with_the_root_of_independent_rays(void **state) {
     struct glint_reference *reference = need_reference(fixture, NULL, "downsample.pattern=white");
     struct glint_image_errors errors;
     struct glint_error err = {0};
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     const double few = noise_of(reference);
     struct glint_pixels early = pixels_of(reference, NULL);
-    trace(reference, 64, 0);
+    trace_rays(reference, 64, 0);
     const double many = noise_of(reference);
     float *error = NULL;
     struct glint_pixels late = pixels_of(reference, &error);
@@ -87,7 +87,7 @@ static void noise_falls_with_the_root_of_independent_rays(void **state) {
                      noise[0].pixels);
     /* Rays that are spread well have less noise, and what they find differs from the others by both noises alone. */
     struct glint_reference *spread = need_reference(fixture, NULL, NULL);
-    trace(spread, 16, 0);
+    trace_rays(spread, 16, 0);
     struct glint_pixels other = pixels_of(spread, NULL);
     assert_true(noise_of(spread) < 0.9 * few);
     assert_true(glint_study_image(&other, &late, 3, surfaces, NULL, &errors, &err));
@@ -107,7 +107,7 @@ static void a_half_is_one_run_of_its_rays(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     struct glint_reference *reference = need_reference(fixture, NULL, NULL);
-    trace(reference, 48, 0); /* a first batch, one between, a last one */
+    trace_rays(reference, 48, 0); /* a first batch, one between, a last one */
     struct glint_pixels both = pixels_of(reference, NULL), half[2];
     struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
     assert_non_null(pipeline);
@@ -153,7 +153,7 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     int rounds = 0, interrupted = 0;
     snprintf(folder, sizeof folder, "%s/resumed", fixture->folder);
     struct glint_reference *whole = need_reference(fixture, NULL, NULL);
-    trace(whole, 48, 0);
+    trace_rays(whole, 48, 0);
     for (uint32_t rays = 0; rays < 48; rounds++) {
         struct glint_reference *part = need_reference(fixture, folder, NULL);
         assert_int_equal(glint_reference_state(part)->rays, rays);
@@ -169,7 +169,7 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     }
     assert_true(interrupted > 0);
     struct glint_reference *again = need_reference(fixture, folder, NULL);
-    trace(again, 48, 0);
+    trace_rays(again, 48, 0);
     float *errors[2];
     struct glint_pixels a = pixels_of(whole, &errors[0]), b = pixels_of(again, &errors[1]);
     check_same(&a, &b);
@@ -193,7 +193,7 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     fixture_check_messages(fixture);
 }
 
-static void refused(struct fixture *fixture, const char *folder, const char *set, const char *why) {
+static void assert_refused(struct fixture *fixture, const char *folder, const char *set, const char *why) {
     struct glint_error err = {0};
     struct glint_reference *reference = open_reference(fixture, folder, set, false, &err);
     assert_null(reference);
@@ -211,7 +211,7 @@ static void a_round_goes_on_from_its_midst(void **state) {
     snprintf(file, sizeof file, "%s/unfinished.exr", folder);
     struct glint_reference *whole = open_at_once(fixture, NULL, NULL, false, 3, &err);
     assert_non_null(whole);
-    trace(whole, 32, 0);
+    trace_rays(whole, 32, 0);
     for (uint32_t rays = 0, begun = 0; rays < 32; calls++) {
         struct glint_reference *part = open_at_once(fixture, folder, NULL, false, 3, &err);
         if (!part) fail_msg("%s", err.message);
@@ -230,7 +230,7 @@ static void a_round_goes_on_from_its_midst(void **state) {
         assert_int_equal(access(file, F_OK) == 0, begun > 0);
         assert_true(done == (rays == 32) && calls < 32);
         glint_reference_destroy(&part);
-        if (calls == 0) refused(fixture, folder, "screen_trace.thickness=0.5", "screen_trace.values.thickness");
+        if (calls == 0) assert_refused(fixture, folder, "screen_trace.thickness=0.5", "screen_trace.values.thickness");
     }
     assert_true(calls > 3 && most > 8); /* into the second half's part of a round */
     struct glint_reference *again = open_at_once(fixture, folder, NULL, false, 3, &err);
@@ -242,7 +242,7 @@ static void a_round_goes_on_from_its_midst(void **state) {
     glint_reference_destroy(&again);
     /* the mean of three, three and two is that of eight, but for rounding */
     struct glint_reference *eight = need_reference(fixture, NULL, NULL);
-    trace(eight, 32, 0);
+    trace_rays(eight, 32, 0);
     a = pixels_of(whole, NULL), b = pixels_of(eight, NULL);
     for (size_t i = 0; i < (size_t)a.width * a.height * 4; i++)
         assert_true(fabsf(a.values[i] - b.values[i]) <= 32 * 0x1p-24f * fabsf(b.values[i]));
@@ -256,15 +256,15 @@ static void a_round_goes_on_from_its_midst(void **state) {
 static void it_stops_at_the_noise_that_is_asked_for(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_reference *reference = need_reference(fixture, NULL, NULL);
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     const double first = glint_reference_state(reference)->noise[0].relative;
-    trace(reference, 1024, first / 2);
+    trace_rays(reference, 1024, first / 2);
     const struct glint_reference_state *now = glint_reference_state(reference);
     assert_true(now->noise[0].relative <= first / 2);
     assert_true(now->rays >= 32 && now->rays <= 160); /* 64, or fewer as they are spread well */
     const uint32_t rays = now->rays;
-    trace(reference, 1024, first / 2); /* reached: nothing more */
-    trace(reference, rays - 20, 0);
+    trace_rays(reference, 1024, first / 2); /* reached: nothing more */
+    trace_rays(reference, rays - 20, 0);
     assert_int_equal(glint_reference_state(reference)->rays, rays);
     glint_reference_destroy(&reference);
     fixture_check_messages(fixture);
@@ -276,23 +276,23 @@ static void a_folder_of_something_else_is_refused(void **state) {
     char folder[128], plain[128], file[256];
     snprintf(folder, sizeof folder, "%s/kept", fixture->folder);
     struct glint_reference *reference = need_reference(fixture, folder, NULL);
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     glint_reference_destroy(&reference);
-    refused(fixture, folder, "cubemap_trace.tolerance=0.03",
-            "cubemap_trace.values.tolerance is 0.02 there and 0.03 here");
+    assert_refused(fixture, folder, "cubemap_trace.tolerance=0.03",
+                   "cubemap_trace.values.tolerance is 0.02 there and 0.03 here");
     fixture_run(fixture, NULL);
     fixture_write_run(fixture, "plain", plain);
-    refused(fixture, plain, NULL, "not a reference");
+    assert_refused(fixture, plain, NULL, "not a reference");
     /* Overwritten, with the other setting. */
     reference = open_reference(fixture, folder, "cubemap_trace.tolerance=0.03", true, &err);
     assert_non_null(reference);
-    trace(reference, 32, 0);
+    trace_rays(reference, 32, 0);
     glint_reference_destroy(&reference);
     snprintf(file, sizeof file, "%s/reference-16.exr", folder);
     assert_int_not_equal(access(file, F_OK), 0);
     snprintf(file, sizeof file, "%s/reference-32.exr", folder);
     assert_int_equal(unlink(file), 0);
-    refused(fixture, folder, "cubemap_trace.tolerance=0.03", "reference-32.exr");
+    assert_refused(fixture, folder, "cubemap_trace.tolerance=0.03", "reference-32.exr");
     fixture_check_messages(fixture);
 }
 
@@ -311,7 +311,7 @@ static void other_captures(struct fixture *fixture, const struct fixture_options
         fixture_says(&err, why);
     } else {
         assert_non_null(reference);
-        trace(reference, 16, 0);
+        trace_rays(reference, 16, 0);
         assert_true(glint_reference_state(reference)->noise[0].mean > 0);
     }
     glint_reference_destroy(&reference);
@@ -418,7 +418,7 @@ static void the_share_decided_by_thickness_is_reported(void **state) {
     struct glint_reference *reference = glint_reference_create(
         fixture->replay, capture, pipeline, &(struct glint_reference_options){.folder = folder}, &err);
     struct glint_reference_sensitivity found;
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     if (!glint_reference_sensitivity(reference, 1, NULL, NULL, &found, &err)) fail_msg("%s", err.message);
     assert_int_equal(found.rays, GLINT_REFERENCE_ROUND);
     size_t checked = 0, idle = 0;
@@ -431,7 +431,7 @@ static void the_share_decided_by_thickness_is_reported(void **state) {
     assert_int_equal(checked, 2);
     assert_int_equal(idle, 2); /* solid, thickness_m */
     /* It stays in the folder while rays are added. */
-    trace(reference, 32, 0);
+    trace_rays(reference, 32, 0);
     glint_reference_destroy(&reference);
     struct glint_run *run = glint_run_open(folder, &err);
     assert_non_null(run);

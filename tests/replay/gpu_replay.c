@@ -376,7 +376,7 @@ static void replay_cubemaps(struct fixture *fixture, const uint32_t sizes[3], fl
 }
 
 /* Texels of a picture (half floats) that are another by more than a part of 1/256. */
-static size_t others(const struct snapshot *a, const struct snapshot *b, const char *image) {
+static size_t count_other_texels(const struct snapshot *a, const struct snapshot *b, const char *image) {
     size_t i = 0, count = 0;
     while (i < a->count && strcmp(a->images[i].name, image) != 0) i++;
     assert_true(i < a->count && b->count == a->count && b->images[i].bytes == a->images[i].bytes);
@@ -395,8 +395,8 @@ static void cube_maps_of_different_sizes_are_taken_at_the_largest(void **state) 
     replay_cubemaps(fixture, (const uint32_t[]){8, 24, 10}, 0.1F, &mixed);
     replay_cubemaps(fixture, (const uint32_t[]){24, 24, 24}, 0.1F, &alike);
     replay_cubemaps(fixture, (const uint32_t[]){24, 24, 24}, 0.05F, &darker); /* and they are looked at */
-    assert_int_equal(others(&mixed, &alike, "composed"), 0);
-    assert_true(others(&alike, &darker, "composed") > 100);
+    assert_int_equal(count_other_texels(&mixed, &alike, "composed"), 0);
+    assert_true(count_other_texels(&alike, &darker, "composed") > 100);
     snapshot_free(&mixed), snapshot_free(&alike), snapshot_free(&darker);
     fixture_check_messages(fixture);
 }

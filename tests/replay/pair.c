@@ -102,7 +102,7 @@ static uint32_t *picture_of(struct glint_replay *replay, size_t *count) {
 }
 
 /* Which of the NaNs a device stores is its own affair. */
-static bool same(uint32_t a, uint32_t b) {
+static bool same_bits(uint32_t a, uint32_t b) {
     return a == b || ((a & 0x7FFFFFFF) > 0x7F800000 && (b & 0x7FFFFFFF) > 0x7F800000);
 }
 
@@ -127,7 +127,7 @@ size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t
     for (size_t i = 0; i < passes; i++) *left_out += !results[i].ran;
     uint32_t *bits[] = {picture_of(pair->planned, &counts[0]), picture_of(pair->whole, &counts[1])};
     assert_int_equal(counts[0], counts[1]);
-    for (size_t i = 0; i < counts[0]; i++) differ += !same(bits[0][i], bits[1][i]);
+    for (size_t i = 0; i < counts[0]; i++) differ += !same_bits(bits[0][i], bits[1][i]);
     free(bits[0]), free(bits[1]);
     return differ;
 }

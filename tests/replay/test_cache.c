@@ -28,7 +28,7 @@ static void begin(struct place *place) {
     snprintf(place->back, sizeof place->back, "%s/back", place->top);
 }
 
-static void end(const struct place *place) {
+static void remove_place(const struct place *place) {
     char command[128];
     snprintf(command, sizeof command, "rm -r '%s'", place->top);
     assert_int_equal(system(command), 0);
@@ -79,7 +79,7 @@ static void what_was_stored_comes_back(void **state) {
     assert_true(cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "second");
     assert_int_equal(count_files(place.folder), 1); /* nothing half written, nothing old */
-    end(&place);
+    remove_place(&place);
 }
 
 /* Catches: bytes that went bad handed out as if they were the stored ones. */
@@ -97,7 +97,7 @@ static void a_damaged_entry_is_none(void **state) {
         else assert_false(cache_find(place.folder, keys[0], path, sizeof path));
         assert_int_equal(access(place.back, F_OK), -1);
     }
-    end(&place);
+    remove_place(&place);
 }
 
 /* Catches: a bound that does not hold, or one that drops what was used last. */
@@ -117,7 +117,7 @@ static void what_was_not_used_for_longest_goes(void **state) {
     assert_true(cache_find(place.folder, keys[0], path, sizeof path));
     assert_false(cache_find(place.folder, keys[1], path, sizeof path));
     assert_true(cache_find(place.folder, keys[2], path, sizeof path));
-    end(&place);
+    remove_place(&place);
 }
 
 /* Catches: a cache that makes its user fail. */
@@ -131,7 +131,7 @@ static void a_folder_that_cannot_be_written_keeps_nothing(void **state) {
     assert_false(cache_find(place.file, keys[0], path, sizeof path));
     assert_false(cache_copy(place.file, keys[0], place.back));
     expect_text(place.file, "first");
-    end(&place);
+    remove_place(&place);
 }
 
 int main(void) {

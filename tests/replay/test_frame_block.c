@@ -53,7 +53,7 @@ static void random_camera(uint64_t *state, bool mirror, double front, double far
     camera->view_to_clip[10] = front, camera->view_to_clip[11] = -0.1, camera->view_to_clip[14] = front;
 }
 
-static void fill(struct frame_block *block, const struct glint_frame *frame) {
+static void fill_block(struct frame_block *block, const struct glint_frame *frame) {
     const struct frame_sizes sizes = {.full = {100, 50}, .half = {50, 25}, .active = 3, .chain = 2, .cube_face = 16};
     frame_block_fill(block, frame, &sizes);
 }
@@ -83,7 +83,7 @@ static void the_mirror_projects_as_its_camera_says(void **unused) {
         random_camera(&state, n & 4, n & 8 ? 1 : -1, 0, &frame.camera, eye);
         random_camera(&state, n & 4, n & 8 ? 1 : -1, 0, &planar.camera, mirrored);
         planar.plane[3] = -3 * eye[1] - 4 * eye[2] + 10; /* two units from the eye */
-        fill(&block, &frame);
+        fill_block(&block, &frame);
         assert_true(block.mirror_plane.x == 0 && block.mirror_uv_from_world.column[3][3] == 0);
         frame_block_mirror(&block, &frame, &planar);
         assert_true(fabs((double)block.mirror_plane.w - 2 * frame.metres_per_unit) < 1e-5 &&
@@ -119,7 +119,7 @@ static void points_project_as_the_matrices_say(void **unused) {
         const double distance = n & 16 ? 1e6 : 0;
         random_camera(&state, n & 4, n & 8 ? 1 : -1, distance, &frame.camera, eye);
         random_camera(&state, n & 4, n & 8 ? 1 : -1, distance, &frame.previous, previous_eye);
-        fill(&block, &frame);
+        fill_block(&block, &frame);
         for (int i = 0; i < 3; i++) world[i] = eye[i] + 8 * (uniform(&state) - 0.5);
         const double relative[4] = {(world[0] - eye[0]) * frame.metres_per_unit,
                                     (world[1] - eye[1]) * frame.metres_per_unit,
@@ -178,7 +178,7 @@ static void the_depth_range_is_that_of_the_projection(void **unused) {
             frame.camera.view_to_clip[10] = cases[i].a * front;
             frame.camera.view_to_clip[11] = cases[i].b;
             frame.camera.view_to_clip[14] = front;
-            fill(&block, &frame);
+            fill_block(&block, &frame);
             assert_true(fabs((double)block.depth_range.x - cases[i].near / 2) < 1e-6);
             if (isinf(cases[i].far)) assert_true(isinf(block.depth_range.y));
             else assert_true(fabs((double)block.depth_range.y - cases[i].far / 2) < 1e-3);
@@ -198,7 +198,7 @@ static void a_frame_far_from_the_origin_has_the_same_block(void **unused) {
     random_camera(&one, false, -1, 0, &near.camera, eye), random_camera(&one, false, -1, 0, &near.previous, eye);
     random_camera(&other, false, -1, 1e6, &far.camera, eye), random_camera(&other, false, -1, 1e6, &far.previous, eye);
     far.fog.base += 1e6;
-    fill(&a, &near), fill(&b, &far);
+    fill_block(&a, &near), fill_block(&b, &far);
     const float *x = (const float *)&a, *y = (const float *)&b;
     for (size_t i = 0; i < offsetof(struct frame_block, size) / sizeof(float); i++)
         if (x[i] != y[i]) assert_true(fabsf(x[i] - y[i]) <= 1e-6f * (1 + fabsf(x[i]))); /* 1e6 in double: 1e-10 */
@@ -225,7 +225,7 @@ static void rotations_in_floats_do_not_move_the_camera(void **unused) {
                 for (int k = 0; k < 3; k++) row[3] -= row[k] * (c ? previous_eye : eye)[k];
             }
         struct frame_block block;
-        fill(&block, &frame);
+        fill_block(&block, &frame);
         for (int p = 0; p < 20; p++) {
             const double relative[4] = {8 * uniform(&state) - 4, 8 * uniform(&state) - 4, 8 * uniform(&state) - 4, 1};
             const double world[4] = {relative[0] + eye[0], relative[1] + eye[1], relative[2] + eye[2], 1};
@@ -247,7 +247,7 @@ static void fog_and_up_are_in_metres(void **unused) {
     frame.camera.world_to_view[0] = frame.camera.world_to_view[5] = frame.camera.world_to_view[10] = 1;
     frame.camera.world_to_view[11] = 700; /* the eye is at z = -700, which is 700 up */
     frame.camera.view_to_clip[0] = frame.camera.view_to_clip[5] = frame.camera.view_to_clip[14] = 1;
-    fill(&block, &frame);
+    fill_block(&block, &frame);
     assert_true(block.up.z == -1 && block.up.x == 0 && block.up.y == 0);
     assert_true(fabsf(block.fog_color.w - 0.02f) < 1e-7f);
     assert_true(fabsf(block.fog_height.x - 6) < 1e-5f);

@@ -40,14 +40,14 @@ struct pipeline {
     struct glint_pipeline pipeline;
 };
 
-static void make(struct pipeline *made, const struct glint_pass *const *passes, size_t count) {
+static void make_pipeline(struct pipeline *made, const struct glint_pass *const *passes, size_t count) {
     *made = (struct pipeline){.pipeline = {.name = "made", .passes = made->passes, .count = count}};
     made->pipeline.passes = made->passes;
     for (size_t i = 0; i < count; i++) made->passes[i].pass = passes[i];
 }
 #define MAKE(made, ...)                                                                                                \
-    make(made, (const struct glint_pass *const[]){__VA_ARGS__},                                                        \
-         sizeof((const struct glint_pass *const[]){__VA_ARGS__}) / sizeof(void *))
+    make_pipeline(made, (const struct glint_pass *const[]){__VA_ARGS__},                                               \
+                  sizeof((const struct glint_pass *const[]){__VA_ARGS__}) / sizeof(void *))
 
 static enum fact_about about(const char *fact) {
     return strcmp(fact, "yes") == 0 || strcmp(fact, "no") == 0 ? FACT_PIXELS : FACT_UNKNOWN;

@@ -195,7 +195,7 @@ static void the_words_of_the_frame_that_a_shader_reads_are_known(void **state) {
     }
 }
 
-static bool find(struct spirv *spirv, struct shaders *from, const char *variant, struct glint_error *err) {
+static bool find_variant(struct spirv *spirv, struct shaders *from, const char *variant, struct glint_error *err) {
     const struct pipeline_pass pass = {.pass = glint_pass_find("resolve", variant)};
     *err = (struct glint_error){0};
     return spirv_find(spirv, from, &pass, err);
@@ -227,17 +227,17 @@ static void files_of_a_folder_stand_in_for_those_built_in(void **state) {
     if (!shaders_init(&from, folder, &err)) fail_msg("%s", err.message);
     file_in(folder, "reflection/resolve", "hit.comp",
             START "void main() { imageStore(reflection_half, ivec2(0), vec4(1)); }\n");
-    assert_true(find(&hit, &from, "hit", &err) && find(&previous, &from, "previous", &err));
+    assert_true(find_variant(&hit, &from, "hit", &err) && find_variant(&previous, &from, "previous", &err));
     assert_non_null(hit.from);
     assert_null(previous.from);
     assert_ptr_equal(previous.words, glint_pass_find("resolve", "previous")->spirv);
     file_in(folder, "reflection/resolve", "hit.comp",
             START "void main() { imageStore(reflection_half, ivec2(0), vec4(2)); }\n");
-    assert_true(find(&changed, &from, "hit", &err));
+    assert_true(find_variant(&changed, &from, "hit", &err));
     assert_int_not_equal(changed.hash, hit.hash);
     file_in(folder, "shared", "camera.glsl", "\n#error seen\n");
-    assert_true(find(&hit, &from, "hit", &err)); /* which includes nothing of it */
-    assert_false(find(&previous, &from, "previous", &err));
+    assert_true(find_variant(&hit, &from, "hit", &err)); /* which includes nothing of it */
+    assert_false(find_variant(&previous, &from, "previous", &err));
     fixture_says(&err, "shared/camera.glsl:2: '#error' : seen");
     shaders_finish(&from);
     assert_false(shaders_init(&from, "/nowhere/passes", &err));

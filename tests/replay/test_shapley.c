@@ -196,7 +196,7 @@ struct watch {
 static bool play_watched(void *user, uint32_t coalition, double *values, struct glint_error *err) {
     return play(&((struct watch *)user)->record, coalition, values, err);
 }
-static bool look(void *user, struct glint_error *err) {
+static bool watch_progress(void *user, struct glint_error *err) {
     struct watch *watch = user;
     const struct glint_shapley *found = &watch->found;
     if (++watch->news == watch->stop_at) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "stopped");
@@ -218,7 +218,7 @@ static void known_values_are_returned_at_once(void **state) {
         for (size_t stop = 0; stop < 3; stop++) {
             struct watch watch = {.stop_at = stop};
             const struct glint_game game = {
-                .players = PLAYERS, .values = GAMES, .play = play_watched, .update = look, .user = &watch};
+                .players = PLAYERS, .values = GAMES, .play = play_watched, .update = watch_progress, .user = &watch};
             const struct glint_shapley_options options = {.exact = exact, .permutations = 20};
             const bool done = glint_shapley(&game, &options, &watch.found, &err);
             assert_int_equal(done, stop == 0);

@@ -156,7 +156,7 @@ static void a_hypercube_hits_each_stratum_once(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static void refused(const char *const *axes, const char *says) {
+static void assert_refused(const char *const *axes, const char *says) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = plain();
     struct glint_space *space = glint_space_create(pipeline, axes, &err);
@@ -167,35 +167,36 @@ static void refused(const char *const *axes, const char *says) {
 
 static void what_is_wrong_is_named(void **state) {
     (void)state;
-    refused((const char *const[]){NULL}, "an axis to vary");
-    refused(AXES("screen_trace.steps"), "expected SLOT.PARAMETER=A..B");
-    refused(AXES("=4"), "expected SLOT.PARAMETER=A..B");
-    refused(AXES("screen_trace.steps="), "found 'screen_trace.steps='");
-    refused(AXES("screen_trace.steps+=4"), "with + between them");
-    refused(AXES("screen_trace.steps+resolve=4"), "with + between them");
-    refused(AXES("screen_trace.steps=4..2000:log"), "expected 1 to 1024 (samples), found 2000");
-    refused(AXES("screen_trace.steps=0,4"), "expected 1 to 1024 (samples), found 0");
-    refused(AXES("screen_trace.steps=8..4"), "a range that rises, found 8 to 4");
-    refused(AXES("screen_trace.steps=4..x"), "expected A..B, A..B:STEP");
-    refused(AXES("screen_trace.steps=4..8:0"), "STEP above 0 or :log");
-    refused(AXES("screen_trace.steps=4..8:-1"), "STEP above 0 or :log");
-    refused(AXES("screen_trace.steps=4..8:log1"), "N from 2");
-    refused(AXES("screen_trace.steps=4..8:logx"), "N from 2");
-    refused(AXES("screen_trace.steps=4.5..8"), "expected whole numbers");
-    refused(AXES("screen_trace.steps=4..nan"), "expected A..B");
-    refused(AXES("screen_trace.steps=4..inf"), "expected A..B");
-    refused(AXES("screen_trace.thickness=0..1:1e-9"), "at most 10000 values");
-    refused(AXES("screen_trace.thickness=0..1:log"), "begins above 0, found 0");
-    refused(AXES("screen_trace.steps=4,,8"), "values with commas");
-    refused(AXES("screen_trace.stepps=4,8"), "no parameter 'stepps'");
-    refused(AXES("screen_trac.steps=4,8"), "unknown slot 'screen_trac'");
-    refused(AXES("screen_trace=linear,hizz"), "no variant 'hizz'");
-    refused(AXES("cubemap_trace.fallback=0..1"), "a list of choices such as black,lookup");
-    refused(AXES("cubemap_trace.fallback=black,white"), "expected one of black, lookup, cocoon, found 'white'");
-    refused(AXES("screen_trace.steps=4,8", "screen_trace.steps=16"), "varied twice");
-    refused(AXES("pipeline.rays=0..4"), "whole number from 1 to 1024");
-    refused(AXES("pipeline.ray=1..4"), "no parameter 'ray'");
-    refused(AXES("screen_trace.thickness=0..1:0.001", "cubemap_trace.steps_hq=1..1024"), "found a grid of 1025024");
+    assert_refused((const char *const[]){NULL}, "an axis to vary");
+    assert_refused(AXES("screen_trace.steps"), "expected SLOT.PARAMETER=A..B");
+    assert_refused(AXES("=4"), "expected SLOT.PARAMETER=A..B");
+    assert_refused(AXES("screen_trace.steps="), "found 'screen_trace.steps='");
+    assert_refused(AXES("screen_trace.steps+=4"), "with + between them");
+    assert_refused(AXES("screen_trace.steps+resolve=4"), "with + between them");
+    assert_refused(AXES("screen_trace.steps=4..2000:log"), "expected 1 to 1024 (samples), found 2000");
+    assert_refused(AXES("screen_trace.steps=0,4"), "expected 1 to 1024 (samples), found 0");
+    assert_refused(AXES("screen_trace.steps=8..4"), "a range that rises, found 8 to 4");
+    assert_refused(AXES("screen_trace.steps=4..x"), "expected A..B, A..B:STEP");
+    assert_refused(AXES("screen_trace.steps=4..8:0"), "STEP above 0 or :log");
+    assert_refused(AXES("screen_trace.steps=4..8:-1"), "STEP above 0 or :log");
+    assert_refused(AXES("screen_trace.steps=4..8:log1"), "N from 2");
+    assert_refused(AXES("screen_trace.steps=4..8:logx"), "N from 2");
+    assert_refused(AXES("screen_trace.steps=4.5..8"), "expected whole numbers");
+    assert_refused(AXES("screen_trace.steps=4..nan"), "expected A..B");
+    assert_refused(AXES("screen_trace.steps=4..inf"), "expected A..B");
+    assert_refused(AXES("screen_trace.thickness=0..1:1e-9"), "at most 10000 values");
+    assert_refused(AXES("screen_trace.thickness=0..1:log"), "begins above 0, found 0");
+    assert_refused(AXES("screen_trace.steps=4,,8"), "values with commas");
+    assert_refused(AXES("screen_trace.stepps=4,8"), "no parameter 'stepps'");
+    assert_refused(AXES("screen_trac.steps=4,8"), "unknown slot 'screen_trac'");
+    assert_refused(AXES("screen_trace=linear,hizz"), "no variant 'hizz'");
+    assert_refused(AXES("cubemap_trace.fallback=0..1"), "a list of choices such as black,lookup");
+    assert_refused(AXES("cubemap_trace.fallback=black,white"), "expected one of black, lookup, cocoon, found 'white'");
+    assert_refused(AXES("screen_trace.steps=4,8", "screen_trace.steps=16"), "varied twice");
+    assert_refused(AXES("pipeline.rays=0..4"), "whole number from 1 to 1024");
+    assert_refused(AXES("pipeline.ray=1..4"), "no parameter 'ray'");
+    assert_refused(AXES("screen_trace.thickness=0..1:0.001", "cubemap_trace.steps_hq=1..1024"),
+                   "found a grid of 1025024");
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = plain();
     assert_null(glint_space_create_hypercube(pipeline, AXES("screen_trace.steps=4..8"), 0, 1, &err));

@@ -35,7 +35,8 @@ struct seen {
     bool floor;
 };
 
-static struct seen look(const struct glint_camera *camera, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
+static struct seen trace_pixel(const struct glint_camera *camera, uint32_t x, uint32_t y, uint32_t width,
+                               uint32_t height) {
     struct seen s = {0};
     double eye[3], length = 0;
     camera_eye(camera, eye);
@@ -78,7 +79,7 @@ static void test_depth_and_normal_of_every_pixel(void **state) {
     float *g = read_part(capture, "gbuffer", "depth.Z normal.X normal.Y normal.Z", NULL, NULL);
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(&glint_capture_frame(capture)->camera, x, y, W, H);
+            struct seen s = trace_pixel(&glint_capture_frame(capture)->camera, x, y, W, H);
             const float *p = g + 4 * (y * W + x);
             double eye[3], forward;
             camera_eye(&glint_capture_frame(capture)->camera, eye);
@@ -103,7 +104,7 @@ static void test_lit_is_the_pattern_and_the_floor_is_black(void **state) {
     float *lit = read_part(capture, "lit", "R G B", NULL, NULL);
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(&glint_capture_frame(capture)->camera, x, y, W, H);
+            struct seen s = trace_pixel(&glint_capture_frame(capture)->camera, x, y, W, H);
             double color[3];
             pattern(s.point, color);
             for (int i = 0; i < 3; i++) /* stored as half floats: 11 bits below 1 */
@@ -119,7 +120,7 @@ static void test_mirror_distance_of_every_pixel(void **state) {
     float *mirror = read_part(capture, "truth.mirror", "distance.Z visible", NULL, NULL);
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(camera, x, y, W, H);
+            struct seen s = trace_pixel(camera, x, y, W, H);
             double length = sqrt(s.ray[0] * s.ray[0] + s.ray[1] * s.ray[1] + s.ray[2] * s.ray[2]), uv[2], eye[3];
             /* the ray starts up to 0.05 mm off the wall, and meets the next wall at this cosine */
             double bound = 1e-4 / (fabs(s.ray[s.hit_wall]) / length) + float_m;
@@ -144,7 +145,7 @@ static void test_truth_of_the_mirror_is_what_the_hit_emits(void **state) {
         float *truth = read_part(capture, lobes[lobe], "R G B weight", NULL, NULL);
         for (uint32_t y = 0; y < H; y++)
             for (uint32_t x = 0; x < W; x++) {
-                struct seen s = look(&glint_capture_frame(capture)->camera, x, y, W, H);
+                struct seen s = trace_pixel(&glint_capture_frame(capture)->camera, x, y, W, H);
                 const float *p = truth + 4 * (y * W + x);
                 double color[3];
                 if (!s.floor) continue;
@@ -195,7 +196,7 @@ static void test_motion_leads_to_the_previous_frame(void **state) {
     double largest = 0, nearer = 0;
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(&frame->camera, x, y, W, H);
+            struct seen s = trace_pixel(&frame->camera, x, y, W, H);
             double uv[2], now[2] = {(x + 0.5) / W, (y + 0.5) / H};
             camera_project(&frame->previous, s.point, uv);
             for (int i = 0; i < 2; i++) {

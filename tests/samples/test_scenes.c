@@ -58,7 +58,7 @@ static double apart(const float *a, const float *b, size_t count) {
 static const double depth_bound = 2e-3, normal_bound = 2e-3, roughness_bound = 2.1e-3, motion_bound = 1e-4,
                     color_bound = 3e-3;
 
-static void compare(const char *path, const float *const plain[4]) {
+static void compare_decoded(const char *path, const float *const plain[4]) {
     static const char *const channels[4] = {"depth.Z",
                                             "normal.X normal.Y normal.Z vertexNormal.X vertexNormal.Y vertexNormal.Z",
                                             "material.roughness motion.X motion.Y motion.Z", "R G B"};
@@ -104,7 +104,7 @@ static void test_every_encoding_decodes_to_the_same_scene(void **state) {
         path = in_folder(state, name);
         write_sample("matte", path, &o);
         assert_valid(path);
-        compare(path, (const float *const *)plain);
+        compare_decoded(path, (const float *const *)plain);
     }
     for (int i = 0; i < 4; i++) free(plain[i]);
 }

@@ -10,7 +10,7 @@
 /* A small pipeline: the linear march, the cube maps, one resolve. Few rays: what is checked holds for any. */
 #define SMALL "-p", GLINT_TEST_PRESET, "--rays=16", "--player-rays=2"
 
-static json_t *load(const char *name) {
+static json_t *load_json(const char *name) {
     json_t *json = json_load_file(in_folder(name), 0, NULL);
     if (!json) fail_msg("%s is no JSON", name);
     return json;
@@ -52,7 +52,7 @@ static void assert_sums(const json_t *sum, size_t answers) {
 static void sweep_upscale(double errors[2]) {
     free(glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("swept"), "-p", GLINT_TEST_PRESET, "--rays=16",
                   "--repeat=0", "--no-pictures", "--set=resolve.fog=false", "--vary=upscale=best_match,bilinear"));
-    json_t *json = load("swept/points.json");
+    json_t *json = load_json("swept/points.json");
     for (size_t i = 0; i < 2; i++) {
         const json_t *row =
             json_array_get(json_object_get(json_array_get(json_object_get(json, "points"), i), "captures"), 0);
@@ -92,7 +92,7 @@ static void shares_add_up_to_the_error(void **state) {
     assert_contains(text, "against the truth");
     assert_contains(text, "exact, from all");
     free(text);
-    json_t *found = load("blame/shares.json");
+    json_t *found = load_json("blame/shares.json");
     const json_t *capture = json_array_get(json_object_get(found, "captures"), 0),
                  *players = json_object_get(found, "players"), *all = errors_of(capture, "reference", "all");
     const int count = (int)json_array_size(players);
@@ -134,7 +134,7 @@ static void a_killed_blame_goes_on(void **state) {
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
     if (file_exists(in_folder("killed/shares.json"))) { /* what was known by then */
-        json_t *partial = load("killed/shares.json");
+        json_t *partial = load_json("killed/shares.json");
         assert_true(json_is_false(json_object_get(partial, "complete")));
         json_decref(partial);
     }
@@ -145,7 +145,7 @@ static void a_killed_blame_goes_on(void **state) {
     snprintf(command, sizeof command, "cd %s && \"$GLINT\" blame room.exr -o killed -p %s %s", in_folder(""),
              GLINT_TEST_PRESET, arguments);
     free(checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__));
-    json_t *whole = load("blame/shares.json"), *resumed = load("killed/shares.json");
+    json_t *whole = load_json("blame/shares.json"), *resumed = load_json("killed/shares.json");
     assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
                            json_object_get(json_object_get(resumed, "mean"), "errors")));
     assert_int_equal(lines_of("killed/log.jsonl"), 1 << json_array_size(json_object_get(whole, "players")));
@@ -172,7 +172,7 @@ static void answers_come_before_times(void **state) {
     assert_contains(stopped.out, "adds ms");
     assert_contains(stopped.err, "results are kept in ");
     outcome_free(&stopped);
-    json_t *whole = load("blame/shares.json"), *found = load("asked/shares.json");
+    json_t *whole = load_json("blame/shares.json"), *found = load_json("asked/shares.json");
     assert_true(json_is_false(json_object_get(found, "complete")) && json_is_true(json_object_get(whole, "complete")));
     assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
                            json_object_get(json_object_get(found, "mean"), "errors")));
@@ -181,7 +181,7 @@ static void answers_come_before_times(void **state) {
     json_decref(found);
     free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("asked"), SMALL, "--use=upscale=best_match",
                   "--repeat=1"));
-    found = load("asked/shares.json");
+    found = load_json("asked/shares.json");
     assert_true(json_is_true(json_object_get(found, "complete")) && lines_of("asked/log.jsonl") >= lines);
     const json_t *ms = json_object_get(json_object_get(found, "mean"), "frame_ms");
     assert_true(number(ms, "preset") > 0 && number(ms, "reference") > 0);
@@ -195,7 +195,7 @@ static void permutations_have_intervals(void **state) {
     const int lines = lines_of("killed/log.jsonl");
     free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("killed"), SMALL, "--use=upscale=best_match",
                   "--repeat=0", "--exact=0", "--permutations=20", "--interval=50", "--metric=relative_mse"));
-    json_t *found = load("killed/shares.json");
+    json_t *found = load_json("killed/shares.json");
     assert_int_equal(lines_of("killed/log.jsonl"), lines);
     const json_t *mean = json_object_get(found, "mean");
     assert_string_equal(json_string_value(json_object_get(found, "metric")), "relative_mse");
@@ -213,7 +213,7 @@ static void several_captures_have_their_mean(void **state) {
     free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=32x18", "--cube-size=8"));
     free(glint_ok("blame", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), SMALL, "--repeat=0",
                   "--exact=0", "--permutations=2"));
-    json_t *found = load("two/shares.json");
+    json_t *found = load_json("two/shares.json");
     const json_t *captures = json_object_get(found, "captures"), *mean = json_object_get(found, "mean");
     const char *name;
     json_t *player;
@@ -235,7 +235,7 @@ static void several_captures_have_their_mean(void **state) {
 static double share_of(const char *folder, const char *name) {
     char path[64];
     snprintf(path, sizeof path, "%s/shares.json", folder);
-    json_t *found = load(path);
+    json_t *found = load_json(path);
     const json_t *all = errors_of(json_array_get(json_object_get(found, "captures"), 0), "reference", "all");
     const double share = number(json_object_get(json_object_get(all, "players"), name), "share");
     json_decref(found);

@@ -82,7 +82,7 @@ static void a_story_agrees_with_the_run(void **state) {
     print_message("# %zu hits, %zu in the sky\n", hits, skies);
 }
 
-static size_t count(const char *text, const char *what) {
+static size_t count_occurrences(const char *text, const char *what) {
     size_t n = 0;
     while ((text = strstr(text, what))) n++, text += strlen(what);
     return n;
@@ -112,11 +112,11 @@ static void a_drawing_has_every_step(void **state) {
     }
     char *svg = read_text(in_folder("ray.svg"));
     assert_true(drawn > 3);
-    assert_int_equal(count(svg, "<title>"), drawn);
+    assert_int_equal(count_occurrences(svg, "<title>"), drawn);
     assert_contains(svg, "pixel 40,45");
     assert_contains(svg, "depth in m, linear in 1/z");
     assert_contains(svg, "in front: continues");
-    assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
+    assert_int_equal(count_occurrences(svg, "<svg"), count_occurrences(svg, "</svg>"));
     assert_non_null(json_object_get(json, "reference"));
     json_decref(json);
     free(svg);
@@ -135,7 +135,7 @@ static void mixtures_are_told_and_drawn(void **state) {
     assert_contains(svg, "resolve/blurred: combines");
     assert_contains(svg, "compose/contribution: blends one colour over another");
     assert_contains(svg, "above: reflection, ");
-    assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
+    assert_int_equal(count_occurrences(svg, "<svg"), count_occurrences(svg, "</svg>"));
     free(svg);
     free(text);
     text = glint_ok("probe", CAPTURE, "40,45", "--preset=mafia_de", "--alone", "--json", "-o", in_folder("de.svg"));

@@ -10,7 +10,7 @@
 /* A small pipeline: the linear march, the cube maps, one resolve. */
 #define PLAIN "-p", GLINT_TEST_PRESET
 
-static json_t *load(const char *name) {
+static json_t *load_json(const char *name) {
     json_t *json = json_load_file(in_folder(name), 0, NULL);
     if (!json) fail_msg("%s is no JSON", name);
     return json;
@@ -73,7 +73,7 @@ static void points_are_the_pipelines_they_name(void **state) {
     assert_contains(text, "RMSE against GPU time");
     assert_contains(text, "RMSE against fetches per pixel");
     free(text);
-    json_t *swept = load("grid/points.json");
+    json_t *swept = load_json("grid/points.json");
     assert_int_equal(json_array_size(json_object_get(swept, "points")), 6);
     for (size_t i = 0; i < 6; i++) { /* what runs late varies fastest */
         const json_t *row = row_of(point(swept, i), 0), *ran = json_object_get(row, "executed");
@@ -120,7 +120,7 @@ static void points_are_the_pipelines_they_name(void **state) {
 
 /* What a sweep found, but for times. */
 static void assert_same_findings(const char *a, const char *b) {
-    json_t *one = load(a), *other = load(b);
+    json_t *one = load_json(a), *other = load_json(b);
     const size_t count = json_array_size(json_object_get(one, "points"));
     assert_int_equal(json_array_size(json_object_get(other, "points")), count);
     for (size_t i = 0; i < count; i++) {
@@ -181,7 +181,7 @@ static void several_captures_have_a_mean_and_a_worst_case(void **state) {
     free(glint_ok("sweep", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), PLAIN, "--rays=16",
                   "--repeat=0", "--vary=screen_trace=linear,dda", "--vary=screen_trace.steps=4,64", "--no-pictures",
                   "--metric=symmetric"));
-    json_t *swept = load("two/points.json");
+    json_t *swept = load_json("two/points.json");
     assert_int_equal(json_array_size(json_object_get(swept, "points")), 3); /* dda has no steps */
     for (size_t i = 0; i < 3; i++) {
         const double a = error_of(row_of(point(swept, i), 0), "reference", "all", "symmetric"),

@@ -17,7 +17,7 @@ static int make_captures(void **state) {
     return 0;
 }
 
-static json_t *load(const char *name) {
+static json_t *load_json(const char *name) {
     json_t *json = json_load_file(in_folder(name), 0, NULL);
     if (!json) fail_msg("%s is no JSON", name);
     return json;
@@ -61,7 +61,7 @@ static void the_preset_is_what_was_found(void **state) {
     (void)state;
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("found.json"), PLAIN, "--budget-fetches=60%",
                           "--reference=truth", "--tries=24", "--repeat=2", "--baseline=scale", AXES, "--json");
-    json_t *tuned = parse_json(text), *preset = load("found.json");
+    json_t *tuned = parse_json(text), *preset = load_json("found.json");
     free(text);
     const json_t *from = json_object_get(preset, "provenance"), *start = contender(tuned, 0, "start");
     const json_t *found = contender(tuned, 0, "tuned"), *scaled = contender(tuned, 0, "scaled");
@@ -123,7 +123,7 @@ static void a_seed_gives_the_same_preset_again(void **state) {
         const char *out = in_folder(i == 1 ? "b.json" : "a.json");
         char *text = glint_ok("tune", in_folder("room.exr"), "-o", out, PLAIN, "--budget-fetches=60%",
                               "--reference=truth", "--tries=18", "--repeat=0", "--seed=5", AXES, "--json");
-        json_t *tuned = parse_json(text), *preset = load(i == 1 ? "b.json" : "a.json");
+        json_t *tuned = parse_json(text), *preset = load_json(i == 1 ? "b.json" : "a.json");
         free(text);
         sets[i] = json_incref(json_object_get(preset, "set"));
         moved[i] = json_incref(json_object_get(json_object_get(preset, "provenance"), "moved"));
@@ -154,7 +154,7 @@ static void an_interrupted_search_goes_on(void **state) {
     assert_int_equal(stopped.status, 130);
     assert_contains(stopped.err, "the same command resumes the search");
     outcome_free(&stopped);
-    json_t *best = load("c.json");
+    json_t *best = load_json("c.json");
     assert_true(json_is_false(json_object_get(json_object_get(best, "provenance"), "confirmed")));
     json_decref(best);
     FILE *log = fopen(in_folder("c.tune/log.jsonl"), "ab");
@@ -164,7 +164,7 @@ static void an_interrupted_search_goes_on(void **state) {
     snprintf(command, sizeof command, "cd %s && \"$GLINT\" tune room.exr -o c.json -p %s %s", in_folder(""),
              GLINT_TEST_PRESET, arguments);
     char *text = checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__);
-    json_t *went_on = parse_json(text), *whole = load("a.json"), *same = load("c.json");
+    json_t *went_on = parse_json(text), *whole = load_json("a.json"), *same = load_json("c.json");
     free(text);
     assert_true(number(went_on, "fresh") < 18 && number(went_on, "fresh") > 0);
     assert_true(json_equal(json_object_get(whole, "set"), json_object_get(same, "set")));

@@ -9,7 +9,7 @@ static double pass_ms(const json_t *pass, const char *key) {
     return json_number_value(json_object_get(json_object_get(pass, "time_ns"), key)) / 1e6;
 }
 
-/* The pass of a run if it was find_timed_pass in this category of work; else NULL. */
+/* The pass of a run if it was timed in this category of work; else NULL. */
 static const json_t *find_timed_pass(const json_t *run, const char *slot, bool cached_work) {
     const json_t *pass = report_pass(run, slot);
     bool same = json_is_true(json_object_get(pass, "cached_work")) == cached_work;

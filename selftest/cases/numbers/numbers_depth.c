@@ -67,7 +67,7 @@ struct tally {
     struct glint_selftest_finding *finding;
 };
 
-static void note(struct tally *t, double error, const double place[2], double found, double expected) {
+static void record_error(struct tally *t, double error, const double place[2], double found, double expected) {
     t->finding->values++;
     if (error <= t->finding->worst) return;
     t->finding->worst = error;
@@ -122,7 +122,7 @@ static void check_hit(struct tally *t, const struct open_box *c, const double pl
     if (!open_box_seen_at(c, behind, behind_px) || within(c, behind_px) < 2 || within(c, ray->end_px) < 2) return;
     if (!around.one_wall || around.farthest > 2 * around.nearest) return;
     const double error = fabs((double)travelled - ray->distance) / end_moves(c, ray, depth, step);
-    note(t, finished ? error : (double)INFINITY, place, (double)travelled, ray->distance);
+    record_error(t, finished ? error : (double)INFINITY, place, (double)travelled, ray->distance);
 }
 
 /* A ray that ends outside of the picture, or in the sky; none that passes over a wall within a texel of its rim. */
@@ -133,7 +133,7 @@ static void check_rest(struct tally *t, const struct open_box *c, const double p
     if (sky && open_box_seen_at(c, ray->over, over) && !look_around(c, over, 0).no_wall) return;
     if (!outside && (within(c, ray->end_px) < 2 || !look_around(c, ray->end_px, 0).no_wall)) return;
     const bool right = outside ? !finished : finished && travelled > 1e30f;
-    note(t, right ? 0 : (double)INFINITY, place, (double)travelled, (double)INFINITY);
+    record_error(t, right ? 0 : (double)INFINITY, place, (double)travelled, (double)INFINITY);
 }
 
 static void check_ray(struct tally *t, const double place[2], float depth_found, bool finished, float travelled) {
@@ -143,7 +143,8 @@ static void check_ray(struct tally *t, const double place[2], float depth_found,
     if (open_box_seen(&c, place, &true_depth, &face) != OPEN_BOX_FLOOR) return;
     const double depth = open_box_decode_depth(&c, (double)open_box_encode_depth(&c, true_depth));
     /* Decoding is done in double, and rounds once. */
-    note(t, fabs((double)depth_found - depth) / ((1 + 1e-3) * depth * exp2(-24)), place, (double)depth_found, depth);
+    record_error(t, fabs((double)depth_found - depth) / ((1 + 1e-3) * depth * exp2(-24)), place, (double)depth_found,
+                 depth);
     const struct open_box_ray ray = open_box_mirror(&c, place, depth);
     const bool hits = ray.distance < INFINITY && ray.in_front && within(&c, ray.end_px) >= -2;
     (hits ? check_hit : check_rest)(t, &c, place, &ray, finished, travelled);

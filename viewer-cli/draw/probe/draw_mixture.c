@@ -193,8 +193,7 @@ void draw_mixtures(struct drawing *d, const struct ray_records *records) {
         gather_weights(d->probe, records, &next, &mixture);
         for (; at < next; at++)
             if (glint_probe_is(&records->records[at], "layer")) draw_layer(d, records, &records->records[at]);
-        const bool place =
-            mixture.count && mixture.parts[0].size == 0; /* a single sample between texels is tone_map, too */
+        const bool place = mixture.count && mixture.parts[0].size == 0; /* one sample between texels is drawn, too */
         if ((mixture.count > 1 || place) && d->uri) draw_weights(d, records, next, &mixture);
     }
 }

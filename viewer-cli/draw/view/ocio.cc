@@ -23,7 +23,7 @@ OCIO::ConstConfigRcPtr open_config(const char *path) {
     return OCIO::Config::CreateFromStream(text);
 }
 
-// Returns the name as the config spells it, or throws with the find_name names and the nearest one.
+// Returns the name as the config spells it, or throws with the known names and the nearest one.
 std::string find_name(const char *what, const char *name, const std::vector<std::string> &names) {
     struct nearest near = nearest_to(name);
     std::string list;

@@ -89,7 +89,7 @@ bool render(struct picture *picture, const struct source *source, const struct r
 
 enum { LEVELS_MAX = 16 };
 
-/* Draws one of the coarser levels; false without an error if the image has no such render_level. */
+/* Draws one of the coarser levels; false without an error if the image has no such level. */
 static bool render_level(struct picture *picture, const struct source_choice *choice, const struct source *finest,
                          size_t number, const struct render_options *options, size_t *invalid,
                          struct glint_error *err) {
