@@ -11,7 +11,7 @@
 static const double PI = 3.14159265358979323846;
 
 struct glint_camera fixture_camera(const double eye[3], double near, double far) {
-    /* Turned about y and x so that no axis is special. */
+    /* Rotated about y and x, so that no axis is special. */
     const double a = 0.6, b = -0.2;
     const double r[9] = {cos(a),          0,       -sin(a),        sin(a) * sin(b), cos(b), cos(a) * sin(b),
                          sin(a) * cos(b), -sin(b), cos(a) * cos(b)};

@@ -1,4 +1,4 @@
-/* How much the program has on the heap. */
+/* Counts the heap memory of the program. */
 #define _GNU_SOURCE
 #include "heap.h"
 

@@ -1,4 +1,4 @@
-/* The writer: siblings, the background mode, compressions, and what it refuses. */
+/* The writer: sibling files, background mode, compressions, and errors. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <math.h>
@@ -20,8 +20,8 @@ static bool exists(const char *path) {
     return access(path, F_OK) == 0;
 }
 
-/* Whether the folder of `path` holds anything whose name begins with its own. */
-static bool leftovers(const char *path) {
+/* Whether the folder of `path` contains other files whose names begin with its own. */
+static bool has_leftovers(const char *path) {
     char folder[512];
     snprintf(folder, sizeof folder, "%s", path);
     char *slash = strrchr(folder, '/');
@@ -56,7 +56,7 @@ static void every_compression_reads_back(void **state) {
     static const char *const names[] = {"albedo.R", "motion.X", "vertexNormal.Y"};
     static const size_t at[] = {7, 10, 14};
     off_t sizes[GLINT_RLE + 1], plain = 0;
-    /* Noise alone would be stored as it is: half of the picture is flat, so that every method finds something. */
+    /* Noise alone would be stored uncompressed. Half of the image is constant, so that every method compresses it. */
     for (size_t i = 0; i < FIX_W * FIX_H / 2; i++)
         for (size_t c = 4; c < 17; c++) fixture.gbuffer[17 * i + c] = 0.375f;
     for (int c = GLINT_ZIP; c <= GLINT_RLE; c++) {
@@ -72,7 +72,7 @@ static void every_compression_reads_back(void **state) {
         for (size_t i = 0; i < FIX_W * FIX_H; i++)
             for (size_t n = 0; n < 3; n++) {
                 const float in = fixture.gbuffer[17 * i + at[n]];
-                /* PXR24 keeps 15 bits of a float's fraction, rounded. */
+                /* PXR24 keeps 15 bits of a float's mantissa, rounded. */
                 if (c == GLINT_PXR24) assert_true(fabsf(out[3 * i + n] - in) <= fabsf(in) * ldexpf(1, -16));
                 else assert_true(out[3 * i + n] == in);
             }
@@ -109,7 +109,7 @@ static void the_same_input_gives_the_same_bytes(void **state) {
 
 /* ---- background ---- */
 
-/* The worker cannot finish: its temporary file's name is taken by a named pipe that nobody reads yet. */
+/* The worker cannot finish, because the name of its temporary file is taken by a named pipe without a reader. */
 static void finish_returns_before_the_file_exists(void **state) {
     (void)state;
     char path[512], temporary[600];
@@ -121,14 +121,14 @@ static void finish_returns_before_the_file_exists(void **state) {
     assert_int_equal(mkfifo(temporary, 0600), 0);
     assert_true(glint_writer_finish(writer, &err));
     assert_false(exists(path));
-    /* A reader lets the worker's open return; a pipe cannot be written at an offset, so the worker fails, and says so. */
+    /* A reader lets the worker's open return. A pipe is not seekable, so the worker fails with an error. */
     const int pipe = open(temporary, O_RDONLY | O_NONBLOCK);
     assert_true(pipe >= 0);
     assert_false(glint_writer_wait(writer, &err));
     assert_int_equal(err.code, GLINT_ERROR_IO);
     close(pipe);
     glint_writer_destroy(&writer);
-    assert_false(leftovers(path));
+    assert_false(has_leftovers(path));
 }
 
 static void memory_is_the_callers_again_after_add_part(void **state) {
@@ -171,7 +171,7 @@ static void nothing_is_left_without_finish(void **state) {
         for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add_part(writer, (enum fixture_part)p, &err));
         glint_writer_destroy(&writer);
         assert_null(writer);
-        assert_false(leftovers(path));
+        assert_false(has_leftovers(path));
     }
 }
 
@@ -193,7 +193,7 @@ static void a_failed_write_leaves_what_was_there(void **state) {
     assert_int_equal(stat(path, &info), 0);
     assert_int_equal(info.st_size, 3);
     unlink(path);
-    assert_false(leftovers(path));
+    assert_false(has_leftovers(path));
 }
 
 static void a_folder_that_is_not_there_is_an_io_error(void **state) {
@@ -204,13 +204,13 @@ static void a_folder_that_is_not_there_is_an_io_error(void **state) {
     assert_non_null(strstr(err.message, "/nowhere/at/all.exr"));
 }
 
-/* ---- refusals: the writer stays usable ---- */
+/* ---- errors after which the writer stays usable ---- */
 
 struct refusal {
     enum fixture_part base;
     void (*change)(struct glint_part *part, struct fixture_channels *channels);
     enum glint_code code;
-    const char *words[2]; /* that the message holds */
+    const char *words[2]; /* parts of the message */
 };
 
 static void unknown_role(struct glint_part *p, struct fixture_channels *c) {
@@ -310,7 +310,7 @@ static void what_breaks_a_rule_is_refused_and_the_writer_stays_usable(void **sta
     }
     for (int p = 0; p < FIXTURE_PARTS; p++)
         if (!add_part(writer, (enum fixture_part)p, &err)) fail_msg("%s", err.message);
-    assert_false(add_part(writer, FIXTURE_LIT, &err)); /* two of one name */
+    assert_false(add_part(writer, FIXTURE_LIT, &err)); /* a duplicate name */
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     if (!glint_writer_finish(writer, &err)) fail_msg("%s", err.message);
     assert_false(add_part(writer, FIXTURE_LIT, &err)); /* after finish */

@@ -1,4 +1,4 @@
-/* Probed pixels of the street: the recorded values are those that the run computed, and recording changes no image. */
+/* Probed pixels of the street: the recorded values equal those that the run computed, and recording does not change an image. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +29,7 @@ static const char *const ways[][PROBED_WORDS] = {
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-/* ---- What a trace must agree with ---- */
+/* ---- Consistency of a trace with the images ---- */
 
 static void check_depth(const struct glint_probe_record *record, const struct images *images) {
     const uint32_t x = record_number(record, "texel_x"), y = record_number(record, "texel_y");
@@ -48,7 +48,7 @@ static void check_depth(const struct glint_probe_record *record, const struct im
     assert_kept_value(record, "texel_m", image, x, y + faces * image->width, 0);
 }
 
-/* The last step of a tracer, its end, and the images agree. */
+/* The last step of a tracer, its end, and the images must agree. */
 struct last {
     const struct glint_probe_record *step;
     uint32_t steps;
@@ -79,7 +79,7 @@ static void check_end(const struct glint_probe_record *end, const struct last *l
     assert_kept_value(last->step, "travelled_m", far, x, y, 0);
 }
 
-/* Where a ray starts, and what that is along the ray: turned into the world, the same. */
+/* The start of a ray, and its direction: equal after transformation to world space. */
 struct start {
     double from[3], along_m, far_m;
 };
@@ -164,9 +164,9 @@ static void test_stories(void **state) {
     assert_true(rays > 0);
 }
 
-/* ---- What later passes tell adds up to what they made ---- */
+/* ---- Records of later passes sum up to the pass's result ---- */
 
-/* The weighted mean of what was mixed in is the image, where anything was. */
+/* The weighted mean of the records equals the image, if there are any. */
 static size_t check_mixture(const struct glint_probe_trace *trace, const char *slot, const struct kept *image,
                             const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
@@ -186,7 +186,7 @@ static size_t check_mixture(const struct glint_probe_trace *trace, const char *s
     return count;
 }
 
-/* A single colour is what the ray found; where a cube map shows some sky, both are recorded. */
+/* A single colour is the result of the ray. Where a cube map shows some sky, both colours are recorded. */
 static size_t check_color(const struct glint_probe_trace *trace, const struct kept *image, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;

@@ -1,5 +1,5 @@
-/* Probed pixels of the passes that mix: the recorded parts, weighted as recorded, add up to the pass's result; each recorded
-   colour is what its image holds; recording changes no image. */
+/* Probed pixels of passes that average or blend: the weighted records sum up to the pass's result, each recorded colour equals its
+   image, and recording does not change an image. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -48,8 +48,8 @@ static void mean_is(const struct mean *mean, const struct glint_probe_record *re
                         mean->largest * (double)mean->count / mean->total);
 }
 
-/* The colour between texels. Devices may interpolate with weights of eight bits, so that each axis may be off by one in 256 of
-   what the texels are apart. */
+/* The colour between texels. Devices may interpolate with weights of eight bits, so that each axis may be off by 1/256 of the
+   difference of the texels. */
 static void check_between(const struct glint_probe_record *record, const struct images *images, double x, double y) {
     const struct kept *image = image_of(record, images);
     const double corner[2] = {floor(x - 0.5), floor(y - 0.5)}, part[2] = {x - 0.5 - corner[0], y - 0.5 - corner[1]};
@@ -68,7 +68,7 @@ static void check_between(const struct glint_probe_record *record, const struct 
     }
 }
 
-/* What a layer makes of its two colours. */
+/* The blend of a layer's two colours. */
 struct layered {
     double color[3], largest;
 };
@@ -93,7 +93,7 @@ static void same_rgb(const struct glint_probe_record *record, const char *const 
     for (uint32_t c = 0; c < 3; c++) assert_kept_value(record, names[c], image, x, y, c);
 }
 
-/* One pixel's trace and all images of its run. */
+/* The trace of one pixel, and all images of its run. */
 struct recorded_pixel {
     const struct glint_probe_trace *trace;
     const struct images *images;
@@ -104,7 +104,7 @@ static const struct glint_probe_record *next(const struct recorded_pixel *p, con
     return next_record(p->trace, slot, kind, at);
 }
 
-/* ---- Passes: the number of mixtures of several parts that were recorded ---- */
+/* ---- Passes: each check returns the number of recorded mixtures with several parts ---- */
 
 static size_t check_blurred(const struct recorded_pixel *p) {
     struct mean mean = {0};
@@ -141,7 +141,7 @@ static size_t check_kf2(const struct recorded_pixel *p) {
     return check_blurred(p) + check_contribution(p);
 }
 
-/* The chain is looked at between texels and levels, with weights of eight bits again: three axes. */
+/* The chain is sampled between texels and levels, also with weights of eight bits: three axes. */
 static size_t check_mips(const struct recorded_pixel *p) {
     struct mean mean = {0};
     double weights = 0, high = 0;
@@ -158,7 +158,7 @@ static size_t check_mips(const struct recorded_pixel *p) {
     assert_near_sum(weights, 1, (double)mean.count);
     for (uint32_t c = 0; c < 3 && mean.total > 0; c++) {
         const double found = held(find_kept(p->images, "reflection_blurred"), p->texel, c);
-        /* Both sums are off by so much, and the quotient by both. */
+        /* Both sums have this error, and the quotient that of both. */
         const double tolerance = 3.0 / 256 * (high + fabs(found)) / mean.total + fabs(found) * 0x1p-20;
         if (!(fabs(mean.sum[c] / mean.total - found) <= tolerance))
             fail_msg("recorded %.9g, found %.9g", mean.sum[c] / mean.total, found);
@@ -166,8 +166,8 @@ static size_t check_mips(const struct recorded_pixel *p) {
     return mean.count > 4; /* of two levels */
 }
 
-/* Taps that a level's texel is made of, or that a layer lies over another with: images that no later pass overwrites hold what
-   was recorded. */
+/* Taps that a texel of a level is computed from, or of a layer over another one: images that later passes do not overwrite must equal
+   the records. */
 static size_t check_levels(const struct recorded_pixel *p) {
     enum { TAPS = 64 };
     const struct glint_probe_record *taps[TAPS], *layer = NULL;
@@ -216,7 +216,7 @@ static size_t check_planar(const struct recorded_pixel *p) {
                       *mirrored = find_kept(p->images, "planar_reflection");
     while ((record = next(p, "planar", "mirrored_depth", &at))) {
         const double x = recorded(record, "at_x"), y = recorded(record, "at_y");
-        bool found = false; /* by a place that is known to one in 256 of a texel */
+        bool found = false; /* by a position that is accurate to 1/256 of a texel */
         for (int k = 0; k < 4; k++) {
             const double u = fmin(fmax(floor(x + (k & 1 ? 1 : -1) / 256.0), 0), map->width - 1);
             const double v = fmin(fmax(floor(y + (k >> 1 ? 1 : -1) / 256.0), 0), map->height - 1);
@@ -233,7 +233,7 @@ static size_t check_planar(const struct recorded_pixel *p) {
     return 1;
 }
 
-/* The water over the bottom; the planar map over the surroundings; that over this. */
+/* Water over the bottom, the planar map over the surroundings, and both combined. */
 static size_t check_water(const struct recorded_pixel *p) {
     const struct glint_probe_record *record, *layers[3];
     size_t at = 0, count = 0;
@@ -313,7 +313,8 @@ static void mixtures(struct gpu *gpu, const struct way *way) {
     probed_scene(gpu, way->scene);
     arrange_pipeline(gpu, way->words);
     draw_pixels(pixels);
-    for (int floats = 0; floats < 2; floats++) { /* of floats, the last, what is stored is what was computed */
+    for (int floats = 0; floats < 2;
+         floats++) { /* in the second run images are floats, so that stored and computed values are equal */
         free_images(&probed);
         probed_run(gpu, NULL, floats, &plain);
         probed_run(gpu, pixels, floats, &probed);

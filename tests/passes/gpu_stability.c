@@ -1,5 +1,5 @@
-/* Stability on mirror_box: amplification against the derivative of the closed form, in double. The box, the mirror and the
-   camera are computed here and in mirror_box.c from the capture's attributes; nothing of the shaders is used. */
+/* Stability on mirror_box: amplification compared with the derivative of the closed form, in double. The box, the mirror and the camera
+   are computed here and in mirror_box.c from the attributes of the capture, independently of the shaders. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 #include "mirror_box.h"
 
 enum { WIDTH = 120, HEIGHT = 80 };
-#define NEAR_M 0.1 /* the sampler's: B of the projection */
+#define NEAR_M 0.1 /* the sampler's near plane: B of the projection */
 
 /* ---- Captures that declare a coarser format ---- */
 
@@ -48,7 +48,7 @@ static void copy_part(struct glint_writer *writer, struct glint_capture *capture
     while (count) free(planes[--count]);
 }
 
-/* Loads a copy of what is loaded. */
+/* Loads a copy of the current capture with another storage. */
 static void declare_storage(struct gpu *gpu, const char *name, const char *channel, const char *storage) {
     struct glint_error err = {0};
     char path[256];
@@ -66,7 +66,7 @@ static void declare_storage(struct gpu *gpu, const char *name, const char *chann
     gpu_load(gpu, name);
 }
 
-/* Mirror rays through the cube maps alone, whose distances are exact on planes. */
+/* Mirror rays through cube maps only, whose distances are exact on planes. */
 static void load_mirror_rays(struct gpu *gpu, const char *name, struct glint_encodings encodings) {
     gpu_sample(gpu, "mirror_box", name,
                &(struct glint_sample_options){.width = WIDTH,
@@ -98,7 +98,7 @@ static const struct glint_stability_image *find_image(const struct glint_stabili
 
 /* ---- The closed form ---- */
 
-/* Where a ray ends that comes from the eye to `start` and is mirrored about n. */
+/* The distance to the wall of a ray from the eye that is mirrored at `start` about n. */
 static double distance(const double eye[3], const double start[3], const double n[3]) {
     double way[3], length = 0, along = 0, unit[3], size = sqrt(dot3(n, n));
     int axis;
@@ -113,7 +113,7 @@ static void eye_of(const struct gpu *gpu, double eye[3]) {
     for (int k = 0; k < 3; k++) eye[k] = -(m[k] * m[3] + m[4 + k] * m[7] + m[8 + k] * m[11]);
 }
 
-/* Where two walls meet, half a metre around, a texel of the cube map holds both. */
+/* Within half a metre of the edge between two walls, a texel of the cube map may cover both. */
 static bool is_near_an_edge(const struct expected *e) {
     int walls = 0;
     for (int k = 0; k < 3; k++) walls += e->end[k] < 0.5 || e->end[k] > mirror_box[k] - 0.5;
@@ -121,8 +121,8 @@ static bool is_near_an_edge(const struct expected *e) {
 }
 
 struct agreement {
-    size_t count, off;    /* rays away from edges; those that are off by more than 5 % */
-    double worst, square; /* largest part off; sum of squares of found over expected */
+    size_t count, off;    /* rays away from edges; those with an error above 5 % */
+    double worst, square; /* largest relative error; sum of squares of found over expected */
 };
 static void add(struct agreement *a, double found, double expected) {
     const double off = fabs(found / expected - 1);
@@ -134,8 +134,8 @@ static void add(struct agreement *a, double found, double expected) {
 
 /* ---- Depth ---- */
 
-/* Of a depth buffer of 16 bits: half a step h moves the depth z by z²/B · h. A mirrored ray's start moves along the way to the
-   eye, and so does its end's distance, whichever wall it is on: dt/dz · z/t = |start - eye| / t. */
+/* Half a step h of a 16-bit depth buffer moves the depth z by z²/B · h. The start of a mirror ray moves towards the eye, and the
+   distance of its end by as much on any wall: dt/dz · z/t = |start - eye| / t. */
 static double relative_step_of_depth(double z) {
     return z / NEAR_M * 0.5 / 65535;
 }
@@ -167,7 +167,7 @@ static void depth_is_amplified_as_the_closed_form_says(void **state) {
         double way[3];
         for (int k = 0; k < 3; k++) way[k] = e->start[k] - eye[k];
         add(&a, (double)image->amplification[i], sqrt(dot3(way, way)) / e->distance);
-        /* The input moves as the format says. */
+        /* the input moves by half a step of the format */
         const size_t x = 2 * (i % rays.width) + (pick[i] & 1), y = 2 * (i / rays.width) + (pick[i] >> 1);
         const double step = relative_step_of_depth(depth_of(gpu, e->start));
         assert_true(fabs((double)depth->change[y * WIDTH + x] / step - 1) < 0.01);
@@ -182,10 +182,11 @@ static void depth_is_amplified_as_the_closed_form_says(void **state) {
 
 /* ---- Normals ---- */
 
-/* Ten bits, unorm: a component moves by 1/1023. The floor's is 512/1023 for 0, and 1, an end, which stays. */
+/* Ten bits, unorm: a component moves by 1/1023. Those of the floor's normal are 512/1023 for 0, and 1, which does not move beyond the
+   end of the range. */
 static const double code = 1.0 / 1023;
 
-/* Of t and of the normal itself, by central differences over what half a step really moves. */
+/* The derivatives of t and of the normal by central differences over half a step. */
 static double derivative(const double eye[3], const double start[3], int axis, double *moved) {
     double at[2], ends[2][3], square = 0, n[3] = {code, 1, code};
     for (int side = 0; side < 2; side++) {
@@ -218,7 +219,7 @@ static void normals_are_amplified_as_the_closed_form_says(void **state) {
             for (int k = 0; k < 2; k++) by[k] = derivative(eye, e->start, 2 * k, &moved[k]);
             const double t = distance(eye, e->start, (const double[]){code, 1, code});
             const double expected = c < 2 ? fabs(by[c]) / moved[c] : hypot(by[0], by[1]) / hypot(moved[0], moved[1]);
-            /* Where the wall turns with the ray nothing changes to first order. */
+            /* to first order there is no change where the wall rotates with the ray */
             if (expected > 0.02 * t) add(&a, (double)image->amplification[i], expected / t);
         }
         const double mean = sqrt(a.square / (double)a.count);

@@ -68,8 +68,7 @@ static void test_ggx_half_vectors_follow_the_distribution(void **state) {
     }
 }
 
-/* Visible normals from aslant have density D(h) max(0, v·h), but for a constant: the mean of v·h against brute-force
-   integration. */
+/* Visible normals from aslant have density D(h) max(0, v·h), but for a constant: the mean of v·h against brute-force integration. */
 static void test_ggx_aslant(void **state) {
     (void)state;
     vec3 normal = v3(0, 0, 1), to_eye = unit(v3(0.8f, 0, 0.6f));
