@@ -6,8 +6,7 @@
 #include "water.h"
 
 struct dump {
-    const char
-        *settings; /* settings attribute of parts without attributes of their own; NULL: none */
+    const char *settings; /* settings attribute of parts without attributes of their own; NULL: none */
     struct glint_writer *writer;
     struct glint_encodings encodings;
     double pre_exposure; /* for pre-exposed colour */

@@ -1,4 +1,4 @@
-/* Shots on a device under validation: what passes remember, and work that stays between frames. */
+/* Shots on a device with validation: history of passes, and results that are kept between frames. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,8 +46,8 @@ static float depth_now(struct fixture *fixture) {
     return depth;
 }
 
-/* Catches: history taken from this frame or from two frames ago, kept over a cut or a gap, levels that do not come
-   along, and a valid flag that does not follow. */
+/* Catches: history of the current frame or of two frames before, history across a cut or a gap, missing levels, and a valid flag that
+   is wrong. */
 static void a_shot_remembers_and_a_cut_forgets(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     static const struct {
@@ -62,17 +62,17 @@ static void a_shot_remembers_and_a_cut_forgets(void **state) {
     for (size_t i = 0; i < sizeof shot / sizeof shot[0]; i++) {
         struct glint_capture *capture =
             load_frame(fixture, &(struct fixture_options){.number = shot[i].number, .cut = shot[i].cut});
-        for (size_t r = 0; r < made_chain.row_count; r++) /* another chain in each frame */
+        for (size_t r = 0; r < made_chain.row_count; r++) /* a different chain in each frame */
             if (strcmp(made_chain.rows[r].name, "factor") == 0) made.values[0][r] = 1 + (double)i / 4;
         made_run(fixture, &made, NULL);
         const struct remembered at = remembered(fixture);
         const bool valid = shot[i].frames > 1;
         assert_true(at.valid == (valid ? 1.0f : 0.0f));
-        assert_true(at.frames == shot[i].frames + 0.5f); /* 0.5: of nothing */
+        assert_true(at.frames == shot[i].frames + 0.5f); /* 0.5: without history */
         if (valid) {
             assert_true(at.depth == before);
             assert_true(at.level == level);
-        } else assert_true(isinf(at.depth)); /* depth_now's fallback value */
+        } else assert_true(isinf(at.depth)); /* the fallback value of depth_now */
         assert_true(depth_now(fixture) != before);
         before = depth_now(fixture);
         float *chain = made_read(fixture, "chain.level2");
@@ -80,17 +80,17 @@ static void a_shot_remembers_and_a_cut_forgets(void **state) {
         level = chain[y * (W / 4) + x];
         free(chain);
         unload_frame(fixture, capture);
-        if (i == 5) before = 0; /* the same frame comes again */
+        if (i == 5) before = 0; /* the same frame again */
     }
 }
 
-/* Catches: history that moves on when a frame is run again, and keys that leave history out. */
+/* Catches: history that advances when a frame is repeated, and keys that omit history. */
 static void a_frame_run_twice_has_the_same_history(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
     MADE(&made, &made_chain, &made_memory);
     unload_frame(fixture,
-                 load_frame(fixture, &(struct fixture_options){.number = 40})); /* nothing is left of other tests */
+                 load_frame(fixture, &(struct fixture_options){.number = 40})); /* removes history of other tests */
     for (uint32_t number = 41; number < 44; number++) {
         struct glint_capture *capture = load_frame(fixture, &(struct fixture_options){.number = number});
         made_run(fixture, &made, NULL);
@@ -103,7 +103,7 @@ static void a_frame_run_twice_has_the_same_history(void **state) {
     }
 }
 
-/* Catches: history of another pipeline that had its turn on the same replay, or history that its turn pushed out. */
+/* Catches: history of another pipeline on the same replay, or history that another pipeline's run evicts. */
 static void lineages_remember_their_own(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made[2];
@@ -114,7 +114,7 @@ static void lineages_remember_their_own(void **state) {
             if (strcmp(made_chain.rows[r].name, "factor") == 0) made[m].values[0][r] = 1 + m;
     }
     unload_frame(fixture, load_frame(fixture, &(struct fixture_options){.number = 30}));
-    for (int m = 0; m < 3; m++) /* each alone, then both in turns */
+    for (int m = 0; m < 3; m++) /* each alone, then alternating */
         for (uint32_t i = 0; i < 3; i++) {
             struct glint_capture *capture =
                 load_frame(fixture, &(struct fixture_options){.number = 31 + 5 * (uint32_t)m + i});
@@ -133,7 +133,7 @@ static void lineages_remember_their_own(void **state) {
     assert_true(alone[0][2].frames == 3.5f && alone[0][2].level != alone[1][2].level);
 }
 
-/* Catches: outputs that let go of what the next frame needs, or put it into shared memory. */
+/* Catches: requested outputs that release images which the next frame needs, or that alias them. */
 static void what_is_remembered_is_kept_though_nobody_asks_for_it(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     const char *const outputs[] = {"depth_now", NULL}, *const sum[] = {"sum", NULL};
@@ -147,8 +147,8 @@ static void what_is_remembered_is_kept_though_nobody_asks_for_it(void **state) {
     }
 }
 
-/* Catches: a frame replayed alone, or a part of it, that differs from the frame in its shot; history that comes from the
-   device though a folder was named. */
+/* Catches: a frame replayed alone, or part of it, that differs from the frame in its shot; history that is taken from the device
+   although a folder was specified. */
 static void a_frame_alone_has_the_bits_of_its_shot(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -174,7 +174,7 @@ static void a_frame_alone_has_the_bits_of_its_shot(void **state) {
     }
     struct glint_capture *capture = load_frame(fixture, &(struct fixture_options){.number = 63});
     made_run(fixture, &made, NULL);
-    assert_true(remembered(fixture).valid == 0); /* the frame before was 63 too */
+    assert_true(remembered(fixture).valid == 0); /* the previous frame was 63, too */
     made_run(fixture, &made, &(struct glint_replay_options){.history = folders[1]});
     snapshot_take(&alone, fixture->replay);
     assert_true(snapshot_compare(&alone, &whole) == whole.count);
@@ -182,19 +182,20 @@ static void a_frame_alone_has_the_bits_of_its_shot(void **state) {
     unload_frame(fixture, capture);
 }
 
-/* Catches: cube maps worked on again in each frame of a shot, and ones that changed taken for the old. */
+/* Catches: cube maps that are processed again in each frame of a shot, and changed ones that are not. */
 static void cube_maps_in_a_file_of_their_own_are_worked_on_once(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     char path[128];
     struct made made;
     MADE(&made, glint_pass_find("cubemap_active", "nearest"), &made_cubes, &made_chain);
-    struct pipeline_pass swap = made.passes[1]; /* by slot's name */
+    struct pipeline_pass swap = made.passes[1]; /* sorted by slot */
     made.passes[0].shader = NULL;
     made.passes[1] = made.passes[2], made.passes[2] = swap;
     for (int i = 0; i < 4; i++) {
         snprintf(path, sizeof path, "%s/cubes.exr", fixture->folder);
-        if (i % 3 == 0 && !fixture_write_cubemaps(path, i, &err)) fail_msg("%s", err.message); /* others at last */
+        if (i % 3 == 0 && !fixture_write_cubemaps(path, i, &err))
+            fail_msg("%s", err.message); /* the last frame has other cube maps */
         struct glint_capture *capture =
             load_frame(fixture, &(struct fixture_options){.number = 71 + (uint32_t)i, .cubemaps = "cubes.exr"});
         made_run(fixture, &made, NULL);
@@ -205,7 +206,7 @@ static void cube_maps_in_a_file_of_their_own_are_worked_on_once(void **state) {
     }
 }
 
-/* Catches: history that would be there in a shot and not in a folder, which holds no capture's images. */
+/* Catches: history that exists in a shot but not in a run folder, which contains no images of the capture. */
 static void images_of_the_capture_are_not_remembered(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};

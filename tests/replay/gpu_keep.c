@@ -1,4 +1,4 @@
-/* Pipelines that take turns on one replay: each finds its own images again, and what changed alone is run. */
+/* Alternating pipelines on one replay: each finds its own images again, and only what changed runs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 
 enum { PLENTY = 64 << 20 };
 
-/* The fixture's pipeline, changed by assignments: "slot=variant", or "slot.parameter=value". */
+/* The fixture's pipeline with assignments: "slot=variant", or "slot.parameter=value". */
 static struct glint_pipeline *changed_pipeline(const struct fixture *fixture, const char *const *assignments) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = glint_pipeline_copy(fixture->pipeline, &err);
@@ -40,7 +40,7 @@ static void run_pipeline(struct glint_replay *replay, const struct glint_pipelin
     if (!glint_replay_run(replay, pipeline, options, NULL, NULL, &err)) fail_msg("%s", err.message);
 }
 
-/* The slots that executed, in order, each followed by a blank. */
+/* The executed slots in order, each followed by a blank. */
 static const char *executed_slots(struct glint_replay *replay) {
     static char text[512];
     size_t count;
@@ -54,7 +54,7 @@ static const char *executed_slots(struct glint_replay *replay) {
     return text;
 }
 
-/* The bits are those of a replay that has no other pipeline's images; `fresh` runs everything. */
+/* The bits equal those of a replay without images of other pipelines; `fresh` runs everything. */
 static void check_fresh(struct glint_replay *fresh, struct glint_replay *replay,
                         const struct glint_pipeline *pipeline) {
     struct snapshot found, expected;
@@ -75,8 +75,8 @@ static uint64_t spare_bytes(const struct glint_replay *replay) {
 
 static const char late[] = "screen_trace cubemap_select cubemap_trace resolve upscale compose ";
 
-/* Catches: images of another variant taken for one's own, ones that are lost when another pipeline has its turn, captures
-   read again, and passes run again though nothing changed. */
+/* Catches: images of another variant that are reused, images that another pipeline evicts, captures that are read again, and passes
+   that run again although nothing changed. */
 static void pipelines_that_take_turns_find_their_own(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     static const char *const other[] = {"screen_trace=dda", "cubemap_trace=box", "blur=plus", NULL};
@@ -111,7 +111,7 @@ static void pipelines_that_take_turns_find_their_own(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: memory that grows with every pipeline, and old images that are used again with what they held. */
+/* Catches: memory that grows with every pipeline, and images that are reused with stale contents. */
 static void what_is_kept_stays_within_its_limit(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_replay *fresh = loaded(fixture);
@@ -133,7 +133,7 @@ static void what_is_kept_stays_within_its_limit(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: a round that measures what the round before did, or the same work twice; keys that do not tell work apart. */
+/* Catches: a round that times passes of the previous round, or the same pass twice; keys that do not distinguish passes. */
 static void a_round_runs_each_work_once(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     static const char *const other[] = {"upscale=best_match", NULL};
@@ -170,7 +170,7 @@ static void a_round_runs_each_work_once(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: a whole run for diagnostics, though they change no bit of what is there. */
+/* Catches: diagnostics that run the whole pipeline although they change no image that exists. */
 static void diagnostics_run_the_tracers_alone(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_replay *replay = loaded(fixture), *fresh = loaded(fixture);
