@@ -1,4 +1,4 @@
-/* Small captures through a pipeline. */
+/* Replays small captures. */
 #include "harness/picture.h"
 
 #include <math.h>
