@@ -1,5 +1,5 @@
-/* mirror_box against its closed forms: the empty box 0..8 x 0..4 x 0..6 m, floor a mirror, walls that emit
-   (0.55 + 0.35 sin(1.3x + 0.7y), 0.50 + 0.35 sin(1.1y + 0.9z), 0.55 + 0.35 sin(1.2z - 0.8x)). */
+/* mirror_box compared with its closed forms: the empty box 0..8 x 0..4 x 0..6 m with a mirror as floor and walls that emit (0.55 + 0.35
+   sin(1.3x + 0.7y), 0.50 + 0.35 sin(1.1y + 0.9z), 0.55 + 0.35 sin(1.2z - 0.8x)). */
 #include "support.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 static const double box[3] = {8, 4, 6};
 
-/* Where a ray from inside leaves the box: its parameter, and which axis the wall stands on. */
+/* The parameter at which a ray from inside leaves the box, and the axis of the wall. */
 static double leaves(const double from[3], const double direction[3], int *wall) {
     double nearest = INFINITY;
     for (int i = 0; i < 3; i++) {
@@ -71,7 +71,7 @@ static struct glint_capture *box_capture(void **state) {
     return open_capture(path);
 }
 
-/* Positions are floats below 8: half a unit in the last place is 2.4e-7, and a handful of operations follow. */
+/* Positions are floats below 8: half a unit in the last place is 2.4e-7, and a few operations follow. */
 static const double float_m = 5e-6;
 
 static void test_depth_and_normal_of_every_pixel(void **state) {
@@ -122,7 +122,7 @@ static void test_mirror_distance_of_every_pixel(void **state) {
         for (uint32_t x = 0; x < W; x++) {
             struct seen s = trace_pixel(camera, x, y, W, H);
             double length = sqrt(s.ray[0] * s.ray[0] + s.ray[1] * s.ray[1] + s.ray[2] * s.ray[2]), uv[2], eye[3];
-            /* the ray starts up to 0.05 mm off the wall, and meets the next wall at this cosine */
+            /* the ray starts up to 0.05 mm off the wall and hits the next wall with this cosine */
             double bound = 1e-4 / (fabs(s.ray[s.hit_wall]) / length) + float_m;
             assert_true(fabs((double)mirror[2 * (y * W + x)] - s.distance) <= bound);
             camera_project(camera, s.hit, uv);
@@ -151,7 +151,8 @@ static void test_truth_of_the_mirror_is_what_the_hit_emits(void **state) {
                 if (!s.floor) continue;
                 floor_pixels++;
                 pattern(s.hit, color);
-                for (int i = 0; i < 3; i++) /* the pattern's slope is below 0.6 a metre; the hit moves by under 1 mm */
+                for (int i = 0; i < 3;
+                     i++) /* the pattern's slope is below 0.6 per metre; the hit moves by less than 1 mm */
                     assert_true(fabs((double)p[i] - color[i]) <= 6e-4);
                 assert_true(p[3] == 1);
             }

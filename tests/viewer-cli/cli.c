@@ -1,4 +1,4 @@
-/* Runs the built program as a user would. */
+/* Runs the built program like a user. */
 #include "cli.h"
 #include "need.h"
 
@@ -165,7 +165,7 @@ bool file_exists(const char *path) {
     return stat(path, &info) == 0;
 }
 
-/* The values as they are: the simplified interface would convert files that oiiotool marks as linear. */
+/* Without conversion: the simplified interface would convert files that oiiotool marks as linear. */
 struct pixels read_png(const char *path) {
     struct pixels pixels = {0};
     FILE *file = fopen(path, "rb");

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A small pipeline: the linear march, the cube maps, one resolve. Few rays: what is checked holds for any. */
+/* A small pipeline: the linear march, the cube maps, one resolve. The tests hold for any number of rays, so there are few. */
 #define SMALL "-p", GLINT_TEST_PRESET, "--rays=16", "--player-rays=2"
 
 static json_t *load_json(const char *name) {
@@ -27,7 +27,7 @@ static const json_t *errors_of(const json_t *sum, const char *answer, const char
     return json_object_get(json_object_get(json_object_get(sum, "errors"), answer), class);
 }
 
-/* Shares of every answer and class add up to what the preset errs more than its reference. */
+/* The shares of every reference and class sum up to the difference between preset and reference. */
 static void assert_sums(const json_t *sum, size_t answers) {
     const char *answer, *class, *name;
     json_t *classes, *errors, *player;
@@ -48,7 +48,7 @@ static void assert_sums(const json_t *sum, size_t answers) {
     }
 }
 
-/* The errors that pipelines have by `glint sweep`, which knows nothing of players. */
+/* The errors of pipelines by `glint sweep`, which is independent of players. */
 static void sweep_upscale(double errors[2]) {
     free(glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("swept"), "-p", GLINT_TEST_PRESET, "--rays=16",
                   "--repeat=0", "--no-pictures", "--set=resolve.fog=false", "--vary=upscale=best_match,bilinear"));
@@ -62,7 +62,7 @@ static void sweep_upscale(double errors[2]) {
     json_decref(json);
 }
 
-/* Mean of a pipeline's two rounds, which is their median. */
+/* The mean of a pipeline's two rounds, which is their median. */
 static double logged_ms(const char *name, int coalition) {
     FILE *log = fopen(in_folder(name), "rb");
     char line[8192];
@@ -82,7 +82,7 @@ static double logged_ms(const char *name, int coalition) {
     return sum / rounds;
 }
 
-/* Catches: shares that do not add up, errors of other pipelines than said, a missing answer. */
+/* Catches: shares with a wrong sum, errors of wrong pipelines, a missing reference. */
 static void shares_add_up_to_the_error(void **state) {
     (void)state;
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=8", "--truth=1"));
@@ -100,7 +100,7 @@ static void shares_add_up_to_the_error(void **state) {
     assert_sums(capture, 2);
     assert_sums(json_object_get(found, "mean"), 2);
     assert_int_equal(number(capture, "pipelines"), 1 << count);
-    /* a look at each, and two rounds of both ends and of one exchange in either */
+    /* one evaluation of each, and two rounds of both ends and of single replacements of either */
     assert_int_equal(lines_of("blame/log.jsonl"), (1 << count) + 2 * (2 * count + 2));
     double errors[2];
     sweep_upscale(errors);
@@ -120,7 +120,7 @@ static void shares_add_up_to_the_error(void **state) {
     json_decref(found);
 }
 
-/* What was found is found again, whatever is asked of it; killed without warning, the same command goes on. */
+/* Stored results are reused for any options; after a kill, the same command resumes. */
 static void a_killed_blame_goes_on(void **state) {
     (void)state;
     char command[1024];
@@ -133,7 +133,7 @@ static void a_killed_blame_goes_on(void **state) {
     struct outcome killed = run_program("sh", "-c", command, NULL);
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
-    if (file_exists(in_folder("killed/shares.json"))) { /* what was known by then */
+    if (file_exists(in_folder("killed/shares.json"))) { /* the results so far */
         json_t *partial = load_json("killed/shares.json");
         assert_true(json_is_false(json_object_get(partial, "complete")));
         json_decref(partial);
@@ -153,7 +153,7 @@ static void a_killed_blame_goes_on(void **state) {
     json_decref(resumed);
 }
 
-/* Who waits for no times has the answers, on the screen and in the folder, and may have more times later. */
+/* Errors are complete on screen and in the folder without waiting for times, which can be added later. */
 static void answers_come_before_times(void **state) {
     (void)state;
     char command[1024];
@@ -165,7 +165,7 @@ static void answers_come_before_times(void **state) {
              "sleep 0.05; "
              "done; kill -INT $pid; wait $pid",
              in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
-    /* a shell's background job ignores interrupts, which exec'd programs inherit: glint listens all the same */
+    /* a shell's background job ignores interrupts, which its programs inherit; glint handles them nevertheless */
     struct outcome stopped = run_program("sh", "-c", command, NULL);
     assert_int_equal(stopped.status, 130);
     assert_contains(stopped.out, "exact, from all");
@@ -189,7 +189,7 @@ static void answers_come_before_times(void **state) {
     json_decref(whole);
 }
 
-/* Permutations in the same folder: no pipeline is run again, and another error is shared out as well. */
+/* Permutations in the same folder: no pipeline runs again, and another error has shares as well. */
 static void permutations_have_intervals(void **state) {
     (void)state;
     const int lines = lines_of("killed/log.jsonl");
@@ -227,7 +227,7 @@ static void several_captures_have_their_mean(void **state) {
         assert_true(fabs(number(player, "share") - sum / 2) < 1e-12);
     }
     assert_sums(json_array_get(captures, 0), 2);
-    assert_sums(json_array_get(captures, 1), 1); /* it has no truth */
+    assert_sums(json_array_get(captures, 1), 1); /* there is no truth */
     assert_sums(mean, 1);
     json_decref(found);
 }
@@ -242,7 +242,7 @@ static double share_of(const char *folder, const char *name) {
     return share;
 }
 
-/* A pass that remembers frames is worth more in a shot than in a frame of its own. */
+/* A pass with history has a larger share in a shot than in a single frame. */
 static void a_shot_has_a_history(void **state) {
     (void)state;
     static const char *const use = "--use=temporal=rough";
@@ -301,7 +301,7 @@ static void what_is_wrong_is_named(void **state) {
     free(street);
 }
 
-/* The handbook tells what the reference of each slot is. */
+/* The handbook contains the reference of each slot. */
 static void the_handbook_shows_references(void **state) {
     (void)state;
     char *text = glint_ok("passes", "cubemap_trace/exact");

@@ -33,7 +33,7 @@ static const json_t *row_of(const json_t *point, size_t capture) {
     return json_array_get(json_object_get(point, "captures"), capture);
 }
 
-/* Marks of a front against the definition, by the figures of the same file. */
+/* Checks the marks of a front against the definition, with the figures of the same file. */
 static void check_front(const json_t *swept, const char *name, const char *cost, const char *sum) {
     const size_t count = json_array_size(json_object_get(swept, "points"));
     size_t on = 0;
@@ -62,7 +62,7 @@ static void check_front(const json_t *swept, const char *name, const char *cost,
     }
 }
 
-/* Catches: points with other values than they say, errors that are not the image's, passes that run though nothing changed. */
+/* Catches: points with wrong values, errors of another image, and passes that run although nothing changed. */
 static void points_are_the_pipelines_they_name(void **state) {
     (void)state;
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16", "--truth=1"));
@@ -75,7 +75,7 @@ static void points_are_the_pipelines_they_name(void **state) {
     free(text);
     json_t *swept = load_json("grid/points.json");
     assert_int_equal(json_array_size(json_object_get(swept, "points")), 6);
-    for (size_t i = 0; i < 6; i++) { /* what runs late varies fastest */
+    for (size_t i = 0; i < 6; i++) { /* late passes vary fastest */
         const json_t *row = row_of(point(swept, i), 0), *ran = json_object_get(row, "executed");
         static const char *const steps[] = {"4", "8", "16"}, *const weights[] = {"0", "100"};
         assert_string_equal(value(point(swept, i), "screen_trace.steps"), steps[i / 2]);
@@ -118,7 +118,7 @@ static void points_are_the_pipelines_they_name(void **state) {
     json_decref(swept);
 }
 
-/* What a sweep found, but for times. */
+/* Compares the results of two sweeps, except times. */
 static void assert_same_findings(const char *a, const char *b) {
     json_t *one = load_json(a), *other = load_json(b);
     const size_t count = json_array_size(json_object_get(one, "points"));
@@ -144,7 +144,7 @@ static int lines_of(const char *name) {
     return count;
 }
 
-/* Killed without warning, with half a line at the end: the same command goes on and finds what an uninterrupted one does. */
+/* Killed with half a line at the end of the log: the same command resumes and gives the same results as an uninterrupted one. */
 static void a_killed_sweep_goes_on(void **state) {
     (void)state;
     char command[1024];
@@ -201,7 +201,8 @@ static void several_captures_have_a_mean_and_a_worst_case(void **state) {
 
 static void what_is_wrong_is_named(void **state) {
     (void)state;
-    char *room = strdup(in_folder("room.exr")), *out = strdup(in_folder("bad")); /* they outlive the calls between */
+    char *room = strdup(in_folder("room.exr")),
+         *out = strdup(in_folder("bad")); /* copies, because in_folder's results are overwritten */
     glint_fails(2, "no capture given", "sweep", "-o", out, "--vary=screen_trace.cells=8,16");
     glint_fails(2, "no output folder given: -o FOLDER", "sweep", room, "--vary=screen_trace.cells=8,16");
     glint_fails(2, "nothing to vary", "sweep", room, "-o", out);
@@ -223,7 +224,7 @@ static void what_is_wrong_is_named(void **state) {
                 "--reference=truth", "--vary=screen_trace.steps=8,16");
     glint_fails(2, "expected a run of", "sweep", in_folder("street.exr"), "-o", in_folder("bad2"), PLAIN, "--reference",
                 in_folder("reference"), "--vary=screen_trace.steps=8,16");
-    /* a folder that holds another sweep, and one whose log somebody wrote into */
+    /* a folder with another sweep, and one whose log was edited */
     glint_fails(2, "two: contains a sweep with other metrics", "sweep", room, in_folder("street.exr"), "-o",
                 in_folder("two"), PLAIN, "--rays=16", "--repeat=0", "--vary=screen_trace=linear,dda",
                 "--vary=screen_trace.steps=4,64", "--metric=ssim");

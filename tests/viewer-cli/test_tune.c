@@ -32,7 +32,7 @@ static double value_of(const json_t *object, const char *key) {
     return number(json_object_get(object, key), "value");
 }
 
-/* What AXES allow of the start's counts times a factor. */
+/* The start's counts times a factor, as AXES allows. */
 struct counts {
     double screen, cubes;
 };
@@ -40,7 +40,7 @@ static struct counts scaled_counts(double factor) {
     return (struct counts){fmax(2, round(32 * factor)), fmax(4, round(24 * factor))};
 }
 
-/* Of the start with these counts, measured by a search that may not search. */
+/* The cost of the start with these counts, measured by a search without tries. */
 static double fetches_of(struct counts counts) {
     char folder[64], screen[64], cubes[64];
     snprintf(folder, sizeof folder, "%.0f-%.0f", counts.screen, counts.cubes);
@@ -56,7 +56,7 @@ static double fetches_of(struct counts counts) {
     return fetches;
 }
 
-/* Catches: a budget that is broken, a preset that is not what was measured, figures of other pipelines than they say. */
+/* Catches: a budget that is exceeded, a preset that differs from the measured point, and figures of other pipelines. */
 static void the_preset_is_what_was_found(void **state) {
     (void)state;
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("found.json"), PLAIN, "--budget-fetches=60%",
@@ -70,7 +70,8 @@ static void the_preset_is_what_was_found(void **state) {
     assert_true(number(found, "fetches_px") <= budget &&
                 fabs(number(found, "fetches_px") - number(from, "cost")) < 1e-7);
     const json_t *errors = json_object_get(found, "errors");
-    /* the baseline keeps the budget, a larger one would not; what was tuned costs no more and errs no more than one of its cost */
+    /* the baseline meets the budget, and a larger one would not; the tuned preset costs no more and has no larger error than a baseline
+       of its cost */
     const double factor = number(scaled, "factor");
     const struct counts own = scaled_counts(factor);
     struct counts under = own;
@@ -88,7 +89,7 @@ static void the_preset_is_what_was_found(void **state) {
     const json_t *less = json_object_get(json_array_get(json_object_get(tuned, "confirmed"), 0), "tuned_less_scaled");
     assert_true(fabs(value_of(less, "all") - value_of(errors, "all") +
                      value_of(json_object_get(scaled, "errors"), "all")) < 1e-7);
-    /* the file alone replays to the same error, and holds what is said to have moved */
+    /* the preset alone replays with the same error, and contains the reported changes */
     text = glint_ok("replay", in_folder("room.exr"), "-p", in_folder("found.json"), "--against=truth", "--json");
     json_t *replayed = parse_json(text);
     free(text);
@@ -115,7 +116,7 @@ static void the_preset_is_what_was_found(void **state) {
     json_decref(tuned);
 }
 
-/* What a seed and deterministic figures must give again; a second run finds all of it in the folder. */
+/* The deterministic part of the results, which is equal for the same seed; a second run finds all of it in the folder. */
 static void a_seed_gives_the_same_preset_again(void **state) {
     (void)state;
     json_t *sets[3], *moved[3];
@@ -138,7 +139,7 @@ static void a_seed_gives_the_same_preset_again(void **state) {
     for (int i = 0; i < 3; i++) json_decref(sets[i]), json_decref(moved[i]);
 }
 
-/* Interrupted, with half a line at the end: the best so far is there, and the same command ends as an uninterrupted one. */
+/* Interrupted with half a line at the end: the best point so far is stored, and the same command ends like an uninterrupted one. */
 static void an_interrupted_search_goes_on(void **state) {
     (void)state;
     char command[1200];
@@ -173,8 +174,8 @@ static void an_interrupted_search_goes_on(void **state) {
     json_decref(same);
 }
 
-/* Time enough for all: whatever the search's noisy times were, what errs least of all that was tried is taken, and what is left of the time
-   was searched for more. */
+/* With ample time: whatever the noisy times of the search are, the point with the smallest error is chosen, and the search continues
+   with the remaining time. */
 static void time_that_is_left_is_used(void **state) {
     (void)state;
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("e.json"), PLAIN, "--budget-ms=3000%",
@@ -206,7 +207,7 @@ static bool says(const json_t *left, const char *name, const char *why) {
     return false;
 }
 
-/* Everything declared, but what cannot matter; two captures, one held out, in the least time for an error. */
+/* All declared parameters that can matter; two captures, one held out, in the least time for an error. */
 static void what_cannot_matter_is_left_alone(void **state) {
     (void)state;
     char *text = glint_ok("tune", in_folder("room.exr"), "--held-out", in_folder("street.exr"), "-o",
@@ -273,7 +274,7 @@ static void what_is_wrong_is_named(void **state) {
                 "--vary=screen_trace.steps", "--vary=screen_trace.steps=2..64");
     glint_fails(1, "truth.reflection.ggx: missing", "tune", in_folder("street.exr"), "-o", out, PLAIN,
                 "--reference=truth", budget, "--vary=screen_trace.steps");
-    /* a budget that nothing reaches; a folder that holds another search, and one whose log somebody wrote into */
+    /* a budget that no point meets; a folder with another search, and one whose log was edited */
     glint_fails(1, "no point meets a cost limit of 0.001 fetches/px: the best of", "tune", room, "-o", out, PLAIN,
                 "--reference=truth", "--budget-fetches=0.001", "--tries=12", AXES);
     assert_false(file_exists(out));
