@@ -286,6 +286,11 @@ const struct glint_pass_result *fixture_result(const struct fixture *fixture, co
     return NULL;
 }
 
+bool fixture_stop_at_resolve(void *user, const char *what, double done) {
+    (void)user, (void)done;
+    return strcmp(what, "resolve") != 0;
+}
+
 void fixture_says(const struct glint_error *err, const char *part) {
     if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
 }

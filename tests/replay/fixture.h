@@ -47,6 +47,8 @@ struct fixture *fixture_need_device(void **state);
 void fixture_run(struct fixture *fixture, const struct glint_replay_options *options);
 void fixture_write_run(struct fixture *fixture, const char *name, char path[128]);
 const struct glint_pass_result *fixture_result(const struct fixture *fixture, const char *slot);
+/* A progress callback that stops at the pass resolve. */
+bool fixture_stop_at_resolve(void *user, const char *what, double done);
 /* Fails the calling test unless the message contains `part`. */
 void fixture_says(const struct glint_error *err, const char *part);
 

@@ -256,11 +256,6 @@ static void a_frame_without_cube_maps_still_runs(void **state) {
                 "0 cube maps");
 }
 
-static bool stop_late(void *user, const char *what, double done) {
-    (void)user, (void)done;
-    return strcmp(what, "resolve") != 0;
-}
-
 static void an_interrupted_run_can_be_taken_up_again(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -269,7 +264,7 @@ static void an_interrupted_run_can_be_taken_up_again(void **state) {
     fixture_run(fixture, &(struct glint_replay_options){.no_cache = true});
     snapshot_take(&whole, fixture->replay);
     assert_false(glint_replay_run(fixture->replay, fixture->pipeline, &(struct glint_replay_options){.no_cache = true},
-                                  stop_late, NULL, &err));
+                                  fixture_stop_at_resolve, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
     glint_replay_results(fixture->replay, &count);
     assert_int_equal(count, 0);

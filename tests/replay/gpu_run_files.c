@@ -192,11 +192,6 @@ static bool exists(const char *folder, const char *name) {
     return access(path, F_OK) == 0;
 }
 
-static bool stop_late(void *user, const char *what, double done) {
-    (void)user, (void)done;
-    return strcmp(what, "resolve") != 0;
-}
-
 static void a_run_does_not_replace_its_own_inputs(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -242,7 +237,7 @@ static void an_interrupted_write_never_looks_complete(void **state) {
     fixture_write_run(fixture, "interrupted", folder);
     assert_true(exists(folder, "run.json"));
     assert_true(exists(folder, "08-compose.exr"));
-    assert_false(glint_replay_write(fixture->replay, folder, stop_late, NULL, &err));
+    assert_false(glint_replay_write(fixture->replay, folder, fixture_stop_at_resolve, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
     assert_false(exists(folder, "run.json"));
     assert_false(exists(folder, "08-compose.exr")); /* nothing is left of the previous run */

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "glint/metrics.h"
+#include "uniform.h"
 
 static void assert_near(double found, double expected, double tolerance) {
     if (!(fabs(found - expected) <= tolerance)) fail_msg("%.17g is not %.17g ± %g", found, expected, tolerance);
@@ -151,11 +152,6 @@ static void flat_images_have_closed_forms(void **state) {
     table = compared(&small, &small, &o);
     assert_true(isnan(table.rows[0].of[GLINT_METRIC_SSIM].value));
     glint_metric_table_finish(&table);
-}
-
-static double uniform(uint64_t *state) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
 }
 
 /* Errors are equal within patches, as those of wrong reflections are: intervals for independent pixels would be a quarter as wide as

@@ -10,11 +10,7 @@
 #include <cmocka.h>
 
 #include "frame_block.h"
-
-static double uniform(uint64_t *state) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
-}
+#include "uniform.h"
 
 static void transform(const double m[16], const double in[4], double out[4]) {
     for (int r = 0; r < 4; r++)

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "glint/study.h"
+#include "uniform.h"
 
 enum { NONE = GLINT_SURFACE_NONE, MIRROR = GLINT_SURFACE_MIRROR, GLOSSY = GLINT_SURFACE_GLOSSY };
 
@@ -64,12 +65,6 @@ static void images_of_two_sizes_are_refused(void **state) {
     assert_false(glint_study_image(&a, &b, 1, NULL, NULL, &e, &err));
     assert_non_null(strstr(err.message, "2 × 2 and 4 × 1"));
     assert_false(glint_study_image(&a, &a, 2, NULL, NULL, &e, &err));
-}
-
-/* An independent uniform random number in [0, 1). */
-static double uniform(uint64_t *state) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
 }
 
 /* The image has a constant error and the truth has known noise: after subtracting the noise, the constant remains. */

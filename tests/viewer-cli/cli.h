@@ -33,6 +33,9 @@ void refused(struct outcome outcome, int status, const char *text, const char *f
 void assert_contains(const char *text, const char *needle);
 /* Parses, or fails the test. Released by json_decref. */
 struct json_t *parse_json(const char *text);
+/* The same for a file of the folder; the number of its lines. */
+struct json_t *load_json(const char *name);
+int count_lines(const char *name);
 /* The object in a list whose member `key` is `name`, and the number of a member; fails the test if there is none. */
 const struct json_t *named(const struct json_t *list, const char *key, const char *name);
 double number(const struct json_t *object, const char *key);

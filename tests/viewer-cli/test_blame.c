@@ -10,19 +10,6 @@
 /* A small pipeline: the linear march, the cube maps, one resolve. The tests hold for any number of rays, so there are few. */
 #define SMALL "-p", GLINT_TEST_PRESET, "--rays=16", "--player-rays=2"
 
-static json_t *load_json(const char *name) {
-    json_t *json = json_load_file(in_folder(name), 0, NULL);
-    if (!json) fail_msg("%s is no JSON", name);
-    return json;
-}
-
-static int lines_of(const char *name) {
-    struct outcome lines = run_program("wc", "-l", in_folder(name), NULL);
-    const int count = atoi(lines.out);
-    outcome_free(&lines);
-    return count;
-}
-
 static const json_t *errors_of(const json_t *sum, const char *answer, const char *class) {
     return json_object_get(json_object_get(json_object_get(sum, "errors"), answer), class);
 }
@@ -101,7 +88,7 @@ static void shares_add_up_to_the_error(void **state) {
     assert_sums(json_object_get(found, "mean"), 2);
     assert_int_equal(number(capture, "pipelines"), 1 << count);
     /* one evaluation of each, and two rounds of both ends and of single replacements of either */
-    assert_int_equal(lines_of("blame/log.jsonl"), (1 << count) + 2 * (2 * count + 2));
+    assert_int_equal(count_lines("blame/log.jsonl"), (1 << count) + 2 * (2 * count + 2));
     double errors[2];
     sweep_upscale(errors);
     assert_true(fabs(number(all, "preset") - errors[0]) < 1e-9);
@@ -148,7 +135,7 @@ static void a_killed_blame_goes_on(void **state) {
     json_t *whole = load_json("blame/shares.json"), *resumed = load_json("killed/shares.json");
     assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
                            json_object_get(json_object_get(resumed, "mean"), "errors")));
-    assert_int_equal(lines_of("killed/log.jsonl"), 1 << json_array_size(json_object_get(whole, "players")));
+    assert_int_equal(count_lines("killed/log.jsonl"), 1 << json_array_size(json_object_get(whole, "players")));
     json_decref(whole);
     json_decref(resumed);
 }
@@ -177,12 +164,12 @@ static void answers_come_before_times(void **state) {
     assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
                            json_object_get(json_object_get(found, "mean"), "errors")));
     assert_true(file_exists(in_folder("asked/index.html")));
-    const int lines = lines_of("asked/log.jsonl");
+    const int lines = count_lines("asked/log.jsonl");
     json_decref(found);
     free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("asked"), SMALL, "--use=upscale=best_match",
                   "--repeat=1"));
     found = load_json("asked/shares.json");
-    assert_true(json_is_true(json_object_get(found, "complete")) && lines_of("asked/log.jsonl") >= lines);
+    assert_true(json_is_true(json_object_get(found, "complete")) && count_lines("asked/log.jsonl") >= lines);
     const json_t *ms = json_object_get(json_object_get(found, "mean"), "frame_ms");
     assert_true(number(ms, "preset") > 0 && number(ms, "reference") > 0);
     json_decref(found);
@@ -192,11 +179,11 @@ static void answers_come_before_times(void **state) {
 /* Permutations in the same folder: no pipeline runs again, and another error has shares as well. */
 static void permutations_have_intervals(void **state) {
     (void)state;
-    const int lines = lines_of("killed/log.jsonl");
+    const int lines = count_lines("killed/log.jsonl");
     free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("killed"), SMALL, "--use=upscale=best_match",
                   "--repeat=0", "--exact=0", "--permutations=20", "--interval=50", "--metric=relative_mse"));
     json_t *found = load_json("killed/shares.json");
-    assert_int_equal(lines_of("killed/log.jsonl"), lines);
+    assert_int_equal(count_lines("killed/log.jsonl"), lines);
     const json_t *mean = json_object_get(found, "mean");
     assert_string_equal(json_string_value(json_object_get(found, "metric")), "relative_mse");
     assert_true(json_is_false(json_object_get(mean, "exact")));

@@ -10,12 +10,6 @@
 /* A small pipeline: the linear march, the cube maps, one resolve. */
 #define PLAIN "-p", GLINT_TEST_PRESET
 
-static json_t *load_json(const char *name) {
-    json_t *json = json_load_file(in_folder(name), 0, NULL);
-    if (!json) fail_msg("%s is no JSON", name);
-    return json;
-}
-
 static const json_t *point(const json_t *swept, size_t i) {
     return json_array_get(json_object_get(swept, "points"), i);
 }
@@ -137,13 +131,6 @@ static void assert_same_findings(const char *a, const char *b) {
     json_decref(other);
 }
 
-static int lines_of(const char *name) {
-    struct outcome lines = run_program("wc", "-l", in_folder(name), NULL);
-    const int count = atoi(lines.out);
-    outcome_free(&lines);
-    return count;
-}
-
 /* Killed with half a line at the end of the log: the same command resumes and gives the same results as an uninterrupted one. */
 static void a_killed_sweep_goes_on(void **state) {
     (void)state;
@@ -159,7 +146,7 @@ static void a_killed_sweep_goes_on(void **state) {
     struct outcome killed = run_program("sh", "-c", command, NULL);
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
-    assert_true(lines_of("killed/log.jsonl") >= 15);
+    assert_true(count_lines("killed/log.jsonl") >= 15);
     assert_false(file_exists(in_folder("killed/points.json")));
     FILE *log = fopen(in_folder("killed/log.jsonl"), "ab");
     assert_non_null(log);
@@ -170,8 +157,8 @@ static void a_killed_sweep_goes_on(void **state) {
                  i ? "whole" : "killed", GLINT_TEST_PRESET, arguments);
         free(checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__));
     }
-    assert_int_equal(lines_of("killed/log.jsonl"), 12 * (1 + 2));
-    assert_int_equal(lines_of("whole/log.jsonl"), 12 * (1 + 2));
+    assert_int_equal(count_lines("killed/log.jsonl"), 12 * (1 + 2));
+    assert_int_equal(count_lines("whole/log.jsonl"), 12 * (1 + 2));
     assert_same_findings("killed/points.json", "whole/points.json");
 }
 

@@ -17,12 +17,6 @@ static int make_captures(void **state) {
     return 0;
 }
 
-static json_t *load_json(const char *name) {
-    json_t *json = json_load_file(in_folder(name), 0, NULL);
-    if (!json) fail_msg("%s is no JSON", name);
-    return json;
-}
-
 static const json_t *contender(const json_t *tuned, size_t capture, const char *name) {
     const json_t *confirmed = json_array_get(json_object_get(tuned, "confirmed"), capture);
     return json_object_get(json_object_get(confirmed, "contenders"), name);
