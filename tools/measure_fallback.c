@@ -1,8 +1,7 @@
-/* Mirror rays of a shot that no cube map could follow: their error against the truth, and how much those that fell back
-   in either of two frames change from the one to the next, where the best cube map changes and where it stays, with the
-   truth's own change beside it.
-   measure_fallback PRESET [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… , CAPTURE… prints one JSON object. A texel shows the same
-   pixel in each frame (set downsample.alternate=false), and a mirror ray (downsample.jitter=false). */
+/* Mirror rays of a shot that no cube map could follow: their error against the truth, and how much those that fell back in either of two
+   frames change from the one to the next, where the best cube map changes and where it stays, with the truth's own change beside it.
+   measure_fallback PRESET [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… , CAPTURE… prints one JSON object. A texel shows the same pixel in each
+   frame (set downsample.alternate=false), and a mirror ray (downsample.jitter=false). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
-/* Screen traces against the truth that a capture carries: what share of the mirror rays whose true hit the depth buffer
-   shows they find (recall), what share of the hits they report is right (precision), and what an oracle finds in the
-   same depth buffer. measure_traces CAPTURE REPEAT PRESET [VARIANT [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… ,]…
-   prints one JSON object a line, the first for the oracle. */
+/* Screen traces against the truth that a capture carries: what share of the mirror rays whose true hit the depth buffer shows they find
+   (recall), what share of the hits they report is right (precision), and what an oracle finds in the same depth buffer. measure_traces
+   CAPTURE REPEAT PRESET [VARIANT [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… ,]… prints one JSON object a line, the first for the oracle. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

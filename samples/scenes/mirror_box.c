@@ -1,6 +1,5 @@
 /* mirror_box: the closed box 0 ≤ x ≤ 8, 0 ≤ y ≤ 4, 0 ≤ z ≤ 6 m. The floor y = 0 is a perfect mirror without diffuse light. Walls and
-   ceiling emit a smooth function of the position, so that hit points and reflected radiance have closed forms. There is no other light.
-   */
+   ceiling emit a smooth function of the position, so that hit points and reflected radiance have closed forms. There is no other light. */
 #include "../scenes.h"
 
 static void paint_wall(struct surface *s) {

@@ -12,8 +12,7 @@
 
 static struct fixture fixture;
 
-/* A capture whose depth is declared like this. The fixture's projection has near at 0.1 and far at 500 units; here a unit is a metre.
-   */
+/* A capture whose depth is declared like this. The fixture's projection has near at 0.1 and far at 500 units; here a unit is a metre. */
 static struct glint_capture *capture_of(enum glint_depth_encoding encoding, const char *storage, char path[512]) {
     struct glint_error err = {0};
     struct glint_frame frame = fixture_frame();

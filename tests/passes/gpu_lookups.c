@@ -19,8 +19,7 @@ static double out_of_box(const struct glint_cubemap *map, const double start[3],
     return leave_box(start, direction, &axis);
 }
 
-/* A sphere around the centre whose radius is the mean distance of the six walls: a sixth of the sum of the box's edges for any centre.
-   */
+/* A sphere around the centre whose radius is the mean distance of the six walls: a sixth of the sum of the box's edges for any centre. */
 static double out_of_sphere(const struct glint_cubemap *map, const double start[3], const double direction[3]) {
     double from[3], radius = (mirror_box[0] + mirror_box[1] + mirror_box[2]) / 6;
     for (int k = 0; k < 3; ++k) from[k] = start[k] - map->center[k];

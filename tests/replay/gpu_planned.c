@@ -237,8 +237,7 @@ static void the_device_counts_as_the_host_does(void **state) {
 
 /* ---- A shot whose materials change from frame to frame ---- */
 
-/* Catches: history that a frame without some class of surfaces would have passed to one with them. Every look follows every other one.
-   */
+/* Catches: history that a frame without some class of surfaces would have passed to one with them. Every look follows every other one. */
 static void a_plan_may_change_from_frame_to_frame(void **state) {
     struct pair *pair = pair_of(state);
     static const enum look shot[] = {MATTE, MIRROR, MATTE, GLOSSY, MATTE, ROUGH,  MATTE, MIXED, MIRROR, GLOSSY, MIRROR,

@@ -21,8 +21,7 @@ struct counts {
 };
 
 /* Compares a G-buffer point with a cube map. The texel's centre may be off the point by up to half a texel, so its distance is compared
-   with the intersection of its direction and the point's tangent plane. A point counts if a ray from the cube map's centre reaches
-   both. */
+   with the intersection of its direction and the point's tangent plane. A point counts if a ray from the cube map's centre reaches both. */
 static void compare_point(const struct world *world, const double center[3], const double point[3],
                           const double normal[3], const float *distances, uint32_t size, struct counts *counts) {
     double to[3], d[3], facing = 0, above = 0, place[3], way[3];

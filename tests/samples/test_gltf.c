@@ -59,8 +59,7 @@ static void test_square_arrives(void **state) {
     camera_eye(camera, eye);
     assert_true(fabs(eye[0] - 0.5) < 1e-6 && fabs(eye[1] - 1) < 1e-6 && fabs(eye[2] - 6) < 1e-6);
     assert_true(fabs(1 / camera->view_to_clip[5] - tan(0.4)) < 1e-5); /* yfov */
-    /* The matrix scales x by 2, y by 1 and z by 3, then rotates about x by the angle of (0.8, 0.6): the plane's normal is (0, 0.8,
-       0.6). */
+    /* The matrix scales x by 2, y by 1 and z by 3, then rotates about x by the angle of (0.8, 0.6): the plane's normal is (0, 0.8, 0.6). */
     const double normal[3] = {0, 0.8, 0.6};
     float *g =
         read_part(capture, "gbuffer",

@@ -22,8 +22,7 @@ enum kind render_kind(const struct source *source, const struct render_options *
 /* Renders without zoom and legend. *invalid receives the number of pixels of a colour image that are NaN or infinite. */
 bool render_plain(struct picture *picture, struct legend *legend, const struct source *source,
                   const struct render_options *options, size_t *invalid, struct glint_error *err);
-/* Extends `range` by the range in which this source alone would be drawn; start with +inf, -inf. Kinds without a range
-   do not change it. */
+/* Extends `range` by the range in which this source alone would be drawn; start with +inf, -inf. Kinds without a range do not change it. */
 bool render_range(const struct source *source, const struct render_options *options, double range[2],
                   struct glint_error *err);
 /* Renders with zoom and legend; colour images have no legend. */
